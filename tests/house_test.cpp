@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -114,10 +115,10 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-// The table of rooms in ARCHITECTURE.md, in its order.
+// The table of tests/rooms.md, in its order.
 std::vector<Room> read_rooms() {
   std::vector<Room> rooms;
-  for (const std::string& line : read_lines(fs::path(ODS_SOURCE_DIR) / "ARCHITECTURE.md")) {
+  for (const std::string& line : read_lines(fs::path(ODS_SOURCE_DIR) / "tests/rooms.md")) {
     if (!line.starts_with("| ods/") && !line.starts_with("| cli/")) continue;
     const std::vector<std::string> cells = cells_of(line);
     Room& room = rooms.emplace_back(Room{cells.at(0), {}});
@@ -126,6 +127,27 @@ std::vector<Room> read_rooms() {
   }
   EXPECT_GT(rooms.size(), 10u);
   return rooms;
+}
+
+// Which storey of ARCHITECTURE.md a folder is in.
+std::map<std::string, int> read_storeys() {
+  std::map<std::string, int> storeys;
+  for (const std::string& line : read_lines(fs::path(ODS_SOURCE_DIR) / "ARCHITECTURE.md")) {
+    if (line.size() < 4 || !line.starts_with("| ") || !std::isdigit(static_cast<unsigned char>(line[2]))) continue;
+    const std::vector<std::string> cells = cells_of(line);
+    std::istringstream names(std::regex_replace(cells.at(2), std::regex("`"), " "));
+    for (std::string name; names >> name;) storeys[name] = std::stoi(cells.at(0));
+  }
+  EXPECT_GT(storeys.size(), 10u);
+  return storeys;
+}
+
+// 0: it is in none.
+int storey_of(const std::map<std::string, int>& storeys, std::string room) {
+  for (; !storeys.contains(room); room.resize(room.rfind('/'))) {
+    if (room.find('/') == std::string::npos) return 0;
+  }
+  return storeys.at(room);
 }
 
 // The room of a file: the longest path of one that it lies in.
@@ -137,13 +159,25 @@ std::string room_of(const std::vector<Room>& rooms, const std::string& file) {
   return found;
 }
 
+TEST(House, EveryRoomIncludesOnlyStoreysBelow) {
+  const std::map<std::string, int> storeys = read_storeys();
+  const std::vector<Room> rooms = read_rooms();
+  for (const Room& room : rooms) {
+    const int own = storey_of(storeys, room.path);
+    EXPECT_GT(own, 0) << room.path << " is in no storey of ARCHITECTURE.md";
+    for (const std::string& other : room.includes)
+      EXPECT_LE(storey_of(storeys, other), own) << room.path << ", " << other;
+  }
+  for (const auto& [folder, storey] : storeys) EXPECT_TRUE(fs::exists(fs::path(ODS_SOURCE_DIR) / folder)) << folder;
+}
+
 TEST(House, EveryRoomIncludesWhatTheTableSays) {
   const std::vector<Room> rooms = read_rooms();
   std::map<std::string, std::set<std::string>> included_rooms;
   for (const Source& source : read_sources({"ods", "cli"})) {
     const std::string own = room_of(rooms, source.path);
     if (source.path == "cli/main.cpp") continue;  // the door of all rooms
-    ASSERT_FALSE(own.empty()) << source.path << " is in no room of ARCHITECTURE.md";
+    ASSERT_FALSE(own.empty()) << source.path << " is in no room of tests/rooms.md";
     for (const std::string& line : source.lines) {
       const std::string header = included(line, '"', '"');
       if (!header.empty() && room_of(rooms, header) != own) included_rooms[own].insert(room_of(rooms, header));

@@ -9,6 +9,13 @@
 //
 // Limits: a request's head has 5 seconds and 16 KB, an address 32 connections, all addresses 256. Where there are too
 // many, the one that has waited longest for a request is closed. Whoever is refused is not read any further.
+//
+// Why it is our own: a library would have to keep these limits. libmicrohttpd 0.9.75 (tried; 1.0 has the same options)
+// knows a timeout of inactivity, which a header line a second renews for ever, and refuses what an address has beyond
+// its 32 connections: 32 of them that send a byte now and then kept the page of the same machine out for as long as
+// they liked. Both need a table of connections and a deadline for each, which end sockets that the library owns.
+// Ranges, the secret, hosts, origins and uploads to disk would be ours as well. cpp-httplib has no limit per address,
+// none for the size of a head, and reads refused bodies.
 #pragma once
 #include <cstddef>
 #include <functional>

@@ -126,6 +126,10 @@ void add_light_options(Options& options, LightOptions& light) {
                "light gets suitable light");
   options.text("--lamp", "auto|none|X,Y,Z", light.lamp,
                "a soft lamp that shines down from there; by default (auto) only closed rooms without light get one");
+  options.choice(
+      "--light-unit", light.lamp_unit, ods::kLampUnitTable,
+      "the unit of the file's lamps. watt: they are divided by 683 lumens, which Blender multiplies lamps with, "
+      "and emission not. auto: candela, as glTF has it, unless Blender wrote lamps beside emission");
   options.flag("--unlit", light.unlit, "show all colours as they are painted, without light and shadow");
   options.text(
       "--background", kind("--background", "env|PICTURE"), light.background,
@@ -165,6 +169,7 @@ void light_scene(ods::Scene& scene, const LightOptions& light, ods::LightWishes 
     if (wishes.surround != Surround::kAuto) plan.surround = wishes.surround;
   }
   if (!plan.note.empty()) note(plan.note);
+  if (!plan.advice.empty()) note(plan.advice);
   ods::apply_light(scene, survey, plan, wishes);
   if (!light.background.empty()) scene.background = background;
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cli/console/options.h"
+#include "ods/stage/light/lamp_unit.h"
 #include "ods/stage/light/supply.h"
 
 // As the user wrote them; empty: by default.
@@ -15,6 +16,7 @@ struct LightOptions {
   std::string lamp;         // --lamp
   std::string background;   // --background
   bool unlit = false;       // --unlit
+  ods::LampUnit lamp_unit = ods::LampUnit::kAuto;
 };
 
 void add_light_options(Options& options, LightOptions& light);

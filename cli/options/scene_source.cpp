@@ -132,6 +132,18 @@ static std::string unit_word(float metres) {
   return row ? std::string(row->name) : fmt::format("{:g}", metres);
 }
 
+static void set_lamp_unit(Scene& scene, const SceneSource& source) {
+  const bool guessed = source.light.lamp_unit == ods::LampUnit::kAuto && ods::lamps_are_in_watts(scene);
+  if (!guessed && source.light.lamp_unit != ods::LampUnit::kWatt) return;
+  ods::scale_lamps(scene, 1.0 / ods::kLumensPerWatt);
+  if (guessed) {
+    note(
+        "Blender writes lamps 683 times as bright as emission: they are divided by that (--light-unit watt; "
+        "--light-unit "
+        "candela keeps them)");
+  }
+}
+
 // Built-in scenes are in metres and have a view point.
 static void settle_scene(Scene& scene, const SceneSource& source, ods::Settled* result, const ods::LookAround& look) {
   std::optional<float> unit = parse_unit(source.unit);
@@ -193,7 +205,9 @@ Scene open_scene(const SceneSource& given, ods::Settled* settled, const ods::Loo
   if (source.solid_glass && !is_solid && make_glass_solid(scene) == 0) {
     note("--solid-glass changes nothing: no closed mesh has glass without a volume");
   }
+  set_lamp_unit(scene, source);
   settle_scene(scene, source, settled, look);
+  for (const std::string& loss : scene.losses) note(loss);
   for (const std::string& warning : scene.warnings) warn(warning);
   return scene;
 }

@@ -96,7 +96,7 @@ bool is_looked_at(const RenderJob& job) {
 }
 
 bool is_made_for_it(const RenderJob& job) {
-  const auto& [environment, lamp, background, unlit] = job.scene.light;
+  const auto& [environment, lamp, background, unlit, lamp_unit] = job.scene.light;
   return ods::find_builtin(job.scene.name) && environment.empty() && lamp.empty() && background.empty() && !unlit;
 }
 
@@ -167,6 +167,10 @@ ods::Picture FrameRenderer::first_look(const Frame& frame) {
 float FrameRenderer::find_exposure(const std::vector<Frame>& frames) {
   if (job_.exposure || !is_looked_at(job_) || is_made_for_it(job_) || frames.empty()) {
     return exposure_ = job_.exposure.value_or(job_.brighter);
+  }
+  if (scene_.as_painted) {
+    note("exposure 0 and no tone curve, since the colours are shown as they are painted (--exposure, --tone)");
+    return exposure_ = 0.0f;
   }
   std::set<size_t> chosen;
   for (size_t i = 0; i < kLooks; i++) chosen.insert((2 * i + 1) * frames.size() / (2 * kLooks));

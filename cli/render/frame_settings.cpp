@@ -59,11 +59,12 @@ void add_environment(Settings& settings, const std::string& option, const std::s
 }
 
 void add_light(Settings& settings, const LightOptions& light, const std::string& confined_to) {
-  const auto& [environment, lamp, background, unlit] = light;
+  const auto& [environment, lamp, background, unlit, lamp_unit] = light;
   add_environment(settings, "--env", environment, "of the scene", confined_to);
   add(settings, "--lamp", lamp.empty() ? "auto" : lamp);
   add_environment(settings, "--background", background, "env", confined_to);
   add_flag(settings, "--unlit", unlit);
+  add(settings, "--light-unit", std::string(name_in(ods::kLampUnitTable, lamp_unit)));
 }
 
 void add_scene(Settings& settings, const SceneSource& source) {

@@ -6,7 +6,7 @@
 #include "cli/console/long_job.h"
 #include "cli/render/render_frames.h"
 #include "cli/render/render_job.h"
-#include "cli/render/render_views.h"
+#include "cli/render/render_still.h"
 
 namespace {
 

@@ -152,6 +152,7 @@ void render_job(const RenderJob& wanted, ProgressLines& lines) {
   say_room(job, frames);
   FrameRenderer renderer(job, time, scene, all.front());
   job.save.exposure = renderer.find_exposure(all);
+  if (scene.as_painted && !gives(job, "--tone")) job.save.tone = ods::ToneCurve::kLinear;
   const auto start = std::chrono::steady_clock::now();
   std::string first;
   double samples = 0.0;
@@ -213,5 +214,5 @@ RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
       render_all(renderer, time, frames, shared, report, saved);
     }
   }
-  return {numbers, exposure};
+  return {numbers, exposure, scene.as_painted};
 }

@@ -21,6 +21,7 @@ std::vector<int> frames_of(const RenderJob& job);
 struct RenderedFrames {
   std::vector<int> numbers;  // of all frames, including those that existed
   float exposure = 0.0f;     // stops, to show them with
+  bool as_painted = false;   // Scene::as_painted
 };
 
 // Renders a video's frames for a caller that processes them further; prints their names only with --only, when they are

@@ -110,6 +110,10 @@ void take_foreign(RenderJob& job, const ForeignScene& scene) {
   if (scene.fps) job.time.fps = *scene.fps;
 }
 
+bool gives(const RenderJob& job, std::string_view option) {
+  return std::ranges::any_of(job.given, [&](const GivenWord& word) { return word.name == option; });
+}
+
 void add_exposure_option(Options& options, RenderJob& job) {
   options.custom(
       "--exposure", "auto|STOPS", "auto", [&](const std::string& word) { job.exposure = parse_exposure(word); },

@@ -39,6 +39,9 @@ struct RenderJob {
   ProgressMode progress = ProgressMode::kAuto;
 };
 
+// Whether the command line gave an option.
+bool gives(const RenderJob& job, std::string_view option);
+
 // Adds --exposure auto|STOPS and --brighter STOPS.
 void add_exposure_option(Options& options, RenderJob& job);
 

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/render/render_views.h"
-
 #include <fmt/format.h>
 
 #include <numeric>
@@ -9,6 +7,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/frames/shared_frames.h"
+#include "cli/render/render_still.h"
 #include "cli/slits/stitch_frames.h"
 #include "ods/kernel/random.h"
 #include "ods/render/cpu/render.h"

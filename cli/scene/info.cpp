@@ -8,6 +8,7 @@
 #include "cli/options/camera_options.h"
 #include "cli/options/scene_source.h"
 #include "cli/scene/info_report.h"
+#include "ods/stage/light/supply.h"
 
 using ods::SceneInfo, ods::vec3;
 
@@ -33,7 +34,10 @@ void info(int argc, char** argv) {
   source.has_places = camera.position.has_value();
   source.camera = camera.view_point;
   SceneFindings found;
-  const ods::Scene scene = open_scene(source, &found.settled);
+  const ods::Scene scene =
+      open_scene(source, &found.settled, [&](const ods::SceneRays& rays, const ods::Survey& survey) {
+        if (survey.kind == ods::SceneKind::kClosedRoom) found.advice = plan_light(rays, survey).advice;
+      });
   found.viewing = scene.viewing;
   const vec3 position = place_camera(camera, scene).position;
   const SceneInfo info = describe(scene, position);

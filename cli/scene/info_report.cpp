@@ -62,6 +62,8 @@ void print_text(const SceneInfo& info, const SceneFindings& found, vec3 position
   for (const ods::UsedExtension& extension : info.extensions) {
     row("extension", fmt::format("{}: {} ({})", extension.name, extension.state, extension.how));
   }
+  if (!found.advice.empty()) row("light", found.advice);
+  for (const std::string& loss : info.losses) row("lost", loss);
   for (const std::string& warning : info.warnings) row("warning", warning);
 }
 
@@ -94,6 +96,8 @@ void print_json(const SceneInfo& info, const SceneFindings& found, vec3 position
       {"variants", info.variants},
       {"sheet_glass", nlohmann::ordered_json::array()},
       {"extensions", nlohmann::ordered_json::array()},
+      {"light_advice", found.advice},
+      {"losses", info.losses},
       {"warnings", info.warnings},
   };
   if (info.nearest_surface >= 0.0f) json["nearest_surface"] = info.nearest_surface;

@@ -12,6 +12,7 @@
 struct SceneFindings {
   ods::Settled settled;
   std::optional<ods::Viewing> viewing;
+  std::string advice;  // on its light
 };
 
 void print_text(const ods::SceneInfo& info, const SceneFindings& found, ods::vec3 position);

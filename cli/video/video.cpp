@@ -66,6 +66,7 @@ void make_video(VideoJob job, ProgressLines& lines) {
   if (!render.time.only.empty()) return lines.clear();
   const std::vector<int>& frames = made.numbers;
   job.display.exposure = made.exposure;
+  if (made.as_painted && !gives(render, "--tone")) job.display.tone = ods::ToneCurve::kLinear;
 
   const ods::FrameFiles files = ods::find_frames(journal.pattern(), frames);
   const ods::VideoPlan plan = ods::plan_video(files, {}, {});

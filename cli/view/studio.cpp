@@ -36,8 +36,7 @@ constexpr const char* kEnvironments[] = {"auto", "studio", "sky", "white", "0"};
 constexpr const char* kQualities[] = {"draft", "preview", "final"};
 
 // What suits the light, as ods render chooses it.
-float usual_exposure(const ods::Scene& scene, const ods::StereoCamera& camera, bool is_ours) {
-  if (is_ours) return 0.0f;
+float usual_exposure(const ods::Scene& scene, const ods::StereoCamera& camera) {
   const ods::Picture look = render_cpu(scene, ods::first_look_camera(camera), ods::first_look({}));
   return ods::suitable_exposure({&look, 1}).value_or(0.0f);
 }
@@ -113,7 +112,9 @@ Studio::Settings Studio::suiting(const SceneSource& source, const ods::Scene& sc
   if (source.foreign) take_camera(camera, *source.foreign);
   settings.sidecar.camera = place_camera(camera, scene);
   settings.live.camera = settings.sidecar.camera;
-  settings.live.exposure = usual_exposure(scene, settings.live.camera, ods::find_builtin(source.name) != nullptr);
+  const bool needs_none = ods::find_builtin(source.name) || scene.as_painted;
+  settings.live.exposure = needs_none ? 0.0f : usual_exposure(scene, settings.live.camera);
+  if (scene.as_painted) settings.live.tone = ods::ToneCurve::kLinear;
   settings.environment = source.light.environment.empty() ? "auto" : source.light.environment;
   settings.variant = source.variant;
   return settings;
@@ -262,6 +263,12 @@ std::vector<std::string> Studio::words(const std::string& maps, bool is_shown) c
   if (source_.solid_glass) words.emplace_back("--solid-glass");
   if (source_.portable) words.emplace_back("--portable");
   if (source_.unit != "auto") add("--unit", source_.unit);
+  const auto add_member = [&](const char* option, const auto& table, auto member) {
+    if (static_cast<int>(member) != 0) add(option, std::string(name_in(table, member)));
+  };
+  add_member("--as", ods::kTakenForTable, source_.taken_for);
+  add_member("--up", ods::kUpAxisTable, source_.up);
+  add_member("--light-unit", ods::kLampUnitTable, source_.light.lamp_unit);
   if (!source_.confine.empty() && !is_shown) add("--confine", source_.confine);
   if (settings_.environment != "auto") {
     add("--env", is_shown ? settings_.environment : environment_of(settings_.environment));
@@ -274,7 +281,8 @@ std::vector<std::string> Studio::words(const std::string& maps, bool is_shown) c
   if (layout != default_layout(settings_.live.camera.projection)) add("--layout", std::string(layout_name(layout)));
   if (duration_ > 0.0) add("--time", fmt::format("{}", settings_.live.time));
   add("--exposure", fmt::format("{}", settings_.live.exposure));
-  if (settings_.live.tone != ods::ToneCurve::kNeutral) add("--tone", std::string(tone_curve_name(settings_.live.tone)));
+  const ods::ToneCurve usual_tone = scene_->as_painted ? ods::ToneCurve::kLinear : ods::ToneCurve::kNeutral;
+  if (settings_.live.tone != usual_tone) add("--tone", std::string(tone_curve_name(settings_.live.tone)));
   add("--width", fmt::format("{}", settings_.width));
   return words;
 }

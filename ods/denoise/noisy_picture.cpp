@@ -92,6 +92,18 @@ static float variance_at(const EyeImage& eye, size_t pixel, vec3 divided_by) {
 // --- levels and blocks
 // -------------------------------------------------------------------------------------------------
 
+// Where only sky is seen, within a pixel. At silhouettes the other eye's paths may bring light of a surface that none of
+// the pixel's own samples meets: that is noise, like that of the pixels beside it.
+static bool is_only_sky(const NoisyPicture& noisy, const EyeImage& eye, int x, int y) {
+  if (!is_bare_sky(eye, noisy.index(x, y))) return false;
+  for (int row = std::max(y - 1, 0); row <= std::min(y + 1, noisy.height() - 1); row++) {
+    for (int column = std::max(x - 1, 0); column <= std::min(x + 1, noisy.width() - 1); column++) {
+      if (normal_at(eye, noisy.index(column, row)) != vec3(0.0f)) return false;
+    }
+  }
+  return true;
+}
+
 Level first_level(const NoisyPicture& noisy, int which) {
   const EyeImage& eye = noisy.eye(which);
   const size_t count = static_cast<size_t>(noisy.width()) * static_cast<size_t>(noisy.height());
@@ -103,7 +115,7 @@ Level first_level(const NoisyPicture& noisy, int which) {
       const float* radiance = &eye.radiance.pixels[3 * i];
       // A light of NaN marks a pixel that needs one.
       for (size_t c = 0; c < 3; c++) level.light[3 * i + c] = radiance[c] / by[static_cast<int>(c)];
-      level.variance[i] = pack_variance(is_bare_sky(eye, i) ? 0.0f : variance_at(eye, i, by));
+      level.variance[i] = pack_variance(is_only_sky(noisy, eye, x, y) ? 0.0f : variance_at(eye, i, by));
     }
   });
   return level;

@@ -223,6 +223,13 @@ static bool is_inscribed(const FisheyeLens& lens, Extent eye) {
   return length(lens.center - 0.5f * size) < near && std::abs(lens.radius - 0.5f * std::min(size.x, size.y)) < near;
 }
 
+// Two lenses are apart; one circle that fills the picture is cut by its middle, and each half has a rim of it.
+static bool are_apart(const std::vector<FisheyeLens>& lenses, Layout layout, Extent eye) {
+  const EyeCorner first = eye_corner(layout, eye, 0), second = eye_corner(layout, eye, 1);
+  const vec2 shift(static_cast<float>(second.x - first.x), static_cast<float>(second.y - first.y));
+  return length(lenses[1].center + shift - lenses[0].center) > lenses[0].radius;
+}
+
 static std::string lens_text(const FisheyeLens& lens) {
   return fmt::format("{:.1f},{:.1f},{:.1f}", lens.center.x, lens.center.y, lens.radius);
 }
@@ -260,6 +267,7 @@ FormatHint with_lenses(const std::string& path, const FormatHint& known, std::ve
   if (!seen) return known;
   if (known.front_and_back && !seen->front_and_back) return known;  // as told, by the edges of the halves
   for (FisheyeLens& lens : seen->lenses) lens.center *= static_cast<float>(by), lens.radius *= static_cast<float>(by);
+  if (!are_apart(seen->lenses, *layout, *eye)) return known;
   FormatHint all = known;
   all.layout = layout;
   if (seen->front_and_back) {

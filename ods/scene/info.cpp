@@ -90,6 +90,7 @@ SceneInfo describe(const Scene& scene, vec3 camera_position) {
   info.variants = scene.variants;
   info.sheet_glass = find_sheet_glass(scene);
   info.extensions = scene.extensions;
+  info.losses = scene.losses;
   info.warnings = scene.warnings;
   return info;
 }

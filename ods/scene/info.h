@@ -34,6 +34,7 @@ struct SceneInfo {
   std::vector<std::string> variants;
   std::vector<SheetGlass> sheet_glass;
   std::vector<UsedExtension> extensions;
+  std::vector<std::string> losses;
   std::vector<std::string> warnings;
 };
 

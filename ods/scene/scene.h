@@ -94,6 +94,8 @@ struct Scene {
   Environment environment;
   std::optional<Environment> background;  // what the camera sees behind everything; lights nothing. None: environment
 
+  bool as_painted = false;  // its colours hold their light already: no exposure and no tone curve are to change them
+
   // How many of the last instances are not the scene's own: ground and lamp (ods/stage/light/supply.h).
   size_t supplied = 0;
 
@@ -114,6 +116,8 @@ struct Scene {
   std::vector<std::string> variants;      // sets of materials that the file offers, by name
   std::vector<UsedExtension> extensions;  // sorted by name
 
+  std::string generator;              // the program that wrote the file, as it names itself
+  std::vector<std::string> losses;    // what that program has left out, and the remedy; one line each
   std::vector<std::string> warnings;  // features of the file that are not rendered, or only approximated; one line each
 };
 

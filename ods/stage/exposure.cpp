@@ -58,12 +58,19 @@ void limit_sky(std::vector<Patch>& patches) {
   for (Patch& patch : patches) patch.weight *= patch.surfaces + share * (1.0 - patch.surfaces);
 }
 
-// The luminance that only this share of the patches exceeds.
-double brightest(const std::vector<Patch>& sorted, double share) {
+// Whether the sky is only seen through windows.
+bool is_indoors(const std::vector<Patch>& patches) {
+  double sky = 0.0, whole = 0.0;
+  for (const Patch& patch : patches) sky += patch.weight * (1.0 - patch.surfaces), whole += patch.weight;
+  return sky < double{kWindowShare} * whole;
+}
+
+// The luminance that only this share of the patches exceeds; indoors, of the surfaces.
+double brightest(const std::vector<Patch>& sorted, double share, bool indoors) {
   double whole = 0.0, sum = 0.0;
   for (const Patch& patch : sorted) whole += patch.weight;
   for (const Patch& patch : sorted) {
-    sum += patch.weight;
+    sum += indoors ? patch.weight * patch.surfaces : patch.weight;
     if (sum >= share * whole) return patch.luminance;
   }
   return sorted.back().luminance;
@@ -102,8 +109,9 @@ std::optional<float> suitable_exposure(std::span<const Picture> looks) {
   if (patches.empty()) return std::nullopt;
   std::stable_sort(patches.begin(), patches.end(),
                    [](const Patch& a, const Patch& b) { return a.luminance > b.luminance; });
+  const bool indoors = is_indoors(patches);
   limit_sky(patches);
-  const double highlight = brightest(patches, double{kHighlightShare});
+  const double highlight = brightest(patches, double{kHighlightShare}, indoors);
   double sum = 0.0, weight = 0.0;
   for (const Patch& patch : patches) {
     if (patch.luminance < kBlack * highlight) continue;

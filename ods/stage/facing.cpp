@@ -113,7 +113,7 @@ std::vector<Column> columns_around(const SceneRays& rays, vec3 eye) {
 
 // middle: the number of its column.
 float worth_of_view(const std::vector<Column>& columns, int middle) {
-  constexpr float kDepth = 0.2f, kDeeper = 0.5f, kCut = 0.3f, kBlocked = 1.0f;
+  constexpr float kDepth = 0.2f, kDeeper = 0.5f, kShallow = 0.3f, kCut = 0.3f, kBlocked = 1.0f;
   Column wide, centre, all;  // weighted sums over the view, over its middle, and all around
   float wide_weights = 0.0f, centre_weights = 0.0f;
   const auto at = [&](int off) -> const Column& {
@@ -131,8 +131,9 @@ float worth_of_view(const std::vector<Column>& columns, int middle) {
   for (const Column& column : columns) all.depth += column.depth / kColumns;
   const float sides = 0.5f * (at(-kHalfColumns).things + at(kHalfColumns).things);
   const float deeper = std::max(centre.depth / centre_weights - all.depth - kDeeper, 0.0f);
-  return wide.things / wide_weights + kDepth * deeper - kCut * (sides + wide.cut / wide_weights) -
-         kBlocked * centre.blocked / centre_weights;
+  const float shallower = std::max(all.depth - centre.depth / centre_weights - kDeeper, 0.0f);
+  return wide.things / wide_weights + kDepth * deeper - kShallow * shallower -
+         kCut * (sides + wide.cut / wide_weights) - kBlocked * centre.blocked / centre_weights;
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ namespace ods {
 //    such as pictures. Floors, ceilings and other level surfaces are not things, and a bare wall is none either;
 //  - for it, depth: how much farther its middle reaches than the average. A room's corner is not deep enough to
 //    count; a street is, along its length;
+//  - against it, a wall: how much nearer than the average its middle ends;
 //  - against it, things that its sides or its upper edge cut;
 //  - against it, an obstacle in its middle: something narrow, less than half as far as the backdrop, that rises from
 //    eye level through the upper edge, such as a column.

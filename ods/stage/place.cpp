@@ -15,10 +15,10 @@ namespace ods {
 
 namespace {
 
-// How far above the horizontal an object is looked at, degrees: level if it is as high as half its width, and steeper
-// the flatter it is.
+// How far above the horizontal an object is looked at, degrees: level if it is as high as a third of its width, and
+// steeper the flatter it is.
 float steepness(vec3 size) {
-  constexpr float kFlat = 0.2f, kHigh = 0.5f, kSteepest = 30.0f;
+  constexpr float kFlat = 0.08f, kHigh = 0.35f, kSteepest = 30.0f;
   const float width = std::max({size.x, size.z, 1e-9f});
   return kSteepest * std::clamp((kHigh - size.y / width) / (kHigh - kFlat), 0.0f, 1.0f);
 }

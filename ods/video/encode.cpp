@@ -19,6 +19,7 @@
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
+#include <libavutil/cpu.h>
 #include <libavutil/mastering_display_metadata.h>
 #include <libavutil/opt.h>
 }
@@ -224,6 +225,15 @@ static std::string light_options(std::string_view encoder, const ColorWords& wor
   return "";
 }
 
+// x264's code for AVX-512 reads memory that it never wrote, so its output differs from run to run, seen up to 320x160.
+static bool has_avx512() {
+#if defined(__x86_64__)
+  return (av_get_cpu_flags() & AV_CPU_FLAG_AVX512) != 0;
+#else
+  return false;
+#endif
+}
+
 static void set_own_words(AVCodecContext& context, const EncoderFacts& facts, const EncodeOptions& options) {
   const std::string_view name = facts.name;
   const Extent size{context.width, context.height};
@@ -231,7 +241,7 @@ static void set_own_words(AVCodecContext& context, const EncoderFacts& facts, co
   if (name == "libx264") {
     const bool is_fast = smallest_level(Codec::kH264, size, options.rate.value()) > "5.2";
     // Without it the decoders of early headsets show garbage.
-    const std::string words = (is_fast ? ":mvrange=511" : "") + light;
+    const std::string words = std::string(is_fast ? ":mvrange=511" : "") + (has_avx512() ? ":asm=AVX2" : "") + light;
     if (!words.empty()) set(context, "x264-params", words.substr(1));
   }
   if (name == "libsvtav1" && !light.empty()) set(context, "svtav1-params", light.substr(1));

@@ -245,4 +245,13 @@ TEST_F(Cli, CamerasBeyondTheirRangesAreUsageErrors) {
   }
 }
 
+TEST_F(Cli, ATitleThatIsTooWideIsWarnedOf) {
+  const std::string title = "title The_Long_Way_Home --width 64 -o " + folder.path("a.exr");
+  EXPECT_EQ(run(title), 0);
+  EXPECT_EQ(err, "");
+  EXPECT_EQ(run(title + " --text-height 0.4"), 0);
+  EXPECT_NE(err.find("degrees wide"), std::string::npos) << err;
+  EXPECT_NE(err.find("--text-height 0.2"), std::string::npos) << err;
+}
+
 }  // namespace

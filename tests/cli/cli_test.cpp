@@ -461,15 +461,6 @@ TEST_F(Cli, ATestcardTakesEveryForm) {
   }
 }
 
-TEST_F(Cli, ATitleThatIsTooWideIsWarnedOf) {
-  const std::string title = "title The_Long_Way_Home --width 64 -o " + folder.path("a.exr");
-  EXPECT_EQ(run(title), 0);
-  EXPECT_EQ(err, "");
-  EXPECT_EQ(run(title + " --text-height 0.4"), 0);
-  EXPECT_NE(err.find("degrees wide"), std::string::npos) << err;
-  EXPECT_NE(err.find("--text-height 0.2"), std::string::npos) << err;
-}
-
 TEST_F(Cli, LintTellsByItsExitCode) {
   const std::string picture = folder.path("axis.png");
   ASSERT_EQ(run("render axis --width 512 --samples 4 --filter box -o " + picture), 0) << err;

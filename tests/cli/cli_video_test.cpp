@@ -208,6 +208,9 @@ const std::map<std::string, std::string> kOfFrames = {
     {"--solid-glass", ""},
     {"--portable", ""},
     {"--unit", "cm"},
+    {"--as", "object"},
+    {"--up", "z"},
+    {"--light-unit", "watt"},
     {"--env", "0.5"},
     {"--lamp", "0,0.5,0"},
     {"--background", "0.5"},
@@ -269,7 +272,11 @@ const std::set<std::string> kOthers = {"--output",
                                        "--merge-map-inverted",
                                        "--head-tilt-map",
                                        "--sensor",
-                                       "--lens-polynomial"};
+                                       "--lens-polynomial",
+                                       "--bake",
+                                       "--blender",
+                                       "--blender-limit",
+                                       "--camera-from"};
 
 TEST_F(VideoOptions, EveryOptionIsOneOrTheOther) {
   ASSERT_EQ(run("video --help"), 0);

@@ -33,6 +33,7 @@ namespace fs = std::filesystem;
 // Commands that start so need what no test has.
 const std::map<std::string, std::string> kCannotRun = {
     {"ods stitch rig.json '%V.#.png'", "sheets of Unreal's plug-in"},
+    {"ods blender --blender", "another Blender than that of PATH"},
 };
 
 // Options of other programs, of which pages say how to call them, and those that every command has.

@@ -173,8 +173,7 @@ TEST_F(EncodeCommand, AnInterruptLeavesNothing) {
 
 TEST_F(EncodeCommand, SizesBeyondEveryLevelAreReportedWithTheLargest) {
   ods::made::write_frames(pattern(), {1}, Layout::kTopBottom, {4096, 544});
-  const std::string words = "encode " + pattern() +
-                            " --layout top-bottom --projection lat-long --codec h264 " +
+  const std::string words = "encode " + pattern() + " --layout top-bottom --projection lat-long --codec h264 " +
                             "--preset ultrafast -o " + folder.path("video.mp4");
   ASSERT_EQ(run(words + " --fps 900"), 0) << err;
   EXPECT_EQ(err.find("no level"), std::string::npos) << err;

@@ -78,8 +78,7 @@ TEST_F(Wordless, DoubtNamesTheReadingsAndTheOptions) {
     EXPECT_NE(out.find(part), std::string::npos) << part << "\n" << out;
   }
   ASSERT_EQ(run("convert " + folder.path("lens.jpg") + " -o " + folder.path("to.png") + " --to vr180"), 0) << err;
-  for (const char* part :
-       {"one eye, fisheye (", "one eye, fisheye-equisolid (", "--layout and --projection"}) {
+  for (const char* part : {"one eye, fisheye (", "one eye, fisheye-equisolid (", "--layout and --projection"}) {
     EXPECT_NE(err.find(part), std::string::npos) << part << "\n" << err;
   }
   EXPECT_EQ(run("inject " + folder.path("lens.jpg")), 3) << err;

@@ -22,7 +22,8 @@ constexpr int kWidth = 768;
 StereoCamera read_words(std::vector<std::string> words) {
   CameraOptions camera;
   Options options("test", "", "");
-  add_camera_options(options, camera);
+  const BlenderOptions blender;
+  add_camera_options(options, camera, blender);
   int height = 0;
   options.number("--height", height, 1, 100'000, "");
   words.insert(words.begin(), "test");

@@ -201,7 +201,8 @@ TEST_F(StudioCommand, HasACommandForEveryMergeAndLayout) {
     }
   }
   const std::string restated = renders("map");
-  EXPECT_NE(restated.find("--merge map,60,90,1 --merge-map toys.merge-map.exr"), std::string::npos) << restated;
+  EXPECT_NE(restated.find(" --merge map,60,90,1 "), std::string::npos) << restated;
+  EXPECT_NE(restated.find(" --merge-map toys.merge-map.exr "), std::string::npos) << restated;
   asked("render", {{"output", "page.png"}, {"quality", "draft"}});
   const Json job = ended_job();
   EXPECT_EQ(job["state"], "done") << job;

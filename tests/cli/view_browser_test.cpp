@@ -15,8 +15,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "cli/view/export_site.h"
 #include "cli/http/http_server.h"
+#include "cli/view/export_site.h"
 #include "ods/base/error.h"
 #include "ods/files/file_input.h"
 #include "ods/image/compare.h"

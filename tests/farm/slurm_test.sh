@@ -125,9 +125,10 @@ wait_for() {
 
 # --- what goes through ----------------------------------------------------------------------------------------------
 
-number=40 chunk=4 width=96 parts=16
-[ "${2:-}" != quick ] || number=10 chunk=1 width=64 parts=4
-frames="video toys --frames 1-$number --width $width --samples 64 --keep-frames --threads 1"
+number=40 chunk=4 width=96 samples=64 parts=16
+# A task is long enough to be killed in its middle.
+[ "${2:-}" != quick ] || number=10 chunk=1 width=64 samples=256 parts=4
+frames="video toys --frames 1-$number --width $width --samples $samples --keep-frames --threads 1"
 still="render room --width $width --samples $((16 * parts)) --threads 1"
 
 at_work_on() { squeue --noheader --states=running --nodelist="$1" --format=%i | grep -q .; }

@@ -32,6 +32,15 @@ float exposure_of(const Picture& look) {
   return suitable_exposure({&look, 1}).value();
 }
 
+// The sky through windows may burn out; as much light on surfaces may not, nor the sky over a place.
+TEST(Exposure, IsThatOfTheRoomNotOfItsWindows) {
+  const float lit = kExposedMean / 64.0f;
+  const float room = exposure_of(look_at(lit, 2.0f, 24, kFarDepth));
+  EXPECT_GT(room, 4.0f) << "the top 24 of 96 rows are 15 percent of the sphere";
+  EXPECT_LT(exposure_of(look_at(lit, 2.0f, 24, 1.0f)), 0.0f);
+  EXPECT_LT(exposure_of(look_at(lit, 2.0f, 40, kFarDepth)), 0.0f);
+}
+
 TEST(Exposure, BringsTheMeanToMiddleGrey) {
   EXPECT_EQ(exposure_of(look_at(kExposedMean)), 0.0f);
   EXPECT_EQ(exposure_of(look_at(4.0f * kExposedMean)), -2.0f);

@@ -94,6 +94,41 @@ TEST(Place, AnObjectIsAtMost60DegreesWideHoweverItTurns) {
   }
 }
 
+TEST(Place, FlatThingsAreSeenFromAbove) {
+  Scene board = with_materials();
+  add(board, make_box(vec3(1.0f, 0.04f, 1.0f)), 0);
+  const ViewPoint view = viewer_of(board);
+  const vec3 way = view.position - board.viewing->middle;
+  EXPECT_NEAR(glm::degrees(std::asin(way.y / length(way))), 30.0f, 0.5f);
+  Scene picture = with_materials();  // that hangs on a wall, and looks to the left
+  add(picture, make_box(vec3(0.04f, 1.0f, 1.0f)), 0);
+  const ViewPoint front = viewer_of(picture);
+  EXPECT_GT(front.position.x, 0.8f) << "not its edge";
+  EXPECT_LT(std::abs(front.position.y - picture.viewing->middle.y), 0.16f);
+}
+
+TEST(Place, ACameraThatSeesASpeckIsNotUsed) {
+  Scene scene = make_chair();
+  scene.view_points.push_back({"far", vec3(0, 0, 40), 0.0f});
+  Scene asked = scene, near = scene;
+  EXPECT_NE(settle(scene).camera_reason.find("'far'"), std::string::npos);
+  EXPECT_FALSE(uses_own_camera(scene));
+  EXPECT_EQ(default_view(scene).position, scene.viewing->view.position);
+  EXPECT_EQ(settle(asked, {.camera = CameraChoice::kNamed}).camera_reason, "");
+  EXPECT_TRUE(uses_own_camera(asked));
+  near.view_points[0].position.z = 3.0f;
+  EXPECT_EQ(settle(near).camera_reason, "");
+  EXPECT_TRUE(uses_own_camera(near));
+  settle(near, {.camera = CameraChoice::kNone});
+  EXPECT_FALSE(uses_own_camera(near));
+}
+
+TEST(Place, CamerasAreChosenByWord) {
+  EXPECT_EQ(camera_choice(""), CameraChoice::kFirst);
+  EXPECT_EQ(camera_choice("none"), CameraChoice::kNone);
+  EXPECT_EQ(camera_choice("dolly"), CameraChoice::kNamed);
+}
+
 // 60 degrees is as near as it may be seen whole; nearer than 0.6 m no part of it may be.
 TEST(Place, AnObjectIsAsNearAsItMayBe) {
   for (const float radius : {0.25f, 0.3f, 0.5f, 1.0f, 2.0f}) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <cmath>
 #include <optional>
@@ -297,19 +298,24 @@ std::string noisy_video(const TemporaryFolder& folder, int side, int frames, con
 }
 
 // 32 and 64: x265 needs frames of several blocks.
-TEST_F(Encode, TenRunsOfHevcAreTheSameBytes) {
-  if (!has_encoder("libx265")) GTEST_SKIP() << "skipped: this machine has no libx265";
-  for (const int side : {32, 64, 256}) {
-    for (const std::optional<double> bitrate : {std::optional<double>(), std::optional<double>(1.0)}) {
-      EncodeOptions options;
-      options.packing.codec = VideoCodec::kHevc;
-      options.bitrate = bitrate;
-      std::set<std::string> files;
-      for (int run = 0; run < 10; run++) {
-        options.threads = run % 3;
-        files.insert(noisy_video(folder, side, side <= 64 ? 90 : 24, options));
+// What an encoder finds in memory that it never wrote is another thing in every run.
+TEST_F(Encode, TenRunsAreTheSameBytes) {
+  for (const auto& [codec, encoder] : {std::pair{VideoCodec::kH264, "libx264"}, {VideoCodec::kHevc, "libx265"}}) {
+    if (!has_encoder(encoder)) GTEST_SKIP() << "skipped: this machine has no " << encoder;
+    for (const int side : {32, 64, 256}) {
+      for (const std::optional<double> bitrate : {std::optional<double>(), std::optional<double>(1.0)}) {
+        EncodeOptions options;
+        options.packing.codec = codec;
+        options.bitrate = bitrate;
+        std::set<std::string> files;
+        for (int run = 0; run < 10; run++) {
+          mallopt(M_PERTURB, 25 * run);
+          options.threads = run % 3;
+          files.insert(noisy_video(folder, side, side <= 64 ? 90 : 24, options));
+        }
+        mallopt(M_PERTURB, 0);
+        EXPECT_EQ(files.size(), 1u) << encoder << " " << side << (bitrate ? " with a bit rate" : "");
       }
-      EXPECT_EQ(files.size(), 1u) << side << (bitrate ? " with a bit rate" : "");
     }
   }
 }

@@ -287,6 +287,12 @@ static int material_of(GltfFile& file, const JsonValue& primitive) {
   return index_in(file, primitive, "material");
 }
 
+// Whether a primitive names an accessor that has no elements.
+static bool is_empty(const GltfFile& file, const JsonValue& parent, const char* key) {
+  const int accessor = index_in(file, parent, key);
+  return accessor != -1 && size_in(file, record(file, file.accessors, accessor, "accessor"), "count") == 0;
+}
+
 // Appends the Scene mesh of one primitive and returns it, or -1 if none of it is visible.
 static int read_primitive(GltfFile& file, Scene& scene, const JsonValue& primitive, const Deformers& bending) {
   const int mode = integer(file, primitive, "mode", kTriangles);
@@ -298,6 +304,10 @@ static int read_primitive(GltfFile& file, Scene& scene, const JsonValue& primiti
   const JsonValue& listed = primitive["attributes"];
   if (index_in(file, listed, "POSITION") == -1) {
     warn(scene, "a primitive without positions is ignored");
+    return -1;
+  }
+  if (is_empty(file, listed, "POSITION") || is_empty(file, primitive, "indices")) {
+    warn(scene, "primitives without any vertex or index are left out");
     return -1;
   }
   const int none = static_cast<int>(file.materials.size());

@@ -34,6 +34,10 @@ Places read_nodes(GltfFile& file, Scene& scene, const SceneOptions& options, con
 
 Lamp read_lamp(const GltfFile& file, int light);
 
+// --- losses.cpp
+// Sets Scene::generator and Scene::losses.
+void find_losses(const GltfFile& file, Scene& scene, const AnimatedNodes& animated);
+
 // --- image_light.cpp
 // Sets the environment to the image-based light of the chosen scene, if it has one. Precondition: the scene exists.
 void read_image_light(const GltfFile& file, Scene& scene, int chosen);

@@ -13,6 +13,7 @@
 //   bend      morph targets and skins of primitives -> deformations
 //   nodes     the hierarchy -> instances, lights, view points (nodes.h)
 //   clips     animations -> clips and their targets (nodes.h)
+//   losses    what the program that wrote the file has left out (nodes.h)
 // Every function here throws Error(kInput), naming the file, if the file is inconsistent.
 #pragma once
 #include <cstddef>
@@ -36,7 +37,8 @@ struct ImageSource {
   std::string uri;   // empty if the picture is in the buffer view
   std::string name;  // the file that it means: resolve_uri()
   int view = -1;
-  size_t first = 0;  // the first image with the same source, the only one read
+  bool is_ktx2 = false;  // by its name or declared type; ods does not decode it
+  size_t first = 0;      // the first image with the same source, the only one read
 };
 
 // One animation channel of the file.
@@ -117,9 +119,10 @@ void decode_meshes(GltfFile& file, Scene& scene);
 void decode_mesh(GltfFile& file, int mesh);
 
 // --- material.cpp
-// Textures that ods does not decode, and the command that converts them.
+// Textures that ods does not decode (no package of the supported systems does), and what converts them.
 inline constexpr const char* kBasis = "KHR_texture_basisu";
-inline constexpr const char* kBasisCure = "gltf-transform ktxdecompress in.glb out.glb";
+inline constexpr const char* kBasisCure =
+    "gltf-transform ktxdecompress in.glb out.glb (from npm, it needs the command ktx of Khronos' KTX-Software)";
 
 // The scene's materials are the file's in order, then one more for primitives without a material.
 // Sets file.moving_layers.

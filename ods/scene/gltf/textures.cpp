@@ -71,7 +71,9 @@ int TextureTable::texture(int index, const Use& use) {
   if (found != made_.end()) return found->second;
   const JsonValue& source = record(file_, file_.textures, index, "texture");
   const int image = image_of(source);
-  if (image == -1 && !extension(source, kBasis).is_null()) {
+  const bool is_ktx2 =
+      image == -1 ? !extension(source, kBasis).is_null() : element(file_, file_.images, image, "image").is_ktx2;
+  if (is_ktx2) {
     warn(scene_, fmt::format("textures in the KTX2 format ({}) are white; convert them first: {}", kBasis, kBasisCure));
     return made_[{index, use}] = -1;
   }

@@ -138,6 +138,51 @@ std::string note_for(const Survey& survey, const LightPlan& plan, const LightWis
   return "an open place without light of its own: sun and sky light it (" + sky;
 }
 
+// The material that emits most; empty if it has no name.
+std::string brightest_material(const Scene& scene) {
+  const std::vector<double> areas = instance_areas(scene);
+  std::vector<double> power(scene.materials.size(), 0.0);
+  for (size_t i = 0; i < areas.size(); i++) {
+    const auto material = static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].material);
+    power[material] += areas[i] * static_cast<double>(luminance_of(scene, scene.materials[material]));
+  }
+  const auto most = static_cast<size_t>(std::ranges::max_element(power) - power.begin());
+  return most < scene.material_names.size() ? scene.material_names[most] : "";
+}
+
+// The share of the glowing surfaces around the viewer that have nothing but the open air behind them: panes that stand
+// for the sky.
+float glowing_panes(const SceneRays& rays, vec3 eye) {
+  constexpr int kDirections = 2048;
+  int glowing = 0, panes = 0;
+  const Scene& scene = rays.scene();
+  for (const vec3& direction : sphere_directions(kDirections)) {
+    const Sight sight = rays.look(eye, direction);
+    if (sight.leaves()) continue;
+    const auto mesh = static_cast<size_t>(scene.instances[static_cast<size_t>(sight.instance)].mesh);
+    if (!is_emissive(scene.materials[static_cast<size_t>(scene.meshes[mesh].material)])) continue;
+    constexpr float kThickest = 0.05f;  // metres, of a pane
+    glowing++;
+    if (rays.is_open(eye + direction * (sight.distance + kThickest), direction)) panes++;
+  }
+  return glowing == 0 ? 0.0f : static_cast<float>(panes) / static_cast<float>(glowing);
+}
+
+std::string advice_for(const SceneRays& rays, const Survey& survey, const LightPlan& plan) {
+  constexpr float kMostPanes = 0.5f;
+  const Scene& scene = rays.scene();
+  const bool dark_outside = scene.environment.radiance == vec3(0.0f) && !plan.surround;
+  if (survey.kind != SceneKind::kClosedRoom || !plan.has_light || !dark_outside || plan.as_painted) return "";
+  const std::string material = brightest_material(scene);
+  const std::string glowing = material.empty() ? "what glows" : fmt::format("'{}', which glows", material);
+  if (glowing_panes(rays, survey.stand->eye) > kMostPanes) {
+    return fmt::format("the room's light is {}, in a window: without it, sun and sky would light the room", glowing);
+  }
+  if (plan.windows < kWindows) return "";
+  return fmt::format("the room's only light is {}, and nothing is behind its windows: --env sky puts sun and sky there",
+                     scene.lights.empty() ? glowing : "that of its lamps");
+}
+
 }  // namespace
 
 float emission_level(const Scene& scene) {
@@ -203,11 +248,13 @@ LightPlan plan_light(const SceneRays& rays, const Survey& survey, const LightWis
   const bool made = plan.surround == Surround::kStudio || plan.surround == Surround::kSky;
   plan.ground = wishes.ground && made && survey.kind == SceneKind::kObject && !plan.as_painted;
   plan.note = note_for(survey, plan, wishes);
+  if (!chosen) plan.advice = advice_for(rays, survey, plan);
   return plan;
 }
 
 void apply_light(Scene& scene, const Survey& survey, const LightPlan& plan, const LightWishes& wishes) {
   if (plan.as_painted) show_paint(scene);
+  scene.as_painted = plan.as_painted;
   const size_t before = scene.instances.size();
   if (plan.surround == Surround::kStudio) {
     scene.environment = make_studio(wishes.yaw);

@@ -46,7 +46,8 @@ struct LightPlan {
   bool ground = false;
   SkyOptions sky;  // for kSky
   std::optional<CeilingLamp> lamp;
-  std::string note;  // one line for the user: what was supplied, why, and what changes it; empty: nothing was
+  std::string advice;  // one line: what the scene's own light lacks, and the option that adds it; empty: nothing
+  std::string note;    // one line for the user: what was supplied, why, and what changes it; empty: nothing was
 };
 
 // Of a closed room with more windows than this, light comes from outside only: it is rendered as dark as it is.

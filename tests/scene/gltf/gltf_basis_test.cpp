@@ -35,5 +35,21 @@ TEST(GltfBasis, WithoutAFallbackTheConversionIsNamed) {
   EXPECT_NE(error_of(file.glb()).find("gltf-transform ktxdecompress"), std::string::npos) << error_of(file.glb());
 }
 
+// Some exporters name the picture as if ods could read it.
+TEST(GltfBasis, PicturesNamedWithoutTheExtensionAreRecognised) {
+  for (const Json& picture : {Json{{"uri", "wood.KTX2"}}, Json{{"bufferView", 1}, {"mimeType", "image/ktx2"}}}) {
+    GltfBuilder file = make_triangle();
+    ASSERT_EQ(file.add_view({1, 2, 3}), 1);
+    file.json["images"] = {picture};
+    file.json["textures"] = Json::parse(R"([{"source": 0}])");
+    file.json["materials"] = Json::parse(R"([{"emissiveTexture": {"index": 0}}])");
+    const Scene scene = file.load();
+    EXPECT_TRUE(scene.textures.empty());
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("gltf-transform ktxdecompress"), std::string::npos) << scene.warnings[0];
+    EXPECT_NE(scene.warnings[0].find("KTX-Software"), std::string::npos) << scene.warnings[0];
+  }
+}
+
 }  // namespace
 }  // namespace ods

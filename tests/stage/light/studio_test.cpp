@@ -125,7 +125,7 @@ TEST(Studio, DenoisingLeavesNoLineWhereTheGroundEnds) {
     }
     return std::sqrt(sum / (512.0 * (last - first + 1)));
   };
-  EXPECT_LT(noise(edge - 1, edge + 1), 0.03 * double{floor});  // as near as the ground has to be to the floor
+  EXPECT_LT(noise(edge - 1, edge + 1), 0.012 * double{floor});
   EXPECT_LT(noise(edge + 8, edge + 30), 0.03 * double{floor});
 }
 

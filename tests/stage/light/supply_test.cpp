@@ -236,6 +236,45 @@ TEST(Supply, TheSunStandsWhereItLightsWhatIsSeen) {
   EXPECT_EQ(usual.azimuth, SkyOptions().azimuth);
 }
 
+// A room with a window and a lamp of its own gets no sky, and a word on it.
+TEST(Supply, NothingBehindAWindowIsSaid) {
+  Scene room = make_walled_room(true);
+  PunctualLight lamp;
+  lamp.position = vec3(0, 2, 0), lamp.intensity = vec3(10.0f);
+  room.lights.push_back(lamp);
+  const LightPlan plan = plan_for(room);
+  EXPECT_FALSE(plan.surround);
+  EXPECT_NE(plan.advice.find("--env sky"), std::string::npos) << plan.advice;
+  EXPECT_EQ(plan_for(make_walled_room(true)).advice, "") << "it gets a sky";
+  LightWishes wishes;
+  wishes.surround = Surround::kSky;
+  EXPECT_EQ(plan_for(room, wishes).advice, "") << "the user chose one";
+}
+
+TEST(Supply, AGlowingPaneIsNamed) {
+  Scene room = make_walled_room(true);
+  room.material_names = {"wall", "wood", "window pane"};
+  add(room, make_box(vec3(0.02f, 1.0f, 1.0f)), add_material(room, glow(vec3(5.0f))), placed(vec3(3.1f, 1.5f, 0)));
+  const LightPlan plan = plan_for(room);
+  EXPECT_TRUE(plan.has_light);
+  EXPECT_NE(plan.advice.find("'window pane'"), std::string::npos) << plan.advice;
+}
+
+TEST(Supply, PaintedScenesSaySo) {
+  Scene room = make_simple_room();
+  for (Material& material : room.materials) material.unlit = 1;
+  const SceneRays rays(room);
+  const Survey found = survey(rays);
+  const LightPlan plan = plan_light(rays, found);
+  apply_light(room, found, plan);
+  EXPECT_TRUE(room.as_painted);
+  Scene lit = make_simple_room();
+  const SceneRays lit_rays(lit);
+  const Survey lit_found = survey(lit_rays);
+  apply_light(lit, lit_found, plan_light(lit_rays, lit_found));
+  EXPECT_FALSE(lit.as_painted);
+}
+
 TEST(Supply, EmissionLevelIsThePowerOverTheSurface) {
   Scene scene = with_materials();
   add_rectangle(scene, vec3(0), vec3(3, 0, 0), vec3(0, 1, 0), 0);
