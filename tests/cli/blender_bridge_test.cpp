@@ -324,5 +324,97 @@ TEST_F(Blender, OtherFormatsGoThroughIt) {
   }
 }
 
+// In Blender's folders for users that this test makes.
+class BlenderAddOn : public Blender {
+ protected:
+  void SetUp() override {
+    Blender::SetUp();
+    for (const char* name : {"config", "scripts", "work"}) fs::create_directories(folder_.path(name));
+    setenv("BLENDER_USER_CONFIG", folder_.path("config").c_str(), 1);
+    setenv("BLENDER_USER_SCRIPTS", folder_.path("scripts").c_str(), 1);
+  }
+
+  // What Python says in Blender as the user has set it up. `say` prints a line that is kept.
+  std::string blender(const std::string& python, const std::string& file = "") const {
+    folder_.write("say.py", "import bpy, os\nout = open('" + folder_.path("said") +
+                                "', 'w')\ndef say(*words): print(*words, file=out, flush=True)\n" + python);
+    const Ran ran =
+        run_line("blender --background " + file + " --python-exit-code 1 --python " + folder_.path("say.py"));
+    EXPECT_EQ(ran.code, 0) << ran.out;
+    return folder_.read("said");
+  }
+};
+
+TEST_F(BlenderAddOn, RendersWhatIsOpen) {
+  const std::string file = make(R"(
+plane('floor', 20, (0, 0, 0), material('white'))
+light('lamp', 'POINT', (0, 0, 3), 100)
+fur = plane('fur', 1, (0, 3, 1), material('red', (1, 0, 0))); fur.modifiers.new('hair', 'PARTICLE_SYSTEM')
+fur.particle_systems[0].settings.type = 'HAIR'
+S.frame_start = 1; S.frame_end = 3; fur.keyframe_insert('location', frame=1); fur.location.x = 1
+fur.keyframe_insert('location', frame=3)
+world((0, 0, 0)); camera((0, 0, 1.6)); S.frame_set(2)
+)");
+  Ods install({"blender"});
+  ASSERT_EQ(install.finish(), 0) << install.err;
+  const std::string said = blender(R"(
+import sys
+add_on = sys.modules['omnistereo']
+settings = bpy.context.scene.omnistereo
+settings.quality = 'draft'; settings.width = 64; settings.output = ')" +
+                                       folder_.path("work") + R"('
+say('PANEL', add_on.OmnistereoPanel.is_registered, add_on.OmnistereoPanel.bl_context)
+bpy.context.scene.objects['floor'].name = 'renamed since it was saved'
+for kind in ('render', 'video'):
+    say(kind, bpy.ops.omnistereo.run(kind=kind), add_on.running.code, add_on.running.share, add_on.running.warnings)
+    say('TIME', '--time' in add_on.running.words, 'FOLDER', os.path.exists(add_on.running.folder))
+job = add_on.job.Job(['sleep', '1000'], add_on.job.private_folder())
+say('RUNNING', job.is_running())
+job.cancel(); job.wait(); say('CANCELLED', job.cancelled, job.is_running())
+settings.output = ')" + folder_.path("scene.blend") +
+                                       R"('
+try: bpy.ops.omnistereo.run(kind='render')
+except RuntimeError as error: say('ERROR', error)
+)",
+                                   file);
+  EXPECT_NE(said.find("PANEL True render\n"), std::string::npos) << said;
+  EXPECT_NE(said.find("render {'FINISHED'} 0 1.0 [\"hair of 'fur' does not come across"), std::string::npos) << said;
+  EXPECT_NE(said.find("video {'FINISHED'} 0 1.0 ["), std::string::npos) << said;
+  EXPECT_NE(said.find("TIME True FOLDER False\n"), std::string::npos) << "the frame that is shown\n" << said;
+  EXPECT_NE(said.find("RUNNING True\nCANCELLED True False\n"), std::string::npos) << said;
+  EXPECT_NE(said.find("ERROR Error: "), std::string::npos) << said;
+  EXPECT_TRUE(fs::exists(folder_.path("work/scene_360_TB.png")));
+  EXPECT_TRUE(fs::exists(folder_.path("work/scene_360_TB.mp4")));
+}
+
+// The archive that the build makes: as an add-on of Blender 3.4, and with what an extension of 4.2 must say.
+TEST_F(BlenderAddOn, TheArchiveInstalls) {
+  const std::string archive = fs::path(ODS_COMMAND).parent_path() / "omnistereo_blender.zip";
+  ASSERT_TRUE(fs::exists(archive)) << archive;
+  const std::string said = blender("archive = '" + archive + R"py('
+if bpy.app.version >= (4, 2, 0):
+    bpy.ops.extensions.package_install_files(filepath=archive, repo='user_default', enable_on_install=True)
+else:
+    bpy.ops.preferences.addon_install(filepath=archive)
+    bpy.ops.preferences.addon_enable(module='omnistereo')
+say('ENABLED', any(key.endswith('omnistereo') for key in bpy.context.preferences.addons.keys()))
+say('SETTINGS', bpy.context.scene.omnistereo.quality)
+import zipfile, tomllib
+with zipfile.ZipFile(archive) as file:
+    folders = {name.split('/')[0] for name in file.namelist()}
+    manifest = tomllib.loads(file.read('omnistereo/blender_manifest.toml').decode())
+say('FOLDERS', folders, any('__pycache__' in name for name in file.namelist()))
+needed = {'schema_version', 'id', 'version', 'name', 'tagline', 'maintainer', 'type', 'blender_version_min', 'license'}
+say('MISSING', needed - set(manifest), manifest['type'], manifest['blender_version_min'])
+says = [manifest['tagline'], *manifest['permissions'].values()]
+say('WORDS', all(len(text) <= 64 and text[-1].isalnum() for text in says))
+import sys; own = sys.modules['omnistereo'].bl_info['version'] if 'omnistereo' in sys.modules else None
+say('VERSION', own is None or '.'.join(map(str, own)) == manifest['version'])
+)py");
+  EXPECT_EQ(said,
+            "ENABLED True\nSETTINGS preview\nFOLDERS {'omnistereo'} False\nMISSING set() add-on 4.2.0\nWORDS True\n"
+            "VERSION True\n");
+}
+
 }  // namespace
 }  // namespace ods
