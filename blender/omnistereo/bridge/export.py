@@ -10,7 +10,7 @@ import os
 
 import bpy
 
-from . import bake, camera, lights, materials, motion, prepare, world
+from . import bake, camera, lights, materials, means, motion, prepare, world
 from .glb import FLOAT, Glb
 from .places import local_place, parts
 from .report import Failure, Report, say
@@ -114,7 +114,7 @@ def _nodes_by_mark(glb):
     return nodes
 
 
-def _materials(report, prepared, context, size):
+def _materials(report, prepared, context, size, folder):
     computed, strengths, translucent, scales = {}, {}, set(), {}
     used = {s.material for o in prepared.objects if o.type in prepare.MESHES and not o.hide_render
             for s in o.material_slots if s.material}
@@ -127,12 +127,13 @@ def _materials(report, prepared, context, size):
         keys = materials.computed_inputs(node)
         if keys:
             computed[material.name] = keys
+    shown = [o for o in prepared.objects if not o.hide_render]
     if computed and size > 0:
-        shown = [o for o in prepared.objects if not o.hide_render]
         done, left = bake.bake(context, shown, computed, size, report)
         for name in left:
             report.warn(f"material '{name}' could not be baked on something that deforms")
     elif computed:
+        means.use_means(context, shown, computed, folder)
         for name, keys in computed.items():
             report.warn(f"material '{name}': its {', '.join(keys)} "
                         f"{'are' if len(keys) > 1 else 'is'} computed by nodes; --bake 1024 makes pictures of them")
@@ -231,7 +232,7 @@ def export_scene(context, folder, size=0, report=None):
     prepared = prepare.prepare(context, report)
     materials.name_missing_pictures(report)
     report.step("reading materials", 0.15)
-    strengths, translucent, scales = _materials(report, prepared, context, size)
+    strengths, translucent, scales = _materials(report, prepared, context, size, folder)
     report.step("exporting", 0.55)
     path = os.path.join(folder, "scene.glb")
     _run_exporter(path)
@@ -257,6 +258,7 @@ def export_scene(context, folder, size=0, report=None):
     report.step("rendering the world", 0.95)
     environment = world.export_world(glb, scene, folder, report)
     _strip_extras(glb)
+    glb.json["asset"]["generator"] = f"Omnistereo's exporter in Blender {bpy.app.version_string}"
     glb.save(path)
     render = scene.render
     result = {
