@@ -81,12 +81,17 @@ def _import(path):
 # --- exporting
 
 
-def _options():
+def _deforms(scene):
+    """Whether the exporter's own animations are needed: of joints and shape keys; motion.py has all else."""
+    return any(o.type == "ARMATURE" or getattr(o.data, "shape_keys", None) for o in scene.objects)
+
+
+def _options(scene):
     """Of the exporter, those that this version has."""
     wanted = {
         "export_format": "GLB", "use_renderable": True, "use_visible": False, "use_active_scene": True,
         "export_apply": True, "export_yup": True, "export_extras": True, "export_lights": False,
-        "export_cameras": False, "export_animations": True, "export_nla_strips": False,
+        "export_cameras": False, "export_animations": _deforms(scene), "export_nla_strips": False,
         "export_animation_mode": "ACTIVE_ACTIONS", "export_frame_range": True, "export_force_sampling": True,
         "export_colors": True, "export_texcoords": True, "export_normals": True, "export_tangents": False,
         "export_materials": "EXPORT", "export_image_format": "AUTO", "export_gn_mesh": False,
@@ -96,9 +101,9 @@ def _options():
     return {key: value for key, value in wanted.items() if key in known}
 
 
-def _run_exporter(path):
+def _run_exporter(path, scene):
     try:
-        bpy.ops.export_scene.gltf(filepath=path, **_options())
+        bpy.ops.export_scene.gltf(filepath=path, **_options(scene))
     except Exception as error:
         raise Failure(f"Blender's glTF exporter failed: {_first_line(error)}") from None
     if not os.path.exists(path):
@@ -235,7 +240,7 @@ def export_scene(context, folder, size=0, report=None):
     strengths, translucent, scales = _materials(report, prepared, context, size, folder)
     report.step("exporting", 0.55)
     path = os.path.join(folder, "scene.glb")
-    _run_exporter(path)
+    _run_exporter(path, scene)
     report.step("adding lights, camera and world", 0.8)
     glb = Glb(path)
     marks = _nodes_by_mark(glb)

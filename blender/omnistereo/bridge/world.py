@@ -13,6 +13,7 @@ from .stage import Stage, pixels
 
 LARGEST = 4096
 USUAL = 1024
+SKY = 512  # as wide as Cycles' own table of a sky
 SUN_PIXELS = 64
 
 
@@ -58,7 +59,8 @@ def _nodes(world):
 
 def _width_of(nodes):
     widths = [n.image.size[0] for n in nodes if n.type == "TEX_ENVIRONMENT" and n.image and n.image.size[0] > 0]
-    return min(max(widths), LARGEST) if widths else USUAL
+    is_sky = {n.type for n in nodes} == {"TEX_SKY", "BACKGROUND", "OUTPUT_WORLD"}
+    return min(max(widths), LARGEST) if widths else SKY if is_sky else USUAL
 
 
 def _sun_direction(node):
