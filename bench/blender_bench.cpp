@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kInterior = SHARED_SCENES "/../tools/interior.py";
 constexpr int kWidth = 384, kSamples = 192;         // of the picture
-constexpr int kFilmWidth = 256, kFilmSamples = 24;  // of a frame
+constexpr int kFilmWidth = 192, kFilmSamples = 16;  // of a frame
 constexpr int kFilmFrames = 24;                     // of 60
 constexpr std::array<const char*, 2> kEyes = {"left", "right"};
 

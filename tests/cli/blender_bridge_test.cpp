@@ -267,6 +267,25 @@ t.links.new(x.outputs[0], t.nodes['Material Output'].inputs[0]); use('veil', vei
 marble = bpy.data.materials.new('marble'); marble.use_nodes = True; t = marble.node_tree
 n = t.nodes.new('ShaderNodeTexNoise'); n.inputs['Scale'].default_value = 40
 t.links.new(n.outputs['Fac'], t.nodes['Principled BSDF'].inputs['Base Color']); use('marble', marble)
+group = bpy.data.node_groups.new('paint', 'ShaderNodeTree')
+if hasattr(group, 'interface'):
+    group.interface.new_socket('Tint', in_out='INPUT', socket_type='NodeSocketColor')
+    group.interface.new_socket('BSDF', in_out='OUTPUT', socket_type='NodeSocketShader')
+else:
+    group.inputs.new('NodeSocketColor', 'Tint'); group.outputs.new('NodeSocketShader', 'BSDF')
+d = group.nodes.new('ShaderNodeBsdfDiffuse'); g = group.nodes.new('ShaderNodeBsdfGlossy')
+g.inputs['Roughness'].default_value = .25; f = group.nodes.new('ShaderNodeFresnel')
+x = group.nodes.new('ShaderNodeMixShader'); i = group.nodes.new('NodeGroupInput'); o = group.nodes.new('NodeGroupOutput')
+group.links.new(i.outputs[0], d.inputs[0]); group.links.new(f.outputs[0], x.inputs[0])
+group.links.new(d.outputs[0], x.inputs[1]); group.links.new(g.outputs[0], x.inputs[2]); group.links.new(x.outputs[0], o.inputs[0])
+paint = material('paint'); t = paint.node_tree; n = t.nodes.new('ShaderNodeGroup'); n.node_tree = group
+n.inputs['Tint'].default_value = (.1, .2, .3, 1)
+t.links.new(n.outputs[0], t.nodes['Material Output'].inputs[0]); use('paint', paint)
+pane = material('pane', (1, 1, 1), 'ShaderNodeBsdfGlossy'); t = pane.node_tree; t.nodes['Glossy BSDF'].inputs['Roughness'].default_value = 0
+x = t.nodes.new('ShaderNodeMixShader'); t.links.new(t.nodes.new('ShaderNodeFresnel').outputs[0], x.inputs[0])
+t.links.new(t.nodes.new('ShaderNodeBsdfTransparent').outputs[0], x.inputs[1])
+t.links.new(t.nodes['Glossy BSDF'].outputs[0], x.inputs[2])
+t.links.new(x.outputs[0], t.nodes['Material Output'].inputs[0]); use('pane', pane)
 )");
   Scene scene = converted(file);
   const auto material = [&](const std::string& name) {
@@ -285,6 +304,10 @@ t.links.new(n.outputs['Fac'], t.nodes['Principled BSDF'].inputs['Base Color']); 
   EXPECT_EQ(material("lamp").double_sided, 1);
   EXPECT_EQ(material("veil").alpha_mode, kAlphaBlend);
   EXPECT_NEAR(material("veil").base_color.w, 0.3f, 1e-5f);
+  EXPECT_NEAR(material("paint").base_color.y, 0.2f, 1e-4f) << "the group's input";
+  EXPECT_NEAR(material("paint").roughness, 0.25f, 1e-5f);
+  EXPECT_EQ(material("paint").metallic, 0.0f);
+  EXPECT_EQ(material("pane").transmission, 1.0f);
   const vec4 marble = material("marble").base_color;  // Cycles' noise is about a half
   for (int i = 0; i < 3; i++) EXPECT_NEAR(marble[i], 0.5f, 0.1f);
   EXPECT_NE(info(file).find("material 'marble': its color is computed by nodes; --bake 1024"), std::string::npos);

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The Omnistereo authors
 # SPDX-License-Identifier: Apache-2.0
-"""Computed colours as one mean colour each: what a surface looks like where no picture of it is baked."""
+"""Computed inputs as one mean each: what a surface looks like where no picture of it is baked."""
 import os
 
 import bpy
 from mathutils import Vector
 
-from .materials import output_of, put, source_of
+from .materials import BAKED, output_of, put, source_of
 from .prepare import MESHES
 from .stage import Stage, pixels
 
@@ -54,7 +54,7 @@ def _mean(context, each, material, key, folder):
 
 
 def use_means(context, shown, computed, folder):
-    """computed: material name -> inputs. Colours become constants; what else is computed keeps its own value."""
+    """computed: material name -> inputs. All but normals become constants."""
     users = {}
     for each in shown:
         for slot in each.material_slots if each.type in MESHES else []:
@@ -63,11 +63,11 @@ def use_means(context, shown, computed, folder):
     for name, keys in computed.items():
         material = bpy.data.materials[name]
         node = source_of(output_of(material.node_tree).inputs["Surface"]).node
-        for key in {"color", "emission"}.intersection(keys):
+        for key in (key for key in BAKED if key in keys and key != "normal"):
             mean = _mean(context, users[name], material, key, folder)
             if mean is None:
                 continue
             socket = put(node, key)
             for link in list(socket.links):
                 material.node_tree.links.remove(link)
-            socket.default_value = (*mean, 1.0)
+            socket.default_value = (*mean, 1.0) if key in ("color", "emission") else min(max(sum(mean) / 3, 0.0), 1.0)
