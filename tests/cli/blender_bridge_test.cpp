@@ -84,6 +84,15 @@ class Blender : public ::testing::Test {
     return {};
   }
 
+  static Material material_of(const Scene& scene, const std::string& object) {
+    for (const NamedObject& each : scene.objects) {
+      if (each.name != object) continue;
+      return scene.materials[size_t(scene.meshes[size_t(scene.instances[each.first_instance].mesh)].material)];
+    }
+    ADD_FAILURE() << object;
+    return Material();
+  }
+
   Image render(const std::string& file, std::vector<std::string> more) const {
     const std::string picture = folder_.path("picture.exr");
     more.insert(more.begin(), {"render", file, "-o", picture, "--eyes", "mono", "--indirect", "path"});
@@ -267,6 +276,28 @@ t.links.new(x.outputs[0], t.nodes['Material Output'].inputs[0]); use('veil', vei
 marble = bpy.data.materials.new('marble'); marble.use_nodes = True; t = marble.node_tree
 n = t.nodes.new('ShaderNodeTexNoise'); n.inputs['Scale'].default_value = 40
 t.links.new(n.outputs['Fac'], t.nodes['Principled BSDF'].inputs['Base Color']); use('marble', marble)
+)");
+  const Scene scene = converted(file);
+  EXPECT_EQ(material_of(scene, "glass").transmission, 1.0f);
+  EXPECT_NEAR(material_of(scene, "glass").ior, 1.45f, 1e-5f);
+  EXPECT_EQ(material_of(scene, "metal").metallic, 1.0f);
+  EXPECT_NEAR(material_of(scene, "metal").base_color.z, 0.7f, 1e-5f);
+  EXPECT_LT(length(material_of(scene, "lamp").emission - vec3(8, 4, 2)), 1e-4f);
+  EXPECT_EQ(material_of(scene, "lamp").double_sided, 1);
+  EXPECT_EQ(material_of(scene, "veil").alpha_mode, kAlphaBlend);
+  EXPECT_NEAR(material_of(scene, "veil").base_color.w, 0.3f, 1e-5f);
+  const vec4 marble = material_of(scene, "marble").base_color;  // Cycles' noise is about a half
+  for (int i = 0; i < 3; i++) EXPECT_NEAR(marble[i], 0.5f, 0.1f);
+  EXPECT_NE(info(file).find("material 'marble': its color is computed by nodes; --bake 1024"), std::string::npos);
+  fs::remove_all(folder_.path("cache"));
+  const std::string baked = info(file, {"--bake", "64"});
+  EXPECT_EQ(baked.find("computed by nodes"), std::string::npos) << baked;
+  EXPECT_NE(baked.find(" 1 textures"), std::string::npos) << baked;
+}
+
+TEST_F(Blender, GroupsAndMixesAreWhatTheyMean) {
+  const std::string file = make(R"(
+def use(name, m): plane(name, 1, (0, 0, 0), m)
 group = bpy.data.node_groups.new('paint', 'ShaderNodeTree')
 if hasattr(group, 'interface'):
     group.interface.new_socket('Tint', in_out='INPUT', socket_type='NodeSocketColor')
@@ -287,34 +318,11 @@ t.links.new(t.nodes.new('ShaderNodeBsdfTransparent').outputs[0], x.inputs[1])
 t.links.new(t.nodes['Glossy BSDF'].outputs[0], x.inputs[2])
 t.links.new(x.outputs[0], t.nodes['Material Output'].inputs[0]); use('pane', pane)
 )");
-  Scene scene = converted(file);
-  const auto material = [&](const std::string& name) {
-    for (const NamedObject& each : scene.objects) {
-      if (each.name == name)
-        return scene.materials[size_t(scene.meshes[size_t(scene.instances[each.first_instance].mesh)].material)];
-    }
-    ADD_FAILURE() << name;
-    return Material();
-  };
-  EXPECT_EQ(material("glass").transmission, 1.0f);
-  EXPECT_NEAR(material("glass").ior, 1.45f, 1e-5f);
-  EXPECT_EQ(material("metal").metallic, 1.0f);
-  EXPECT_NEAR(material("metal").base_color.z, 0.7f, 1e-5f);
-  EXPECT_LT(length(material("lamp").emission - vec3(8, 4, 2)), 1e-4f);
-  EXPECT_EQ(material("lamp").double_sided, 1);
-  EXPECT_EQ(material("veil").alpha_mode, kAlphaBlend);
-  EXPECT_NEAR(material("veil").base_color.w, 0.3f, 1e-5f);
-  EXPECT_NEAR(material("paint").base_color.y, 0.2f, 1e-4f) << "the group's input";
-  EXPECT_NEAR(material("paint").roughness, 0.25f, 1e-5f);
-  EXPECT_EQ(material("paint").metallic, 0.0f);
-  EXPECT_EQ(material("pane").transmission, 1.0f);
-  const vec4 marble = material("marble").base_color;  // Cycles' noise is about a half
-  for (int i = 0; i < 3; i++) EXPECT_NEAR(marble[i], 0.5f, 0.1f);
-  EXPECT_NE(info(file).find("material 'marble': its color is computed by nodes; --bake 1024"), std::string::npos);
-  fs::remove_all(folder_.path("cache"));
-  const std::string baked = info(file, {"--bake", "64"});
-  EXPECT_EQ(baked.find("computed by nodes"), std::string::npos) << baked;
-  EXPECT_NE(baked.find(" 1 textures"), std::string::npos) << baked;
+  const Scene scene = converted(file);
+  EXPECT_NEAR(material_of(scene, "paint").base_color.y, 0.2f, 1e-4f) << "the group's input";
+  EXPECT_NEAR(material_of(scene, "paint").roughness, 0.25f, 1e-5f);
+  EXPECT_EQ(material_of(scene, "paint").metallic, 0.0f);
+  EXPECT_EQ(material_of(scene, "pane").transmission, 1.0f);
 }
 
 // Neither a text that Blender registers, nor a driver's expression.

@@ -151,8 +151,10 @@ def _mix(node):
         if fac.name == "Backfacing":
             return first
         if first.get("metallic") == 0.0 and second.get("metallic") == 1.0:
-            # The way to a dielectric before the Principled BSDF.
+            # The way to a dielectric before the Principled BSDF, and to a tinted pane.
             first.values.update(specular=0.5, roughness=second.get("roughness"))
+            if first.get("ior") == 1.0:
+                first.values["ior"] = 1.45
             return first
         first.doubts.append(f"the mix '{node.name}' changes from place to place: it comes across as a mean")
         fac = 0.1 if fac.name == "Fresnel" or fac.node.type == "FRESNEL" else 0.5
