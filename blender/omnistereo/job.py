@@ -25,6 +25,8 @@ class Job:
         for line in self.process.stderr:
             self._take(line)
         self.code = self.process.wait()
+        if self.code == 0:
+            self.share = 1.0
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def _take(self, line):

@@ -236,12 +236,16 @@ static void note_sheet_glass(const Scene& scene) {
                   others == 0 ? " is" : fmt::format(" and {} other material{} are", others, others == 1 ? "" : "s")));
 }
 
-Scene open_lit_scene(const SceneSource& given, bool transparent) {
-  SceneSource source = given;
+ods::LightWishes wishes_for(SceneSource& source, bool transparent) {
   read_foreign(source);
   if (source.foreign && source.light.environment.empty()) source.light.environment = source.foreign->environment;
+  return read_wishes(source.light, transparent, confining_folder(source));
+}
+
+Scene open_lit_scene(const SceneSource& given, bool transparent) {
+  SceneSource source = given;
+  const ods::LightWishes wishes = wishes_for(source, transparent);
   const std::string confined_to = confining_folder(source);
-  const ods::LightWishes wishes = read_wishes(source.light, transparent, confined_to);
   PlannedLight planned;
   Scene scene = open_scene(source, nullptr, [&](const ods::SceneRays& rays, const ods::Survey& survey) {
     planned = {survey, ods::plan_light(rays, survey, wishes)};

@@ -48,6 +48,10 @@ void read_foreign(SceneSource& source);
 // such folder.
 std::string confining_folder(const SceneSource& source);
 
+// The light that the options ask for; a scene of another program brings its world. Throws as read_foreign() and
+// read_wishes().
+ods::LightWishes wishes_for(SceneSource& source, bool transparent);
+
 // Reads the scene, turns the named objects into catchers, makes glass solid if asked to, and notes what the renderer
 // does not support. A file's scene is measured: it gets its size in metres and a place for the viewer
 // (ods/stage/place.h), and what was assumed is noted; settled, if not null, gets the result, and look is called as

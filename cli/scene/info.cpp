@@ -33,14 +33,16 @@ void info(int argc, char** argv) {
   console.quiet = true;  // notes would repeat the result
   source.has_places = camera.position.has_value();
   source.camera = camera.view_point;
+  const ods::LightWishes wishes = wishes_for(source, false);
   SceneFindings found;
   const ods::Scene scene =
       open_scene(source, &found.settled, [&](const ods::SceneRays& rays, const ods::Survey& survey) {
-        if (survey.kind == ods::SceneKind::kClosedRoom) found.advice = plan_light(rays, survey).advice;
+        if (survey.kind == ods::SceneKind::kClosedRoom) found.advice = plan_light(rays, survey, wishes).advice;
       });
   found.viewing = scene.viewing;
   const vec3 position = place_camera(camera, scene).position;
-  const SceneInfo info = describe(scene, position);
+  SceneInfo info = describe(scene, position);
+  info.has_environment |= wishes.given.radiance != vec3(0.0f);
   json ? print_json(info, found, position) : print_text(info, found, position);
 }
 

@@ -84,6 +84,15 @@ class Blender : public ::testing::Test {
     return {};
   }
 
+  static Material material_of(const Scene& scene, const std::string& object) {
+    for (const NamedObject& each : scene.objects) {
+      if (each.name != object) continue;
+      return scene.materials[size_t(scene.meshes[size_t(scene.instances[each.first_instance].mesh)].material)];
+    }
+    ADD_FAILURE() << object;
+    return Material();
+  }
+
   Image render(const std::string& file, std::vector<std::string> more) const {
     const std::string picture = folder_.path("picture.exr");
     more.insert(more.begin(), {"render", file, "-o", picture, "--eyes", "mono", "--indirect", "path"});
@@ -163,6 +172,23 @@ bpy.ops.render.render(write_still=True)
     }
   }
   EXPECT_GT(most, 0.9);
+}
+
+// Light behind a window is there, and lamps of many watts are as bright as Blender means them.
+TEST_F(Blender, InfoKnowsTheWorldAndTheUnits) {
+  const std::string file = make(R"(
+glow = material('glow', (1, 1, 1), 'ShaderNodeEmission')
+plane('floor', 20, (0, 0, 0), material('white')); plane('glow', 1, (0, 5, 1), glow)
+light('lamp', 'POINT', (0, 0, 3), 8000)
+world((0.2, 0.3, 0.4)); camera((0, 0, 1.6))
+)");
+  const std::string said = info(file);
+  EXPECT_NE(said.find(" an environment"), std::string::npos) << said;
+  EXPECT_EQ(said.find("\nlost"), std::string::npos) << said;
+  EXPECT_EQ(said.find("683"), std::string::npos) << said;
+  const Image with = render(file, {"--width", "32", "--samples", "4", "--bounces", "1"});
+  const Image same = render(file, {"--width", "32", "--samples", "4", "--bounces", "1", "--light-unit", "candela"});
+  EXPECT_EQ(*with.at(16, 14), *same.at(16, 14));
 }
 
 TEST_F(Blender, MovesAsInBlender) {
@@ -251,28 +277,52 @@ marble = bpy.data.materials.new('marble'); marble.use_nodes = True; t = marble.n
 n = t.nodes.new('ShaderNodeTexNoise'); n.inputs['Scale'].default_value = 40
 t.links.new(n.outputs['Fac'], t.nodes['Principled BSDF'].inputs['Base Color']); use('marble', marble)
 )");
-  Scene scene = converted(file);
-  const auto material = [&](const std::string& name) {
-    for (const NamedObject& each : scene.objects) {
-      if (each.name == name)
-        return scene.materials[size_t(scene.meshes[size_t(scene.instances[each.first_instance].mesh)].material)];
-    }
-    ADD_FAILURE() << name;
-    return Material();
-  };
-  EXPECT_EQ(material("glass").transmission, 1.0f);
-  EXPECT_NEAR(material("glass").ior, 1.45f, 1e-5f);
-  EXPECT_EQ(material("metal").metallic, 1.0f);
-  EXPECT_NEAR(material("metal").base_color.z, 0.7f, 1e-5f);
-  EXPECT_LT(length(material("lamp").emission - vec3(8, 4, 2)), 1e-4f);
-  EXPECT_EQ(material("lamp").double_sided, 1);
-  EXPECT_EQ(material("veil").alpha_mode, kAlphaBlend);
-  EXPECT_NEAR(material("veil").base_color.w, 0.3f, 1e-5f);
+  const Scene scene = converted(file);
+  EXPECT_EQ(material_of(scene, "glass").transmission, 1.0f);
+  EXPECT_NEAR(material_of(scene, "glass").ior, 1.45f, 1e-5f);
+  EXPECT_EQ(material_of(scene, "metal").metallic, 1.0f);
+  EXPECT_NEAR(material_of(scene, "metal").base_color.z, 0.7f, 1e-5f);
+  EXPECT_LT(length(material_of(scene, "lamp").emission - vec3(8, 4, 2)), 1e-4f);
+  EXPECT_EQ(material_of(scene, "lamp").double_sided, 1);
+  EXPECT_EQ(material_of(scene, "veil").alpha_mode, kAlphaBlend);
+  EXPECT_NEAR(material_of(scene, "veil").base_color.w, 0.3f, 1e-5f);
+  const vec4 marble = material_of(scene, "marble").base_color;  // Cycles' noise is about a half
+  for (int i = 0; i < 3; i++) EXPECT_NEAR(marble[i], 0.5f, 0.1f);
   EXPECT_NE(info(file).find("material 'marble': its color is computed by nodes; --bake 1024"), std::string::npos);
   fs::remove_all(folder_.path("cache"));
   const std::string baked = info(file, {"--bake", "64"});
   EXPECT_EQ(baked.find("computed by nodes"), std::string::npos) << baked;
   EXPECT_NE(baked.find(" 1 textures"), std::string::npos) << baked;
+}
+
+TEST_F(Blender, GroupsAndMixesAreWhatTheyMean) {
+  const std::string file = make(R"(
+def use(name, m): plane(name, 1, (0, 0, 0), m)
+group = bpy.data.node_groups.new('paint', 'ShaderNodeTree')
+if hasattr(group, 'interface'):
+    group.interface.new_socket('Tint', in_out='INPUT', socket_type='NodeSocketColor')
+    group.interface.new_socket('BSDF', in_out='OUTPUT', socket_type='NodeSocketShader')
+else:
+    group.inputs.new('NodeSocketColor', 'Tint'); group.outputs.new('NodeSocketShader', 'BSDF')
+d = group.nodes.new('ShaderNodeBsdfDiffuse'); g = group.nodes.new('ShaderNodeBsdfGlossy')
+g.inputs['Roughness'].default_value = .25; f = group.nodes.new('ShaderNodeFresnel')
+x = group.nodes.new('ShaderNodeMixShader'); i = group.nodes.new('NodeGroupInput'); o = group.nodes.new('NodeGroupOutput')
+group.links.new(i.outputs[0], d.inputs[0]); group.links.new(f.outputs[0], x.inputs[0])
+group.links.new(d.outputs[0], x.inputs[1]); group.links.new(g.outputs[0], x.inputs[2]); group.links.new(x.outputs[0], o.inputs[0])
+paint = material('paint'); t = paint.node_tree; n = t.nodes.new('ShaderNodeGroup'); n.node_tree = group
+n.inputs['Tint'].default_value = (.1, .2, .3, 1)
+t.links.new(n.outputs[0], t.nodes['Material Output'].inputs[0]); use('paint', paint)
+pane = material('pane', (1, 1, 1), 'ShaderNodeBsdfGlossy'); t = pane.node_tree; t.nodes['Glossy BSDF'].inputs['Roughness'].default_value = 0
+x = t.nodes.new('ShaderNodeMixShader'); t.links.new(t.nodes.new('ShaderNodeFresnel').outputs[0], x.inputs[0])
+t.links.new(t.nodes.new('ShaderNodeBsdfTransparent').outputs[0], x.inputs[1])
+t.links.new(t.nodes['Glossy BSDF'].outputs[0], x.inputs[2])
+t.links.new(x.outputs[0], t.nodes['Material Output'].inputs[0]); use('pane', pane)
+)");
+  const Scene scene = converted(file);
+  EXPECT_NEAR(material_of(scene, "paint").base_color.y, 0.2f, 1e-4f) << "the group's input";
+  EXPECT_NEAR(material_of(scene, "paint").roughness, 0.25f, 1e-5f);
+  EXPECT_EQ(material_of(scene, "paint").metallic, 0.0f);
+  EXPECT_EQ(material_of(scene, "pane").transmission, 1.0f);
 }
 
 // Neither a text that Blender registers, nor a driver's expression.
@@ -322,6 +372,98 @@ TEST_F(Blender, OtherFormatsGoThroughIt) {
   for (const char* name : {"t.obj", "t.ply", "t.stl"}) {
     EXPECT_NE(info(folder_.path(name)).find("triangles      1 "), std::string::npos) << name;
   }
+}
+
+// In Blender's folders for users that this test makes.
+class BlenderAddOn : public Blender {
+ protected:
+  void SetUp() override {
+    Blender::SetUp();
+    for (const char* name : {"config", "scripts", "work"}) fs::create_directories(folder_.path(name));
+    setenv("BLENDER_USER_CONFIG", folder_.path("config").c_str(), 1);
+    setenv("BLENDER_USER_SCRIPTS", folder_.path("scripts").c_str(), 1);
+  }
+
+  // What Python says in Blender as the user has set it up. `say` prints a line that is kept.
+  std::string blender(const std::string& python, const std::string& file = "") const {
+    folder_.write("say.py", "import bpy, os\nout = open('" + folder_.path("said") +
+                                "', 'w')\ndef say(*words): print(*words, file=out, flush=True)\n" + python);
+    const Ran ran =
+        run_line("blender --background " + file + " --python-exit-code 1 --python " + folder_.path("say.py"));
+    EXPECT_EQ(ran.code, 0) << ran.out;
+    return folder_.read("said");
+  }
+};
+
+TEST_F(BlenderAddOn, RendersWhatIsOpen) {
+  const std::string file = make(R"(
+plane('floor', 20, (0, 0, 0), material('white'))
+light('lamp', 'POINT', (0, 0, 3), 100)
+fur = plane('fur', 1, (0, 3, 1), material('red', (1, 0, 0))); fur.modifiers.new('hair', 'PARTICLE_SYSTEM')
+fur.particle_systems[0].settings.type = 'HAIR'
+S.frame_start = 1; S.frame_end = 3; fur.keyframe_insert('location', frame=1); fur.location.x = 1
+fur.keyframe_insert('location', frame=3)
+world((0, 0, 0)); camera((0, 0, 1.6)); S.frame_set(2)
+)");
+  Ods install({"blender"});
+  ASSERT_EQ(install.finish(), 0) << install.err;
+  const std::string said = blender(R"(
+import sys
+add_on = sys.modules['omnistereo']
+settings = bpy.context.scene.omnistereo
+settings.quality = 'draft'; settings.width = 64; settings.output = ')" +
+                                       folder_.path("work") + R"('
+say('PANEL', add_on.OmnistereoPanel.is_registered, add_on.OmnistereoPanel.bl_context)
+bpy.context.scene.objects['floor'].name = 'renamed since it was saved'
+for kind in ('render', 'video'):
+    say(kind, bpy.ops.omnistereo.run(kind=kind), add_on.running.code, add_on.running.share, add_on.running.warnings)
+    say('TIME', '--time' in add_on.running.words, 'FOLDER', os.path.exists(add_on.running.folder))
+job = add_on.job.Job(['sleep', '1000'], add_on.job.private_folder())
+say('RUNNING', job.is_running())
+job.cancel(); job.wait(); say('CANCELLED', job.cancelled, job.is_running())
+settings.output = ')" + folder_.path("scene.blend") +
+                                       R"('
+try: bpy.ops.omnistereo.run(kind='render')
+except RuntimeError as error: say('ERROR', error)
+)",
+                                   file);
+  EXPECT_NE(said.find("PANEL True render\n"), std::string::npos) << said;
+  EXPECT_NE(said.find("render {'FINISHED'} 0 1.0 [\"hair of 'fur' does not come across"), std::string::npos) << said;
+  EXPECT_NE(said.find("video {'FINISHED'} 0 1.0 ["), std::string::npos) << said;
+  EXPECT_NE(said.find("TIME True FOLDER False\n"), std::string::npos) << "the frame that is shown\n" << said;
+  EXPECT_NE(said.find("RUNNING True\nCANCELLED True False\n"), std::string::npos) << said;
+  EXPECT_NE(said.find("ERROR Error: "), std::string::npos) << said;
+  EXPECT_TRUE(fs::exists(folder_.path("work/scene_360_TB.png")));
+  EXPECT_TRUE(fs::exists(folder_.path("work/scene_360_TB.mp4")));
+}
+
+// The archive that the build makes: as an add-on of Blender 3.4, and with what an extension of 4.2 must say.
+TEST_F(BlenderAddOn, TheArchiveInstalls) {
+  const std::string archive = fs::path(ODS_COMMAND).parent_path() / "omnistereo_blender.zip";
+  ASSERT_TRUE(fs::exists(archive)) << archive;
+  const std::string said = blender("archive = '" + archive + R"py('
+if bpy.app.version >= (4, 2, 0):
+    bpy.ops.extensions.package_install_files(filepath=archive, repo='user_default', enable_on_install=True)
+else:
+    bpy.ops.preferences.addon_install(filepath=archive)
+    bpy.ops.preferences.addon_enable(module='omnistereo')
+say('ENABLED', any(key.endswith('omnistereo') for key in bpy.context.preferences.addons.keys()))
+say('SETTINGS', bpy.context.scene.omnistereo.quality)
+import zipfile, tomllib
+with zipfile.ZipFile(archive) as file:
+    folders = {name.split('/')[0] for name in file.namelist()}
+    manifest = tomllib.loads(file.read('omnistereo/blender_manifest.toml').decode())
+say('FOLDERS', folders, any('__pycache__' in name for name in file.namelist()))
+needed = {'schema_version', 'id', 'version', 'name', 'tagline', 'maintainer', 'type', 'blender_version_min', 'license'}
+say('MISSING', needed - set(manifest), manifest['type'], manifest['blender_version_min'])
+says = [manifest['tagline'], *manifest['permissions'].values()]
+say('WORDS', all(len(text) <= 64 and text[-1].isalnum() for text in says))
+import sys; own = sys.modules['omnistereo'].bl_info['version'] if 'omnistereo' in sys.modules else None
+say('VERSION', own is None or '.'.join(map(str, own)) == manifest['version'])
+)py");
+  EXPECT_EQ(said,
+            "ENABLED True\nSETTINGS preview\nFOLDERS {'omnistereo'} False\nMISSING set() add-on 4.2.0\nWORDS True\n"
+            "VERSION True\n");
 }
 
 }  // namespace

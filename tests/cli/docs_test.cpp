@@ -131,7 +131,9 @@ std::set<std::string> options_in(const std::string& text) {
 class Pages : public ::testing::Test {
  protected:
   void SetUp() override {
+    fs::create_directory(folder.path("bin"));
     provide_cluster();
+    provide_blender();
     fs::create_directory(folder.path("home"));
     setenv("ASAN_OPTIONS", "detect_leaks=0", 0);  // as in cli_runner.h
     setenv("XDG_STATE_HOME", folder.path("home").c_str(), 1);
@@ -149,14 +151,24 @@ class Pages : public ::testing::Test {
     return "'" + std::regex_replace(text, std::regex("'"), "'\\''") + "'";
   }
 
+  void program(const std::string& name, const std::string& script) const {
+    folder.write("bin/" + name, "#!/bin/sh\n" + script + "\n");
+    fs::permissions(folder.path("bin/" + name), fs::perms::owner_all);
+  }
+
+  // A Blender that converts every scene to the same one, and takes every add-on.
+  void provide_blender() const {
+    folder.write("bin/scene.glb", scene());
+    program(
+        "blender",
+        "while [ \"$1\" != -- ]; do shift; done\nif [ -d \"$3\" ]; then\ncp " + folder.path("bin/scene.glb") +
+            " \"$3\"\necho '{\"omnistereo_bridge\": 1, \"camera\": {\"omnistereo_camera\": 1}}' >\"$3/bridge.json\"\n"
+            "fi\necho 'ods-bridge done 1' >&2");
+  }
+
   // A cluster that knows all jobs at once to be done.
   void provide_cluster() {
-    fs::create_directory(folder.path("bin"));
     const std::string queue = folder.path("bin/queue");
-    const auto program = [&](const std::string& name, const std::string& script) {
-      folder.write("bin/" + name, "#!/bin/sh\n" + script + "\n");
-      fs::permissions(folder.path("bin/" + name), fs::perms::owner_all);
-    };
     folder.write("bin/queue", "");
     program("squeue", "[ $1 != --json ] && cat " + queue);
     program("scontrol", "echo MaxArraySize = 1001");
@@ -245,6 +257,7 @@ class Pages : public ::testing::Test {
     if (kind.empty() || name.starts_with("-") || fs::exists(folder.path(name)) || !made_.insert(name).second) return;
     fs::create_directories(fs::path(folder.path(name)).parent_path());
     if (kind == ".glb") return folder.write(name, scene());
+    if (kind == ".blend") return folder.write(name, "BLENDER-v304");
     if (kind == ".zip") return provide_archive(name);
     if (kind == ".wav") return folder.write(name, ods::made::wav(4, 0.2));
     if (kind == ".txt") return folder.write(name, "0,1,-2\n");

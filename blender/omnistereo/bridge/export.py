@@ -10,7 +10,7 @@ import os
 
 import bpy
 
-from . import bake, camera, lights, materials, motion, prepare, world
+from . import bake, camera, lights, materials, means, motion, prepare, world
 from .glb import FLOAT, Glb
 from .places import local_place, parts
 from .report import Failure, Report, say
@@ -81,12 +81,17 @@ def _import(path):
 # --- exporting
 
 
-def _options():
+def _deforms(scene):
+    """Whether the exporter's own animations are needed: of joints and shape keys; motion.py has all else."""
+    return any(o.type == "ARMATURE" or getattr(o.data, "shape_keys", None) for o in scene.objects)
+
+
+def _options(scene):
     """Of the exporter, those that this version has."""
     wanted = {
         "export_format": "GLB", "use_renderable": True, "use_visible": False, "use_active_scene": True,
         "export_apply": True, "export_yup": True, "export_extras": True, "export_lights": False,
-        "export_cameras": False, "export_animations": True, "export_nla_strips": False,
+        "export_cameras": False, "export_animations": _deforms(scene), "export_nla_strips": False,
         "export_animation_mode": "ACTIVE_ACTIONS", "export_frame_range": True, "export_force_sampling": True,
         "export_colors": True, "export_texcoords": True, "export_normals": True, "export_tangents": False,
         "export_materials": "EXPORT", "export_image_format": "AUTO", "export_gn_mesh": False,
@@ -96,9 +101,9 @@ def _options():
     return {key: value for key, value in wanted.items() if key in known}
 
 
-def _run_exporter(path):
+def _run_exporter(path, scene):
     try:
-        bpy.ops.export_scene.gltf(filepath=path, **_options())
+        bpy.ops.export_scene.gltf(filepath=path, **_options(scene))
     except Exception as error:
         raise Failure(f"Blender's glTF exporter failed: {_first_line(error)}") from None
     if not os.path.exists(path):
@@ -114,7 +119,7 @@ def _nodes_by_mark(glb):
     return nodes
 
 
-def _materials(report, prepared, context, size):
+def _materials(report, prepared, context, size, folder):
     computed, strengths, translucent, scales = {}, {}, set(), {}
     used = {s.material for o in prepared.objects if o.type in prepare.MESHES and not o.hide_render
             for s in o.material_slots if s.material}
@@ -127,12 +132,13 @@ def _materials(report, prepared, context, size):
         keys = materials.computed_inputs(node)
         if keys:
             computed[material.name] = keys
+    shown = [o for o in prepared.objects if not o.hide_render]
     if computed and size > 0:
-        shown = [o for o in prepared.objects if not o.hide_render]
         done, left = bake.bake(context, shown, computed, size, report)
         for name in left:
             report.warn(f"material '{name}' could not be baked on something that deforms")
     elif computed:
+        means.use_means(context, shown, computed, folder)
         for name, keys in computed.items():
             report.warn(f"material '{name}': its {', '.join(keys)} "
                         f"{'are' if len(keys) > 1 else 'is'} computed by nodes; --bake 1024 makes pictures of them")
@@ -231,10 +237,10 @@ def export_scene(context, folder, size=0, report=None):
     prepared = prepare.prepare(context, report)
     materials.name_missing_pictures(report)
     report.step("reading materials", 0.15)
-    strengths, translucent, scales = _materials(report, prepared, context, size)
+    strengths, translucent, scales = _materials(report, prepared, context, size, folder)
     report.step("exporting", 0.55)
     path = os.path.join(folder, "scene.glb")
-    _run_exporter(path)
+    _run_exporter(path, scene)
     report.step("adding lights, camera and world", 0.8)
     glb = Glb(path)
     marks = _nodes_by_mark(glb)
@@ -257,6 +263,7 @@ def export_scene(context, folder, size=0, report=None):
     report.step("rendering the world", 0.95)
     environment = world.export_world(glb, scene, folder, report)
     _strip_extras(glb)
+    glb.json["asset"]["generator"] = f"Omnistereo's exporter in Blender {bpy.app.version_string}"
     glb.save(path)
     render = scene.render
     result = {

@@ -6,6 +6,7 @@ What has no place in glTF is named. What is computed by nodes is kept as a list,
 """
 import bpy
 
+from .groups import unpack_groups
 from .report import some
 
 # Inputs of the Principled BSDF that glTF has, by what Blender called them in 3.x and from 4.0 on.
@@ -138,20 +139,25 @@ def _mix(node):
             alpha = fac if first.clear else 1.0 - fac
             own = kept.get("alpha")
             kept.values["alpha"] = alpha * own if is_constant(own) else alpha
+        elif first.clear and kept.get("metallic") == 1.0:
+            # Gloss towards the edges and nothing else: a pane.
+            kept.values.update(metallic=0.0, transmission=1.0, ior=1.45)
         elif first.clear:
             kept.values["alpha"] = fac
         else:
             kept.values["alpha"] = ("inverse", fac)
         return kept
     if not is_constant(fac):
-        if fac.node.type in ("FRESNEL", "LAYER_WEIGHT"):
-            # The way to a dielectric before the Principled BSDF.
-            matt, gloss = (first, second) if second.get("metallic") == 1.0 else (second, first)
-            if matt.get("metallic") != 1.0 and gloss.get("metallic") == 1.0:
-                matt.values.update(specular=0.5, roughness=gloss.get("roughness"))
-                return matt
-        first.doubts.append(f"of the mix '{node.name}' only the first shader comes across")
-        return first
+        if fac.name == "Backfacing":
+            return first
+        if first.get("metallic") == 0.0 and second.get("metallic") == 1.0:
+            # The way to a dielectric before the Principled BSDF, and to a tinted pane.
+            first.values.update(specular=0.5, roughness=second.get("roughness"))
+            if first.get("ior") == 1.0:
+                first.values["ior"] = 1.45
+            return first
+        first.doubts.append(f"the mix '{node.name}' changes from place to place: it comes across as a mean")
+        fac = 0.1 if fac.name == "Fresnel" or fac.node.type == "FRESNEL" else 0.5
     if fac <= 0.0 or fac >= 1.0:
         return first if fac <= 0.0 else second
     major = first if fac < 0.5 else second
@@ -192,7 +198,7 @@ def look_of(socket):
         return _add(node)
     if node.type == "GROUP":
         look = Look()
-        look.doubts.append(f"the group '{node.node_tree.name if node.node_tree else node.name}' is a grey surface")
+        look.doubts.append(f"the group '{node.name}' is missing")
         return look
     return _simple(node)
 
@@ -220,6 +226,7 @@ def simplify(material, report):
     if not material.use_nodes or material.node_tree is None:
         return None
     tree = material.node_tree
+    unpack_groups(tree)
     output = output_of(tree)
     if output is None:
         return None

@@ -4,15 +4,16 @@
 import math
 import os
 
-import bpy
 import numpy as np
 from mathutils import Vector
 
 from .camera import panorama_of
 from .places import TO_GLTF, columns
+from .stage import Stage, pixels
 
 LARGEST = 4096
 USUAL = 1024
+SKY = 512  # as wide as Cycles' own table of a sky
 SUN_PIXELS = 64
 
 
@@ -58,55 +59,8 @@ def _nodes(world):
 
 def _width_of(nodes):
     widths = [n.image.size[0] for n in nodes if n.type == "TEX_ENVIRONMENT" and n.image and n.image.size[0] > 0]
-    return min(max(widths), LARGEST) if widths else USUAL
-
-
-class _Stage:
-    """An empty scene with that world and a camera."""
-
-    def __init__(self, world):
-        self.scene = scene = bpy.data.scenes.new("ods world")
-        scene.world = world
-        world.cycles.sampling_method = "NONE"  # nothing is lit by it here
-        self.data = bpy.data.cameras.new("ods world")
-        self.camera = bpy.data.objects.new("ods world", self.data)
-        scene.collection.objects.link(self.camera)
-        scene.camera = self.camera
-        self.camera.rotation_euler = (math.pi / 2, 0, 0)
-        render, cycles = scene.render, scene.cycles
-        render.engine = "CYCLES"
-        cycles.device = "CPU"
-        cycles.use_denoising = False
-        cycles.use_adaptive_sampling = False
-        cycles.max_bounces = 0
-        cycles.pixel_filter_type = "BOX"
-        cycles.sample_clamp_direct = 0
-        render.film_transparent = False
-        render.use_compositing = render.use_sequencer = False
-        render.resolution_percentage = 100
-        render.use_file_extension = False
-        image = render.image_settings
-        image.file_format, image.color_mode, image.color_depth, image.exr_codec = "OPEN_EXR", "RGB", "32", "ZIP"
-
-    def render(self, path, width, height, samples):
-        self.scene.render.resolution_x, self.scene.render.resolution_y = width, height
-        self.scene.cycles.samples = samples
-        self.scene.render.filepath = path
-        bpy.ops.render.render(write_still=True, scene=self.scene.name)
-
-    def remove(self):
-        bpy.data.scenes.remove(self.scene)
-        bpy.data.cameras.remove(self.data)
-
-
-def _pixels(path):
-    image = bpy.data.images.load(path, check_existing=False)
-    image.colorspace_settings.name = "Non-Color"
-    values = np.empty(len(image.pixels), np.float32)
-    image.pixels.foreach_get(values)
-    values = values.reshape(image.size[1], image.size[0], -1)[..., :3].astype(np.float64)
-    bpy.data.images.remove(image)
-    return values
+    is_sky = {n.type for n in nodes} == {"TEX_SKY", "BACKGROUND", "OUTPUT_WORLD"}
+    return min(max(widths), LARGEST) if widths else SKY if is_sky else USUAL
 
 
 def _sun_direction(node):
@@ -128,7 +82,7 @@ def _measure_sun(stage, node, folder):
         node.sun_disc = disc
         path = os.path.join(folder, "sun.exr")
         stage.render(path, SUN_PIXELS, SUN_PIXELS, 16)
-        pictures.append(_pixels(path))
+        pictures.append(pixels(path)[..., :3])
         os.remove(path)
     node.sun_disc = True
     at = (np.arange(SUN_PIXELS) + 0.5) / SUN_PIXELS * 2 - 1
@@ -170,7 +124,7 @@ def export_world(glb, scene, folder, report):
     output = next(n for n in world.node_tree.nodes if n.type == "OUTPUT_WORLD" and n.is_active_output)
     if output.inputs["Volume"].is_linked:
         report.warn("the world's volume does not come across")
-    stage = _Stage(world)
+    stage = Stage(world)
     skies = [n for n in nodes if n.type == "TEX_SKY" and hasattr(n, "sun_disc") and n.sun_disc
              and n.sky_type not in ("PREETHAM", "HOSEK_WILKIE")]
     for node in skies:
@@ -186,7 +140,7 @@ def export_world(glb, scene, folder, report):
     pano.longitude_min, pano.longitude_max = -math.pi, math.pi
     pano.latitude_min, pano.latitude_max = -math.pi / 2, math.pi / 2
     width = _width_of(nodes)
-    samples = 1 if "TEX_ENVIRONMENT" in kinds else 4
+    samples = 1 if kinds & {"TEX_ENVIRONMENT", "TEX_SKY"} else 4  # those are pictures themselves
     stage.render(os.path.join(folder, "world.exr"), width, width // 2, samples)
     stage.remove()
     return "world.exr"
