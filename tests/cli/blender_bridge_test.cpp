@@ -361,6 +361,21 @@ TEST_F(Blender, NamesWhatItCannotOpen) {
   EXPECT_EQ(kept, 0u);
 }
 
+TEST_F(Blender, NamesMissingPicturesAndGoesOn) {
+  const std::string picture = folder_.path("poster.png");
+  const std::string file = make("picture = '" + picture + R"('
+m = bpy.data.materials.new('poster'); m.use_nodes = True; t = m.node_tree
+i = bpy.data.images.new('poster', 4, 4); i.filepath_raw = picture; i.file_format = 'PNG'; i.save(); i.source = 'FILE'
+n = t.nodes.new('ShaderNodeTexImage'); n.image = i
+t.links.new(n.outputs[0], t.nodes['Principled BSDF'].inputs['Base Color']); plane('poster', 1, (0, 0, 0), m)
+)");
+  ASSERT_TRUE(fs::exists(picture));
+  EXPECT_EQ(info(file).find("cannot be found"), std::string::npos);
+  fs::remove(picture);
+  const std::string said = info(file);  // converted again, as a file that it reads has changed
+  EXPECT_NE(said.find("poster.png' cannot be found"), std::string::npos) << said;
+}
+
 TEST_F(Blender, OtherFormatsGoThroughIt) {
   folder_.write("t.obj", "o x\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   folder_.write("t.ply",
