@@ -325,6 +325,19 @@ t.links.new(x.outputs[0], t.nodes['Material Output'].inputs[0]); use('pane', pan
   EXPECT_EQ(material_of(scene, "pane").transmission, 1.0f);
 }
 
+TEST_F(Blender, WithoutNodesItIsMatt) {
+  const Scene scene = converted(make(R"(
+bpy.ops.mesh.primitive_plane_add(); bpy.context.object.name = 'bare'
+m = bpy.data.materials.new('old'); m.diffuse_color = (.8, .2, .3, 1); plane('old', 1, (0, 0, 0), m)
+)"));
+  for (const char* name : {"bare", "old"}) {
+    const Material material = material_of(scene, name);
+    EXPECT_NEAR(material.base_color.x, 0.8f, 1e-5f);
+    EXPECT_EQ(material.metallic, 0.0f);
+    EXPECT_EQ(material.roughness, 1.0f);
+  }
+}
+
 // Neither a text that Blender registers, nor a driver's expression.
 TEST_F(Blender, RunsNoPythonOfTheFile) {
   const std::string mark = folder_.path("mark");
