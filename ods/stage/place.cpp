@@ -79,7 +79,7 @@ CameraChoice camera_choice(std::string_view words) {
 static std::string speck_seen_by(const ViewPoint& camera, const Bounds& core) {
   const float distance = length(camera.position - 0.5f * (core.low + core.high));
   const float angle = glm::degrees(2.0f * std::atan2(0.5f * length(core.high - core.low), distance));
-  if (angle >= kSpeck) return "";
+  if (angle >= kSpeck || !(angle > 0.0f)) return "";  // 0: nothing can be seen at all
   return fmt::format("the file's camera '{}' sees all there is as a speck, {:.2g} degrees wide", camera.name, angle);
 }
 

@@ -325,6 +325,19 @@ t.links.new(x.outputs[0], t.nodes['Material Output'].inputs[0]); use('pane', pan
   EXPECT_EQ(material_of(scene, "pane").transmission, 1.0f);
 }
 
+TEST_F(Blender, WithoutNodesItIsMatt) {
+  const Scene scene = converted(make(R"(
+bpy.ops.mesh.primitive_plane_add(); bpy.context.object.name = 'bare'
+m = bpy.data.materials.new('old'); m.diffuse_color = (.8, .2, .3, 1); plane('old', 1, (0, 0, 0), m)
+)"));
+  for (const char* name : {"bare", "old"}) {
+    const Material material = material_of(scene, name);
+    EXPECT_NEAR(material.base_color.x, 0.8f, 1e-5f);
+    EXPECT_EQ(material.metallic, 0.0f);
+    EXPECT_EQ(material.roughness, 1.0f);
+  }
+}
+
 // Neither a text that Blender registers, nor a driver's expression.
 TEST_F(Blender, RunsNoPythonOfTheFile) {
   const std::string mark = folder_.path("mark");
@@ -359,6 +372,21 @@ TEST_F(Blender, NamesWhatItCannotOpen) {
     for (const auto& entry : fs::directory_iterator(folder_.path("cache/ods/scenes"))) kept += entry.exists() ? 1 : 0;
   }
   EXPECT_EQ(kept, 0u);
+}
+
+TEST_F(Blender, NamesMissingPicturesAndGoesOn) {
+  const std::string picture = folder_.path("poster.png");
+  const std::string file = make("picture = '" + picture + R"('
+m = bpy.data.materials.new('poster'); m.use_nodes = True; t = m.node_tree
+i = bpy.data.images.new('poster', 4, 4); i.filepath_raw = picture; i.file_format = 'PNG'; i.save(); i.source = 'FILE'
+n = t.nodes.new('ShaderNodeTexImage'); n.image = i
+t.links.new(n.outputs[0], t.nodes['Principled BSDF'].inputs['Base Color']); plane('poster', 1, (0, 0, 0), m)
+)");
+  ASSERT_TRUE(fs::exists(picture));
+  EXPECT_EQ(info(file).find("cannot be found"), std::string::npos);
+  fs::remove(picture);
+  const std::string said = info(file);  // converted again, as a file that it reads has changed
+  EXPECT_NE(said.find("poster.png' cannot be found"), std::string::npos) << said;
 }
 
 TEST_F(Blender, OtherFormatsGoThroughIt) {

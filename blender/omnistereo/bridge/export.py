@@ -121,8 +121,10 @@ def _nodes_by_mark(glb):
 
 def _materials(report, prepared, context, size, folder):
     computed, strengths, translucent, scales = {}, {}, set(), {}
-    used = {s.material for o in prepared.objects if o.type in prepare.MESHES and not o.hide_render
-            for s in o.material_slots if s.material}
+    shown = [o for o in prepared.objects if not o.hide_render]
+    meshes = [o for o in shown if o.type in prepare.MESHES]
+    materials.fill_slots(meshes)
+    used = {s.material for o in meshes for s in o.material_slots if s.material}
     for material in sorted(used, key=lambda m: m.name):
         if material.library:
             continue
@@ -132,7 +134,6 @@ def _materials(report, prepared, context, size, folder):
         keys = materials.computed_inputs(node)
         if keys:
             computed[material.name] = keys
-    shown = [o for o in prepared.objects if not o.hide_render]
     if computed and size > 0:
         done, left = bake.bake(context, shown, computed, size, report)
         for name in left:

@@ -221,10 +221,34 @@ def _set(tree, node, key, value):
         tree.links.new(value, socket)
 
 
+def _make_matt(material, color):
+    """What Cycles makes of a material without nodes."""
+    material.use_nodes = True
+    tree = material.node_tree
+    tree.nodes.clear()
+    diffuse, output = tree.nodes.new("ShaderNodeBsdfDiffuse"), tree.nodes.new("ShaderNodeOutputMaterial")
+    diffuse.inputs["Color"].default_value = color
+    tree.links.new(diffuse.outputs[0], output.inputs["Surface"])
+
+
+def fill_slots(objects):
+    """What has no material gets Cycles' own."""
+    plain = bpy.data.materials.new("no material")
+    _make_matt(plain, PLAIN["color"])
+    for each in objects:
+        try:
+            if not each.material_slots:
+                each.data.materials.append(plain)
+            for slot in each.material_slots:
+                slot.material = slot.material or plain
+        except (AttributeError, RuntimeError):
+            pass  # of a library
+
+
 def simplify(material, report):
-    """Leaves a Principled BSDF at the output, and returns it; None if the material has no nodes."""
+    """Leaves a Principled BSDF at the output, and returns it; None: there is no output."""
     if not material.use_nodes or material.node_tree is None:
-        return None
+        _make_matt(material, (*material.diffuse_color[:3], 1.0))
     tree = material.node_tree
     unpack_groups(tree)
     output = output_of(tree)
