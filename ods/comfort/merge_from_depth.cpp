@@ -79,14 +79,14 @@ Image merge_map_of(std::vector<float> shares) {
   for (int row = 0; row < kMergeRows; row++) {
     float value = at(row);
     for (int i = -kReach; i <= kReach; i++) value = std::min(value, at(row + i));
-    least.push_back(kSafety * value);
+    least.push_back(value < 1.0f ? kSafety * value : 1.0f);
   }
   Image map(kColumns, kMergeRows, 1);
   for (int row = 0; row < kMergeRows; row++) {
     float sum = 0.0f;
     for (int i = -kReach; i <= kReach; i++) sum += least[static_cast<size_t>(std::clamp(row + i, 0, kMergeRows - 1))];
     const float value = sum / (2 * kReach + 1);
-    for (int x = 0; x < kColumns; x++) map.at(x, row)[0] = value == kSafety ? 1.0f : value;
+    for (int x = 0; x < kColumns; x++) map.at(x, row)[0] = value;
   }
   return map;
 }
