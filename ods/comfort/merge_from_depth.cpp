@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kArcMinute = pi / 180.0 / 60.0;
 constexpr int kReach = 5;         // rows over which the curve is smoothed, to either side
+constexpr int kBetween = 2;       // rows more, for what lies between rows and between the pixels that were looked at
 constexpr float kSafety = 0.98f;  // eyes beside the middle see a little past the edges of what the middle sees
 constexpr int kColumns = 4;       // of the map, all alike
 
@@ -55,7 +56,7 @@ std::vector<float> comfortable_shares(const SeenDepth& seen, const Viewer& viewe
                     (static_cast<float>(y) + 0.5f) / static_cast<float>(seen.depth.height));
       const ViewDirection look = look_of(camera.projection, uv, uv);
       if (!look.seen || !(depth > 0.0f) || depth >= 0.1f * kFarDepth || radius == 0.0) continue;
-      const dvec3 point = dvec3(look.direction) * double{depth};
+      const glm::dvec3 point = glm::dvec3(look.direction) * double{depth};
       const double across = std::max(std::hypot(point.x, point.z), 1e-6);
       const Allowed own = allowed(across, point.y, radius, gaze, double{limit} * kArcMinute);
       float& least = shares[static_cast<size_t>(row_of(own.elevation))];
@@ -78,7 +79,7 @@ Image merge_map_of(std::vector<float> shares) {
   std::vector<float> least;
   for (int row = 0; row < kMergeRows; row++) {
     float value = at(row);
-    for (int i = -kReach; i <= kReach; i++) value = std::min(value, at(row + i));
+    for (int i = -kReach - kBetween; i <= kReach + kBetween; i++) value = std::min(value, at(row + i));
     least.push_back(value < 1.0f ? kSafety * value : 1.0f);
   }
   Image map(kColumns, kMergeRows, 1);
