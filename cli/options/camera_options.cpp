@@ -102,6 +102,7 @@ void add_place_options(Options& options, CameraOptions& camera) {
 }
 
 void add_camera_options(Options& options, CameraOptions& camera, const BlenderOptions& blender) {
+  camera.may_follow_depth = true;
   options.group("Camera");
   options.custom(
       "--camera-from", ValueKind::input_file(), "",

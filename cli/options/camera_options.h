@@ -22,6 +22,8 @@ struct CameraOptions {
   ods::StereoCamera stereo = usual_camera();  // the part that holds for every scene
   std::string merge_map;
   bool merge_map_inverted = false;
+  bool may_follow_depth = false;     // --merge auto is allowed: there is a scene to measure
+  std::optional<float> merge_limit;  // --merge auto: minutes of arc; the merge is found when the scene is there
   std::string head_tilt_map;
   std::string view_point;
   std::optional<ods::vec3> position;

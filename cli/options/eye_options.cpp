@@ -15,6 +15,7 @@
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/camera/camera_preset.h"
+#include "ods/comfort/merge_from_depth.h"
 #include "ods/image/image_file.h"
 #include "ods/image/tone.h"
 #include "ods/picture/metadata/sidecar.h"
@@ -63,6 +64,16 @@ PoleMergeSetting parse_merge(const std::string& name, const std::string& text) {
   }
   merge.mode = *mode;
   return merge;
+}
+
+// auto[,MINUTES]; nothing if it is not that.
+std::optional<float> parse_auto_merge(const std::string& text) {
+  const WordAndNumbers parts = split(text);
+  if (parts.word != "auto") return std::nullopt;
+  if (!parts.legal || parts.numbers.size() > 1) throw UsageError("--merge auto is auto or auto,MINUTES");
+  const float limit = parts.numbers.empty() ? ods::kFusionLimit : parts.numbers[0];
+  if (!(limit >= 1.0f && limit <= 600.0f)) throw UsageError("--merge auto takes 1 to 600 minutes of arc");
+  return limit;
 }
 
 // parallel, toe-in,METRES or shift,METRES
@@ -146,15 +157,21 @@ void add_circle_options(Options& options, CameraOptions& camera) {
   options.group("Eyes");
   add_field_option(options, "--ipd", stereo.ipd, CameraField::kIpd,
                    "distance between the eyes (interpupillary distance), metres");
-  const auto set_both = [&](const std::string& text) { stereo.top = stereo.bottom = parse_merge("--merge", text); };
+  const auto set_both = [&](const std::string& text) {
+    camera.merge_limit = camera.may_follow_depth ? parse_auto_merge(text) : std::nullopt;
+    if (!camera.merge_limit) stereo.top = stereo.bottom = parse_merge("--merge", text);
+  };
   const auto set_top = [&](const std::string& text) { stereo.top = parse_merge("--merge-top", text); };
   const auto set_bottom = [&](const std::string& text) { stereo.bottom = parse_merge("--merge-bottom", text); };
   const char* merge_unit = "MODE[,START[,END[,EXP]]]";
+  const char* automatic = camera.may_follow_depth ? "; auto[,MINUTES]: as much stereo as the scene's depth allows, so "
+                                                    "that eyes turn apart by no more than 25.6 minutes of arc"
+                                                  : "";
   options.custom(
       "--merge", merge_unit, same_merge(stereo.top, ods::kUsualMerge) ? "cosine,60,90,1" : "none,60,90,1", set_both,
       fmt::format("reduce the eye distance to 0 towards the poles, so that one can look up and down: {}; between the "
-                  "elevations START and END, degrees; EXP is the curve's exponent. none: the pure model",
-                  merge_names()));
+                  "elevations START and END, degrees; EXP is the curve's exponent. none: the pure model{}",
+                  merge_names(), automatic));
   options.custom("--merge-top", merge_unit, "", set_top, "the same for the upper pole only");
   options.custom("--merge-bottom", merge_unit, "", set_bottom, "the same for the lower pole only");
   options.text("--merge-map", ValueKind::input_file(), camera.merge_map,
@@ -207,6 +224,9 @@ static std::shared_ptr<const ods::Image> read_map(const std::string& path, float
 
 void finish_eye_options(CameraOptions& camera) {
   StereoCamera& stereo = camera.stereo;
+  if (camera.merge_limit && !camera.merge_map.empty()) {
+    throw UsageError("--merge auto and --merge-map exclude each other");
+  }
   const bool wanted = stereo.top.mode == ods::kMergeMap || stereo.bottom.mode == ods::kMergeMap;
   if (camera.merge_map.empty() && wanted && !stereo.merge_map)
     throw UsageError("--merge map needs a picture: --merge-map FILE");

@@ -23,6 +23,7 @@
 #include "ods/scene/builtin/builtin.h"
 #include "ods/scene/sheet_glass.h"
 #include "ods/scene/shutter.h"
+#include "ods/stage/comfortable_merge.h"
 #include "ods/stage/exposure.h"
 #include "ods/stage/place.h"
 
@@ -90,6 +91,14 @@ void note_straight_light(const RenderJob& job, const ods::Scene& scene) {
 }
 
 constexpr size_t kLooks = 5;  // at a video, spread evenly
+constexpr size_t kMergeLooks = 16;
+
+// Indices of so many frames, spread evenly; of fewer if there are fewer.
+std::set<size_t> looks_at(const std::vector<Frame>& frames, size_t count) {
+  std::set<size_t> chosen;
+  for (size_t i = 0; i < count; i++) chosen.insert((2 * i + 1) * frames.size() / (2 * count));
+  return chosen;
+}
 
 bool is_looked_at(const RenderJob& job) {
   return job.time.is_video || job.part || !keeps_light(job.output);
@@ -181,10 +190,8 @@ float FrameRenderer::choose_exposure(const std::vector<Frame>& frames) {
       note("exposure 0 and no tone curve, since the colours are shown as they are painted (--exposure, --tone)");
     return 0.0f;
   }
-  std::set<size_t> chosen;
-  for (size_t i = 0; i < kLooks; i++) chosen.insert((2 * i + 1) * frames.size() / (2 * kLooks));
   std::vector<ods::Picture> looks;
-  for (const size_t i : chosen) looks.push_back(first_look(frames[i]));
+  for (const size_t i : looks_at(frames, kLooks)) looks.push_back(first_look(frames[i]));
   const std::optional<float> stops = ods::suitable_exposure(looks);
   if (!stops) {
     warn("there is nothing to see: no light reaches the camera (--env 1 lights the scene, --position X,Y,Z moves it)");
@@ -198,6 +205,25 @@ float FrameRenderer::choose_exposure(const std::vector<Frame>& frames) {
   const std::string more = job_.brighter == 0.0f ? "" : fmt::format(" and --brighter {}", job_.brighter);
   note(fmt::format("exposure {:+} stops, from a first look at the light{} (--exposure {})", exposure, more, exposure));
   return exposure;
+}
+
+ods::Image FrameRenderer::find_merge(const std::vector<Frame>& frames) {
+  std::vector<float> shares(ods::kMergeRows, 1.0f);
+  for (const size_t i : looks_at(frames, kMergeLooks)) {
+    const std::vector<ods::StereoCamera> cameras = set_time(frames[i]);
+    ods::take_least(shares, ods::shares_seen(*renderer_, cameras[cameras.size() / 2], *job_.camera.merge_limit));
+  }
+  ods::Image map = ods::merge_map_of(std::move(shares));
+  const auto full = [&](int from, int step) {
+    int row = from;
+    while (row > 0 && row + 1 < map.height && map.at(0, row)[0] == 1.0f) row += step;
+    return std::abs(90 - row);
+  };
+  note(fmt::format(
+      "merge by depth: full stereo up to {} degrees up and {} down, {:.0f} % straight up, {:.0f} % straight "
+      "down",
+      full(89, -1), full(90, 1), 100.0f * map.at(0, 0)[0], 100.0f * map.at(0, map.height - 1)[0]));
+  return map;
 }
 
 // Options for a picture of the same kind that takes a 64th of the time; more where few pixels would tell little, and

@@ -61,6 +61,10 @@ class FrameRenderer {
   // keep the scene's light, with the one that they would be shown with.
   float find_exposure(const std::vector<Frame>& frames);
 
+  // The merge map of --merge auto, by what is seen in some of `frames`, in all of them as find_exposure() has them.
+  // Notes what it chose. Precondition: the job asks for it.
+  ods::Image find_merge(const std::vector<Frame>& frames);
+
   // Reads what keep_raw() has written, if it is there; else renders.
   RawFrame render_raw(const Frame& frame, const std::function<void(double done)>& report);
 

@@ -109,7 +109,8 @@ bool is_of_place(std::string_view setting) {
 }
 
 void add_camera(Settings& settings, const CameraOptions& camera) {
-  const auto& [rig, merge_map, merge_map_inverted, head_tilt_map, view_point, position, yaw, pitch, roll] = camera;
+  const auto& [rig, merge_map, merge_map_inverted, may_follow_depth, merge_limit, head_tilt_map, view_point, position,
+               yaw, pitch, roll] = camera;
   const auto chosen = [](const std::optional<float>& angle, const char* fallback) {
     return angle ? fmt::format("{}", *angle) : fallback;
   };
@@ -123,7 +124,11 @@ void add_camera(Settings& settings, const CameraOptions& camera) {
     if (is_of_place(name)) continue;
     add(settings, name == "aspect" ? "width over height" : fmt::format("--{}", name), value.empty() ? "none" : value);
   }
-  add_map(settings, "--merge-map", rig.merge_map, merge_map);
+  if (merge_limit) {
+    add_number(settings, "--merge auto", double{*merge_limit});  // the map follows from the scene
+  } else {
+    add_map(settings, "--merge-map", rig.merge_map, merge_map);
+  }
   add_map(settings, "--head-tilt-map", rig.head_tilt_map, head_tilt_map);
   add_flag(settings, "--left-handed", rig.mirrored);
 }

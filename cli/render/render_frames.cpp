@@ -134,6 +134,14 @@ void render_raw(FrameRenderer& renderer, const std::vector<Frame>& frames, const
   });
 }
 
+// --merge auto: the merge that the scene's depth allows. The renderer reads the job.
+void settle_merge(RenderJob& job, FrameRenderer& renderer, const std::vector<Frame>& all) {
+  if (!job.camera.merge_limit) return;
+  ods::StereoCamera& stereo = job.camera.stereo;
+  stereo.merge_map = std::make_shared<const ods::Image>(renderer.find_merge(all));
+  stereo.top.mode = stereo.bottom.mode = ods::kMergeMap;
+}
+
 void say_room(const RenderJob& job, const std::vector<Frame>& frames) {
   if (!asks_for_video(job.time) || frames.empty()) return;
   say_disk_room(job.output, frames.size(), largest_frame(job.output, job.render, job.save));
@@ -151,6 +159,7 @@ void render_job(const RenderJob& wanted, ProgressLines& lines) {
   if (frames.empty()) return;
   say_room(job, frames);
   FrameRenderer renderer(job, time, scene, all.front());
+  settle_merge(job, renderer, all);
   job.save.exposure = renderer.find_exposure(all);
   if (scene.as_painted && !gives(job, "--tone")) job.save.tone = ods::ToneCurve::kLinear;
   const auto start = std::chrono::steady_clock::now();
@@ -185,8 +194,9 @@ std::vector<int> frames_of(const RenderJob& job) {
   return video_frames(time);
 }
 
-RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
+RenderedFrames render_frames(const RenderJob& wanted, const StepReport& report,
                              const std::function<void(const std::vector<int>& frames)>& planned) {
+  RenderJob job = wanted;
   check_outputs(job);
   ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
   TimeOptions time = job.time;
@@ -199,6 +209,7 @@ RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
   const std::vector<Frame> frames = choose_frames(time, all);
   const bool shared = !time.only.empty();
   FrameRenderer renderer(job, time, scene, all.front());
+  if (!frames.empty()) settle_merge(job, renderer, all);
   const float exposure = renderer.find_exposure(all);
   if (!frames.empty()) {
     note(fmt::format("to render: {} frame{}, {}x{} per eye, at most {} samples per pixel", frames.size(),

@@ -51,6 +51,21 @@ TEST_F(ComfortCommand, ItsCuresCure) {
   EXPECT_EQ(code, 0);
 }
 
+// As much stereo as the limit allows, in the verdict before and after rendering.
+TEST_F(ComfortCommand, AMergeByDepthCuresWhatIsAboveAndBelow) {
+  const std::string words = "room --width 256 --merge auto,30";
+  const Json scene = judged(words);
+  EXPECT_LE(scene["most"]["vertical"], 30.5);
+  EXPECT_GE(scene["most"]["vertical"], 20.0);
+  const std::string picture = folder.path("picture.exr");
+  ASSERT_EQ(run("render " + words + " --samples 1 --sidecar -o " + picture), 0) << err;
+  EXPECT_NE(err.find("merge by depth: full stereo up to "), std::string::npos) << err;
+  const Json rendered = judged(picture);
+  EXPECT_NEAR(rendered["most"]["vertical"], scene["most"]["vertical"], 0.5);
+  EXPECT_EQ(run("comfort room --merge auto,0"), 2);
+  EXPECT_EQ(run("testcard -o " + folder.path("card.png") + " --merge auto"), 2);
+}
+
 TEST_F(ComfortCommand, TextNamesThingsAndWhatWouldDo) {
   EXPECT_EQ(run("comfort room --width 256 --position 1.9,0.5,0.4 --merge none"), 1);
   EXPECT_NE(out.find("m would do"), std::string::npos) << out;

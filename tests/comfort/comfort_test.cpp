@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "ods/base/error.h"
+#include "ods/comfort/merge_from_depth.h"
 #include "ods/picture/picture.h"
 
 namespace ods {
@@ -98,6 +99,31 @@ TEST(Comfort, MergesCount) {
   StereoCamera merged;
   merged.top = {kMergeCosine, 0.0f, 80.0f, 1.0f};
   EXPECT_LT(worst_level(judge_comfort(see(merged, kLeft, balls))), ComfortLevel::kError);
+}
+
+// With the merge that follows from depth nothing is above the limit, and what is far keeps its stereo.
+TEST(Comfort, TheMergeFromDepthKeepsTheLimit) {
+  const std::vector<Ball> low = {{vec3(0, 1.5f, 0), 0.3f}, {vec3(0, -2.0f, -0.5f), 0.4f}};
+  for (const float limit : {15.0f, kFusionLimit, 50.0f}) {
+    const Image map = merge_map_of(comfortable_shares(see(StereoCamera{}, kMono, low), {}, limit));
+    StereoCamera merged;
+    merged.top.mode = merged.bottom.mode = kMergeMap;
+    merged.merge_map = std::make_shared<const Image>(map);
+    for (const int eye : {kLeft, kRight}) {
+      const ComfortReport report = judge_comfort(see(merged, eye, low));
+      const double worst = report.most[static_cast<size_t>(Strain::kVertical)];
+      const StrainedPlace place = report.places.empty() ? StrainedPlace{} : report.places[0];
+      EXPECT_LE(worst, double{limit}) << place.name << " " << place.azimuth << " " << place.elevation;
+      EXPECT_GE(worst, 0.7 * double{limit}) << limit;
+    }
+    EXPECT_EQ(map.at(0, kMergeRows / 2)[0], 1.0f);
+    for (int row = 1; row < kMergeRows / 2; row++) {
+      EXPECT_GE(map.at(0, row)[0], map.at(0, row - 1)[0]);
+      EXPECT_LE(map.at(0, row)[0] - map.at(0, row - 1)[0], 0.1f) << "nothing jumps";
+    }
+  }
+  const Image free = merge_map_of(comfortable_shares(see(StereoCamera{}, kMono, {}), {}, kFusionLimit));
+  for (const float share : free.pixels) EXPECT_EQ(share, 1.0f);
 }
 
 TEST(Comfort, RulesAreOfTheDistance) {
