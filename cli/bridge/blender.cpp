@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 
 #include "cli/bridge/bridge_files.h"
@@ -116,11 +117,18 @@ std::string describe(const BlenderOptions& options) {
   return fmt::format("{} {} {}", find_blender(options), options.bake, exporter_number());
 }
 
+// A distribution's Blender takes its Python from the first python3 of PATH, and its own needs the system's modules: a
+// virtual environment's Python has no numpy.
+static std::string system_first() {
+  const char* path = std::getenv("PATH");
+  return fmt::format("PATH=/usr/local/bin:/usr/bin:/bin:{}", path ? path : "");
+}
+
 // Runs one of our scripts in Blender to its end. what: begins the message of an error.
 static void run_script(const BlenderOptions& options, const std::vector<std::string>& flags, const char* script,
                        const std::vector<std::string>& arguments, const std::string& what) {
   const fs::path path = fs::path(install_exporter()) / "omnistereo" / "bridge" / script;
-  std::vector<std::string> words = {find_blender(options), "--background", "--disable-autoexec"};
+  std::vector<std::string> words = {"env", system_first(), find_blender(options), "--background", "--disable-autoexec"};
   words.insert(words.end(), flags.begin(), flags.end());
   words.insert(words.end(), {"--python-exit-code", "4", "--python", path.native(), "--"});
   words.insert(words.end(), arguments.begin(), arguments.end());

@@ -98,6 +98,13 @@ TEST_F(Bridge, ConvertsOnceWhileTheFileIsTheSame) {
   EXPECT_EQ(runs(), 3u) << "another file";
 }
 
+// A virtual environment's python3 has nothing of what Blender's Python needs.
+TEST_F(Bridge, TheSystemsPythonComesFirst) {
+  answer(R"({"omnistereo_bridge": 1})", "case $PATH in /usr/local/bin:/usr/bin:/bin:*) ;; *) exit 1 ;; esac");
+  Ods ods(info());
+  EXPECT_EQ(ods.finish(), 0) << ods.err;
+}
+
 TEST_F(Bridge, ConvertsAgainWhenAPictureHasChanged) {
   const std::string picture = folder_ + "/wood.png";
   write(picture, "12345");
