@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How good denoised pictures look: denoise_quality_bench [FOLDER [SCENE]]. It renders what the folder lacks, so a
-// second run, with another denoiser, takes seconds. Results of other denoisers, or of an older one, that lie beside a
-// picture (room_16.exr: room_16.LABEL.exr) are judged in the same run.
+// How good denoised pictures look: denoise_quality_bench [FOLDER [SCENE|all [WIDTH SAMPLES]]]. It renders what the
+// folder lacks, so a second run, with another denoiser, takes seconds. WIDTH and SAMPLES (of A and B) take the place of
+// a scene's own. small-window and neon-street are files of build/release/kinds_of_scene FOLDER. Results of other
+// denoisers, or of an older one, that lie beside a picture (room_16.exr: room_16.LABEL.exr) are judged in the same run.
 //
 // shown: RMSE of what a screen shows, sRGB, at the exposure that ods render chooses. FLIP: tests/support/flip.h.
 // room_16c: with a light cache, as drafts have it. plain and edge: shown, of pixels without and with a step in normal
@@ -18,6 +19,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "bench/lit_scene.h"
 #include "bench/subjects.h"
 #include "ods/denoise/denoise.h"
 #include "ods/denoise/stored_noise.h"
@@ -46,7 +48,10 @@ constexpr Row kRows[] = {{"room", "", 256, 512},
                          {"atrium", "atrium.glb", 384, 256},
                          {"toys", "", 384, 256},
                          {"wineglass", "", 384, 256},
-                         {"mirrors", "", 384, 256}};
+                         {"mirrors", "", 384, 256},
+                         {"small-window", "small-window.glb", 256, 512},
+                         {"neon-street", "neon-street.glb", 256, 512},
+                         {"leafy", "leafy.glb", 256, 512}};
 
 constexpr int kCachePaths = 1 << 20;  // what a draft of a useful size fills its light cache with
 
@@ -67,7 +72,7 @@ std::optional<Opened> opened(const Row& row, const fs::path& folder, const std::
   if (!fs::exists(path)) {
     const std::string from = path_of(row, folder);
     if (*row.file && !fs::exists(from)) return {};
-    Scene scene = load_scene(from, {});
+    const Scene scene = *row.file ? lit_scene(from) : load_scene(from, {});
     StereoCamera camera;
     camera.position = default_view(scene).position;
     RenderOptions options;
@@ -250,8 +255,9 @@ int main(int argc, char** argv) {
   fs::create_directories(folder);
   fmt::print("{:14} {:8} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8} {:>7}\n", "", "", "shown", "plain", "edge", "blotch",
              "FLIP", "energy", "CPU s");
-  for (const Row& row : kRows) {
-    if (argc > 2 && std::string(argv[2]) != row.name) continue;
+  for (Row row : kRows) {
+    if (argc > 2 && std::string(argv[2]) != "all" && std::string(argv[2]) != row.name) continue;
+    if (argc > 4) row.width = std::stoi(argv[3]), row.samples = std::stoi(argv[4]);
     judge_row(row, folder);
   }
 }

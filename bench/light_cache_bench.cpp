@@ -17,13 +17,11 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "bench/lit_scene.h"
 #include "bench/measure.h"
 #include "bench/subjects.h"
 #include "ods/render/cpu/render.h"
 #include "ods/scene/builtin/builder.h"
-#include "ods/stage/light/lamp_unit.h"
-#include "ods/stage/light/supply.h"
-#include "ods/stage/place.h"
 
 namespace {
 
@@ -77,20 +75,6 @@ struct Subjected {
   Scene scene;
   StereoCamera camera;
 };
-
-// A file as ods render has it: with the light that it lacks.
-Scene lit_scene(const std::string& path) {
-  Scene scene = load_scene(path, {});
-  if (lamps_are_in_watts(scene)) scale_lamps(scene, 1.0 / kLumensPerWatt);
-  Survey seen;
-  LightPlan plan;
-  settle(scene, {}, [&](const SceneRays& rays, const Survey& survey) {
-    seen = survey;
-    plan = plan_light(rays, survey);
-  });
-  apply_light(scene, seen, plan);
-  return scene;
-}
 
 Subjected subject_of(const std::string& name) {
   if (name == "leaks") {

@@ -30,6 +30,14 @@ struct Neighbourhood {
   Neighbour list[kMost];
   int count = 0;
   float weight = 0.0f;
+  float squares = 0.0f;  // of the weights
+
+  // How much larger the errors of a fit are than its residual: its terms bend towards the pixels. Of all pixels with
+  // equal weights n / (n - terms).
+  float growth() const {
+    const float pixels = weight * weight / squares;
+    return pixels / std::max(pixels - static_cast<float>(kTerms), 1.0f);
+  }
 };
 
 vec3 three(const Block& block, Plane first, int at, int y) {
@@ -46,7 +54,7 @@ vec3 radiance_at(const Block& block, int at, int y) {
 }
 
 void look_around(const Block& block, int at, int y, Neighbourhood& around) {
-  around.count = 0, around.weight = 0.0f;
+  around.count = 0, around.weight = around.squares = 0.0f;
   const vec3 normal = three(block, kNormalX, at, y), albedo = three(block, kAlbedoR, at, y);
   for (int dy = -kReach; dy <= kReach; dy++) {
     for (int dx = -kReach; dx <= kReach; dx++) {
@@ -57,12 +65,12 @@ void look_around(const Block& block, int at, int y, Neighbourhood& around) {
       one.terms = {1.0f, dn.x, dn.y, dn.z, da.x, da.y, da.z};
       one.light = radiance_at(block, at + dx, y + dy);
       one.weight = window_weight(dx, dy) * (kLeastShare + block.row(kShare, y + dy)[at + dx]);
-      around.weight += one.weight;
+      around.weight += one.weight, around.squares += one.weight * one.weight;
     }
   }
 }
 
-// What the fit says at the middle, and its residual: mean of the channels. False if there is no fit.
+// What the fit says at the middle, and the variance of its errors: mean of the channels. False if there is no fit.
 bool fit(const Neighbourhood& around, vec3& middle, float& residual) {
   float matrix[kTerms][kTerms] = {};
   vec3 right[kTerms] = {};
@@ -97,7 +105,7 @@ bool fit(const Neighbourhood& around, vec3& middle, float& residual) {
     low = min(low, one.light), high = max(high, one.light);
   }
   middle = clamp(right[0], low, high);
-  residual = (squares.x + squares.y + squares.z) / (3.0f * around.weight);
+  residual = around.growth() * (squares.x + squares.y + squares.z) / (3.0f * around.weight);
   return true;
 }
 

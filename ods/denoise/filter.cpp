@@ -44,12 +44,14 @@ inline float alike_light(float distance, float own, float theirs) {
 
 // What is far noisier than the other is no sample of the same light: the silhouette of a lamp, of which nobody knows
 // how much a pixel shows. Neither takes from the other, or a lamp's light would be smeared around it.
-inline float alike_noise(float own, float theirs, bool is_wide) {
-  // In the narrowest pass a rare sample goes to its neighbours, or its light would be lost.
+inline float alike_noise(float own, float theirs, bool is_wide, float alike) {
+  // In the narrowest pass a rare sample goes to its neighbours of the same surface, or its light would be lost.
   constexpr float kMostRatio = 300.0f, kMostRatioBeside = 3000.0f;
   if (theirs == 0.0f) return 1.0f;  // exact
   if (own < 0.0f) return 1.0f;
-  return std::min((is_wide ? kMostRatio : kMostRatioBeside) * std::min(own, theirs) / (std::max(own, theirs) + 1e-30f),
+  const float square = alike * alike;
+  return std::min((is_wide ? kMostRatio : kMostRatioBeside * square * square) * std::min(own, theirs) /
+                      (std::max(own, theirs) + 1e-30f),
                   1.0f);
 }
 
@@ -57,7 +59,7 @@ void add_neighbours(const RowPair& pair, int count, float share, bool is_wide, S
   for (int x = 0; x < count; x++) {
     const float own = pair.own[kVariance][x], theirs = pair.next[kVariance][x];
     const float alike = feature_weight(squared_distance(pair, kNormalX, x), squared_distance(pair, kAlbedoR, x));
-    const float noise = alike_noise(own, theirs, is_wide);
+    const float noise = alike_noise(own, theirs, is_wide, alike);
     const float light = is_wide && theirs != 0.0f ? 1.0f : alike_light(squared_distance(pair, kRed, x), own, theirs);
     const float used = theirs >= 0.0f ? share * alike * light * noise : 0.0f;
     sums.weight[x] += used;
