@@ -51,7 +51,9 @@ FormatHint with_seen(const FormatHint& known, const StereoFormat& format, const 
   if (has_shape && !identity.is_sure() && !excludes_shape(identity, format)) return all;
   const Reading& best = identity.best();
   all.bars = identity.bars;
-  all.seen = SeenFormat{best.layout, best.projection, fmt::format("{} ({:.2f})", identity.reason, best.certainty)};
+  const std::string bars = identity.bars.any() ? ", inside black bars" : "";
+  all.seen =
+      SeenFormat{best.layout, best.projection, fmt::format("{}{} ({:.2f})", identity.reason, bars, best.certainty)};
   return all;
 }
 
