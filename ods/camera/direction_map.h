@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ods/base/extent.h"
+#include "ods/camera/projection.h"
 #include "ods/kernel/camera/projection.h"
 
 namespace ods {
@@ -45,6 +46,15 @@ std::string lens_fault(const FisheyeLens& lens, Extent picture);
 
 // Precondition: lens_fault() is empty.
 std::shared_ptr<const DirectionMap> make_map(const FisheyeLens& lens, Extent picture);
+
+// The part of an eye's picture that shows something; around it are black bars. Image positions.
+struct PicturePart {
+  vec2 corner{0.0f};  // left and top
+  vec2 size{1.0f};
+};
+
+// A projection, of no cube, in a part of the picture.
+std::shared_ptr<const DirectionMap> make_map(const ProjectionSetting& projection, const PicturePart& part);
 
 // A picture as the texture of a mesh around the viewer: what is on a triangle is seen in the direction of the triangle.
 struct TextureMesh {

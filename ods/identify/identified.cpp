@@ -50,7 +50,10 @@ FormatHint with_seen(const FormatHint& known, const StereoFormat& format, const 
   const bool has_shape = format.layout.source == LayoutSource::kShape;
   if (has_shape && !identity.is_sure() && !excludes_shape(identity, format)) return all;
   const Reading& best = identity.best();
-  all.seen = SeenFormat{best.layout, best.projection, fmt::format("{} ({:.2f})", identity.reason, best.certainty)};
+  all.bars = identity.bars;
+  const std::string bars = identity.bars.any() ? ", inside black bars" : "";
+  all.seen =
+      SeenFormat{best.layout, best.projection, fmt::format("{}{} ({:.2f})", identity.reason, bars, best.certainty)};
   return all;
 }
 
@@ -83,12 +86,36 @@ std::optional<Identity> identify_video(const std::string& path, uint64_t track, 
   return best;
 }
 
+// A picture of which nothing is likely is not taken for anything.
+static void refuse_unlikely(const std::string& path, const Identity& identity) {
+  if (identity.is_likely()) return;
+  throw Error(ErrorKind::kInput,
+              fmt::format("nothing tells what '{}' shows: it may be {}", path, doubt_text(identity)));
+}
+
+// Nor is one that shows nothing and has no shape to go by.
+static void refuse_shapeless(const std::string& path, const StereoFormat& format) {
+  if (format.layout.source != LayoutSource::kNothing) return;
+  throw Error(ErrorKind::kInput,
+              fmt::format("nothing tells what '{}' shows, and its pixels show too little: say it with "
+                          "--layout and --projection",
+                          path));
+}
+
 static FormatHint identified_picture(const std::string& path, const FormatHint& known,
                                      std::vector<std::string>& notes) {
   if (names_eye(path)) return known;
   const StereoFormat format = find_format(read_info(path), path, known);
   const std::optional<Identity> identity = identify_if_open(path, format, known);
   if (!identity) return known;
+  if (identity->readings.empty()) {
+    refuse_shapeless(path, format);
+    notes.emplace_back(
+        "taken for what its shape suggests, because its pixels show too little: if it is something else, "
+        "say which with --layout and --projection");
+    return known;
+  }
+  refuse_unlikely(path, *identity);
   if (const std::string doubt = doubt_text(*identity); !doubt.empty()) notes.push_back(doubt);
   return with_seen(known, format, *identity);
 }
@@ -104,6 +131,7 @@ static FormatHint identified_film(const std::string& path, const FormatHint& kno
   if (!is_told_by_shape(told, track, path)) return known;
   const std::optional<Identity> identity = identify_video(path, track.id, known);
   if (!identity || identity->readings.empty()) return known;
+  refuse_unlikely(path, *identity);
   if (!identity->is_sure()) {
     notes.push_back(doubt_text(*identity));
     return known;
@@ -113,6 +141,7 @@ static FormatHint identified_film(const std::string& path, const FormatHint& kno
   FormatHint all = known;
   all.layout = best.layout.value_or(Layout::kSeparate);
   all.projection = best.projection;
+  all.bars = identity->bars;
   return all;
 }
 

@@ -14,6 +14,7 @@
 #include "ods/camera/odd_halves.h"
 #include "ods/identify/eye_match.h"
 #include "ods/identify/marks.h"
+#include "ods/identify/others.h"
 #include "ods/identify/pairs.h"
 #include "ods/identify/thumbnail.h"
 
@@ -33,6 +34,8 @@ struct Cut {
   std::vector<Image> eyes;   // linear
   Image shown;               // of the first
   Marks marks;               // likewise
+  bool has_bars = false;     // black ones around the file
+  double broken = 0.0;       // as breaks_in_middle()
   double other_faces = 0.0;  // how surely it has faces of a cube in an order that is none of ours
   PointPairs pairs;          // of both
 };
@@ -113,6 +116,8 @@ std::vector<Cut> all_cuts(const StoredPicture& whole, const Thumbnail& thumbnail
   for (const Cut& cut : cuts) most = std::max(most, cut.two_eyes);
   cuts[0].two_eyes = -most;
   cuts[0].reason = "no two parts of it match";
+  const double broken = breaks_in_middle(shown(cuts[0].eyes[0]));
+  for (Cut& cut : cuts) cut.broken = broken;
   for (Cut& cut : cuts) {
     cut.shown = shown(cut.eyes[0]);
     const Image other = cut.eyes.size() == 2 ? shown(cut.eyes[1]) : Image();
@@ -127,12 +132,16 @@ std::vector<Cut> all_cuts(const StoredPicture& whole, const Thumbnail& thumbnail
 
 // A mark speaks for a reading or against it: as much as this, at most.
 constexpr double kEyes = 6.0, kCircle = 5.0, kBall = 2.5, kDome = 1.6, kPoles = 2.5, kSeam = 2.5, kFaces = 4.0;
+constexpr double kTurnedCube = 12.0, kBroken = 4.0;
+constexpr double kUnknownUp = 0.15;  // a cube of which nothing tells what is up is not ours, rather
 constexpr double kLevel = 0.25;  // of the likelihood of parallax: its pairs are not independent
 constexpr double kMostLevel = 12.0;
 constexpr int kManyPairs = 120;
 constexpr double kLeftFirst = 2.0;  // nearly everybody has the left eye first
 constexpr double kOrder = 7.0;
-constexpr double kOther = -3.0;  // a projection that is not ours
+constexpr double kOther = -3.0;                           // a projection that is not ours
+constexpr double kElse = 20.0;                            // what is known to circulate and none of these
+constexpr double kSqueezed = 0.84, kSqueezedLess = 0.94;  // aspects of vr180 in halves of 16:9
 
 // How usual it is, as a logarithm. eac-face, fisheye-polynomial: nobody's files are, without saying so.
 double usual(std::string_view projection) {
@@ -186,6 +195,7 @@ struct CubeMarks {
   int kind = kCube3x2;
   double joins = 0.0;   // as faces_join()
   double breaks = 0.0;  // as breaks_at_grid()
+  double y_up = 0.0;    // as y_up_mark()
 };
 
 std::vector<CubeMarks> marks_of_cubes(const Cut& cut, Extent whole) {
@@ -195,6 +205,8 @@ std::vector<CubeMarks> marks_of_cubes(const Cut& cut, Extent whole) {
     const int columns = width_step(named.setting);
     cubes.push_back(
         {named.setting.kind, faces_join(cut.shown, named.setting), breaks_at_grid(cut.shown, columns, 6 / columns)});
+    const bool is_strip = named.setting.kind == kCube6x1 || named.setting.kind == kCube1x6;
+    if (is_strip) cubes.back().y_up = y_up_mark(cut.shown, named.setting);
   }
   return cubes;
 }
@@ -209,6 +221,7 @@ void judge_projection(const Cut& cut, const std::vector<CubeMarks>& cubes, Candi
   for (const CubeMarks& cube : cubes) {
     if (cube.kind == kind) {
       add_reason(candidate, cube.joins, kFaces, "its faces join as a cube's");
+      candidate.odds -= std::max(cube.y_up + kUnknownUp, 0.0) * kTurnedCube;
     } else {  // also of a cube whose faces have another order
       candidate.odds -= std::max({0.0, cube.joins, is_cube(kind) ? 0.0 : cube.breaks}) * kFaces;
     }
@@ -265,8 +278,18 @@ double window_odds(double aspect) {
 // Where the picture breaks as between faces that no cube of ours joins.
 double other_faces_in(const std::vector<CubeMarks>& cubes) {
   double joins = 0.0, breaks = 0.0;
-  for (const CubeMarks& cube : cubes) joins = std::max(joins, cube.joins), breaks = std::max(breaks, cube.breaks);
-  return std::max(0.0, breaks - joins);
+  double turned = 0.0;
+  for (const CubeMarks& cube : cubes) {
+    joins = std::max(joins, cube.joins), breaks = std::max(breaks, cube.breaks);
+    turned = std::max(turned, std::min(cube.joins, 2.0 * cube.y_up));
+  }
+  return std::max({0.0, breaks - joins, turned});
+}
+
+// vr180 that was squeezed into a file of 16:9, as many programs export it.
+bool is_squeezed_half(const Cut& cut, const ProjectionSetting& setting, double aspect) {
+  return is_vr180(setting) && cut.how == EyePacking::kBeside && cut.two_eyes > 0.3 && !cut.has_bars &&
+         aspect > kSqueezed && aspect < kSqueezedLess;
 }
 
 void add_candidates(Cut& cut, Layout layout, const FormatHint& known, Extent file, std::vector<Candidate>& candidates) {
@@ -281,6 +304,8 @@ void add_candidates(Cut& cut, Layout layout, const FormatHint& known, Extent fil
     if (setting.kind == kPerspective) {
       setting.aspect = static_cast<float>(aspect);
       candidate.odds += window_odds(aspect);
+    } else if (is_squeezed_half(cut, setting, aspect)) {
+      candidate.odds -= 1.0;
     } else if (!known.projection && !fits_shape(setting, *eye)) {
       continue;
     }
@@ -292,6 +317,9 @@ void add_candidates(Cut& cut, Layout layout, const FormatHint& known, Extent fil
     if (layout != Layout::kSeparate) candidate.reading.layout = layout;
     const bool is_part = setting.kind == kLatLong && !is_full_lat_long(setting) && !is_vr180(setting);
     candidate.odds += (is_part ? -4.0 : usual(name)) + kEyes * cut.two_eyes;
+    if (layout == Layout::kSeparate && is_vr180(setting)) candidate.odds -= 2.0;  // square photographs are many
+    if (layout == Layout::kSeparate && !is_cube(setting.kind)) candidate.odds -= kBroken * std::max(0.0, cut.broken);
+    if (cut.how == EyePacking::kBeside) candidate.odds += 0.5 * kBroken * std::max(0.0, cut.broken);
     if (arrangement_of(layout).squeezed) candidate.odds -= 1.0;
     if (cut.two_eyes > 0.3 || layout == Layout::kSeparate) candidate.reason = cut.reason;
     judge_projection(cut, cubes, candidate);
@@ -322,11 +350,23 @@ void judge_parallax(const std::vector<Cut>& cuts, std::vector<Candidate>& candid
   }
 }
 
-// Something else is always possible: a projection that nobody here knows.
-void share_certainty(const std::vector<Cut>& cuts, std::vector<Candidate>& candidates) {
+// Two circles that show nothing in common.
+double front_and_back_mark(const std::vector<Cut>& cuts) {
+  double most = 0.0;
+  for (const Cut& cut : cuts) {
+    const bool is_halves = cut.how == EyePacking::kStacked || cut.how == EyePacking::kBeside;
+    if (!is_halves || cut.two_eyes >= 0.0 || cut.eyes.size() != 2) continue;
+    most = std::max(most, std::min(cut.marks.circle, marks_of(shown(cut.eyes[1])).circle) * -cut.two_eyes);
+  }
+  return most;
+}
+
+// Something else is always possible: a projection that nobody here knows. `seen`: how much it looks like something that
+// is known and none of these.
+void share_certainty(const std::vector<Cut>& cuts, double seen, std::vector<Candidate>& candidates) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.odds > b.odds; });
-  double sum = 0.0;
+  double sum = seen > 0.0 ? std::exp(kOther + kElse * seen - candidates[0].odds) : 0.0;
   for (const Cut& cut : cuts) {
     sum += std::exp(kOther + kEyes * cut.two_eyes + kFaces * cut.other_faces - candidates[0].odds);
   }
@@ -349,7 +389,7 @@ std::string reading_text(const Reading& reading) {
                      projection_name(reading.projection));
 }
 
-Identity identify(const StoredPicture& whole, const FormatHint& known) {
+static Identity identify_all(const StoredPicture& whole, const FormatHint& known, bool has_bars) {
   if (std::min(whole.size.width, whole.size.height) < kLeastSide) return {};
   const Thumbnail thumbnail = make_thumbnail(whole);
   std::vector<Candidate> candidates;
@@ -357,16 +397,53 @@ Identity identify(const StoredPicture& whole, const FormatHint& known) {
   Identity identity;
   if (cuts[0].marks.detail < kLeastDetail) return identity;
   for (Cut& cut : cuts) {
+    cut.has_bars = has_bars;
     for (const Layout layout : layouts_of(cut.how)) add_candidates(cut, layout, known, thumbnail.file, candidates);
   }
   if (candidates.empty()) return identity;
   judge_parallax(cuts, candidates);
-  share_certainty(cuts, candidates);
+  const double anaglyph = anaglyph_mark(whole, {thumbnail.light.width, thumbnail.light.height});
+  const double front_and_back = known.layout ? 0.0 : front_and_back_mark(cuts);
+  identity.is_anaglyph = anaglyph > kLikely, identity.is_front_and_back = front_and_back > kLikely;
+  share_certainty(cuts, std::max(anaglyph, front_and_back), candidates);
   identity.reason = candidates[0].reason;
   identity.has_other_faces = std::any_of(
       cuts.begin(), cuts.end(), [](const Cut& cut) { return cut.other_faces > kLikely && cut.two_eyes >= 0.0; });
   for (const Candidate& each : candidates) identity.readings.push_back(each.reading);
   return identity;
+}
+
+// Bars around a window belong to it: nothing else depends on where its edges are.
+static Identity with_bars_in_windows(Identity identity, Extent file) {
+  identity.bars = {};
+  for (Reading& reading : identity.readings) {
+    const std::optional<Extent> eye = whole_eye(reading.layout.value_or(Layout::kSeparate), file);
+    if (eye && reading.projection.kind == kPerspective)
+      reading.projection.aspect = static_cast<float>(eye->width) / static_cast<float>(eye->height);
+  }
+  return identity;
+}
+
+// Whether the reading is one that knows where its edges are.
+static bool is_whole(const Reading& reading) {
+  const ProjectionSetting& projection = reading.projection;
+  const EyeArrangement eyes = reading.layout ? arrangement_of(*reading.layout) : EyeArrangement();
+  return !is_cube(projection.kind) && projection.kind != kPerspective && projection_name(projection) != "eac-face" &&
+         (projection.kind != kLatLong || is_full_lat_long(projection) || is_vr180(projection)) &&
+         (!reading.layout || eyes.is_halves());
+}
+
+Identity identify(const StoredPicture& whole, const FormatHint& known) {
+  if (std::min(whole.size.width, whole.size.height) < kLeastSide) return {};
+  const Bars bars = bars_of(whole);
+  if (bars.any()) {
+    Identity inner = identify_all(without_bars(whole, bars), known, false);
+    inner.bars = bars;
+    if (inner.is_likely() && is_whole(inner.best())) return inner;
+    if (inner.is_likely() && inner.best().projection.kind == kPerspective)
+      return with_bars_in_windows(inner, whole.size);
+  }
+  return identify_all(whole, known, bars.any());
 }
 
 std::string doubt_text(const Identity& identity) {
@@ -378,7 +455,10 @@ std::string doubt_text(const Identity& identity) {
     if ((reading.certainty < kNamed && texts.size() >= 2) || texts.size() == kMostNamed) break;
     texts.push_back(fmt::format("{} ({:.2f})", reading_text(reading), reading.certainty));
   }
-  if (identity.has_other_faces) texts.push_back("faces of a cube in another order than ods has, to be reordered first");
+  if (identity.has_other_faces)
+    texts.emplace_back("faces of a cube in another order than ods has, to be reordered first");
+  if (identity.is_anaglyph) texts.emplace_back("an anaglyph, whose eyes cannot be taken apart again");
+  if (identity.is_front_and_back) texts.emplace_back("a front and a back fisheye, to be stitched first");
   return fmt::format("{}: say which with --layout and --projection", fmt::join(texts, " or "));
 }
 

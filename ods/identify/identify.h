@@ -31,7 +31,11 @@ std::string reading_text(const Reading& reading);
 struct Identity {
   std::vector<Reading> readings;  // the most certain first; empty: the pixels show nothing
   std::string reason;             // what speaks for the first: "its halves match, its corners are empty"
-  bool has_other_faces = false;   // it looks like faces of a cube in an order that is none of ours
+  Bars bars;                      // around what the readings are of
+  // What it looks like that is none of the readings.
+  bool has_other_faces = false;    // faces of a cube in an order that is none of ours
+  bool is_anaglyph = false;        // two eyes in the colours of one picture
+  bool is_front_and_back = false;  // two fisheyes that share nothing: one looks ahead, one behind
 
   const Reading& best() const { return readings.front(); }
   bool is_sure() const;    // nothing else comes into question
@@ -62,7 +66,8 @@ FormatHint with_seen(const FormatHint& known, const StereoFormat& format, const 
 std::optional<Identity> identify_video(const std::string& path, uint64_t track, const FormatHint& known = {});
 
 // `known` for commands that open a picture or a video, with what its pixels show where no word tells. `notes` gets what
-// is in doubt. Throws Error(kInput) as read_info(), read_video_file() and choose_track().
+// is in doubt. Throws Error(kInput) as read_info(), read_video_file() and choose_track(), and if pixels must tell and
+// nothing that they may show is likely.
 FormatHint identified(const std::string& path, const FormatHint& known, std::vector<std::string>& notes);
 
 // The readings that are in doubt, and the options of every command that decide, for messages; empty if one is sure:

@@ -22,7 +22,7 @@ namespace ods {
 
 // --- front and back --------------------------------------------------------------------------------------------------
 
-constexpr float kLeastAlike = 0.5f;
+constexpr float kLeastAlike = 0.5f, kLeastSame = 0.7f;
 
 static float sample(const Image& image, vec2 uv) {
   const float x = uv.x * static_cast<float>(image.width) - 0.5f, y = uv.y * static_cast<float>(image.height) - 0.5f;
@@ -42,6 +42,25 @@ struct Halves {
 
 }  // namespace
 
+namespace {
+
+class Correlation {
+ public:
+  void add(double a, double b) { count_++, a_ += a, b_ += b, aa_ += a * a, bb_ += b * b, ab_ += a * b; }
+  double count() const { return count_; }
+  // -1 if hardly anything differs.
+  float value() const {
+    const double va = aa_ / count_ - a_ * a_ / count_ / count_, vb = bb_ / count_ - b_ * b_ / count_ / count_;
+    if (!(va > 1e-4 && vb > 1e-4)) return -1.0f;
+    return static_cast<float>((ab_ / count_ - a_ * b_ / count_ / count_) / std::sqrt(va * vb));
+  }
+
+ private:
+  double count_ = 0.0, a_ = 0.0, b_ = 0.0, aa_ = 0.0, bb_ = 0.0, ab_ = 0.0;
+};
+
+}  // namespace
+
 // The correlation of what both lenses see beside them; -1 if that is nothing.
 static float alikeness(const Halves& halves, const std::vector<FisheyeLens>& lenses) {
   constexpr int kAround = 720, kAcross = 9;
@@ -50,21 +69,32 @@ static float alikeness(const Halves& halves, const std::vector<FisheyeLens>& len
   back.yaw += 180.0f;
   const auto first = make_map(lenses[0], size), second = make_map(back, size);
   const float most = 0.9f * glm::radians(0.5f * lenses[0].fov - 90.0f);  // the very rim is dark
-  double count = 0.0, a1 = 0.0, b1 = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
+  Correlation both;
   for (int i = 0; i < kAround * kAcross; i++) {
     const float around = 2.0f * kPi * static_cast<float>(i % kAround) / kAround;
     const float behind = most * (2.0f * static_cast<float>(i / kAround) / (kAcross - 1) - 1.0f);
     const vec3 d(std::cos(behind) * std::cos(around), std::cos(behind) * std::sin(around), std::sin(behind));
     const ImagePoint p = first->place(d), q = second->place(d);
     if (!p.seen || !q.seen) continue;
-    const double a = static_cast<double>(sample(halves.first, p.uv)),
-                 b = static_cast<double>(sample(halves.second, q.uv));
-    count++, a1 += a, b1 += b, aa += a * a, bb += b * b, ab += a * b;
+    both.add(static_cast<double>(sample(halves.first, p.uv)), static_cast<double>(sample(halves.second, q.uv)));
   }
-  if (count < kAround) return -1.0f;
-  const double va = aa / count - a1 * a1 / count / count, vb = bb / count - b1 * b1 / count / count;
-  if (!(va > 1e-4 && vb > 1e-4)) return -1.0f;
-  return static_cast<float>((ab / count - a1 * b1 / count / count) / std::sqrt(va * vb));
+  return both.count() < kAround ? -1.0f : both.value();
+}
+
+// The same of equal places in both circles: two eyes see nearly the same there.
+static float sameness(const Halves& halves, const std::vector<FisheyeLens>& lenses) {
+  constexpr int kSide = 64;
+  const vec2 size(static_cast<float>(halves.first.width), static_cast<float>(halves.first.height));
+  Correlation both;
+  for (int i = 0; i < kSide * kSide; i++) {
+    const vec2 off =
+        (vec2(static_cast<float>(i % kSide), static_cast<float>(i / kSide)) + 0.5f) / (0.5f * kSide) - 1.0f;
+    const vec2 p = (lenses[0].center + lenses[0].radius * off) / size;
+    const vec2 q = (lenses[1].center + lenses[1].radius * off) / size;
+    if (length(off) > 0.85f || !inside_picture(p) || !inside_picture(q)) continue;
+    both.add(static_cast<double>(sample(halves.first, p)), static_cast<double>(sample(halves.second, q)));
+  }
+  return both.count() > 0.0 ? both.value() : -1.0f;
 }
 
 static void set_fov(std::vector<FisheyeLens>& lenses, float fov) {
@@ -170,7 +200,8 @@ std::optional<SeenLenses> find_lenses(const Image& first, const Image& second, f
   std::vector<FisheyeLens> aligned = seen.lenses;
   seen.alike = align(halves, aligned);
   const PointPairs pairs = find_pairs(first, second);
-  const bool is_stereo = pairs.places > 0 && static_cast<double>(pairs.found.size()) > 0.3 * pairs.places;
+  const bool is_stereo = (pairs.places > 0 && static_cast<double>(pairs.found.size()) > 0.3 * pairs.places) ||
+                         sameness(halves, seen.lenses) > std::max(seen.alike, kLeastSame);
   seen.front_and_back = !is_stereo && seen.alike > kLeastAlike;
   if (!seen.front_and_back && !is_stereo && pairs.places > 0) return std::nullopt;
   if (!seen.front_and_back) return seen;

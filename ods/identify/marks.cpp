@@ -386,6 +386,11 @@ static double border_mark(const Image& eye, int x, int y, int dx, int dy, int le
   return joins.mark();
 }
 
+double breaks_in_middle(const Image& eye) {
+  if (eye.width < 16) return 0.0;
+  return -border_mark(eye, eye.width / 2, 0, 1, 0, eye.height);
+}
+
 double breaks_at_grid(const Image& eye, int columns, int rows) {
   if (eye.width < 8 * columns || eye.height < 8 * rows) return 0.0;
   const int wide = eye.width / columns, high = eye.height / rows;

@@ -38,4 +38,7 @@ double faces_join(const Image& eye, const ProjectionSetting& cube);
 // the horizon, and count as one border.
 double breaks_at_grid(const Image& eye, int columns, int rows);
 
+// Whether the picture breaks from top to bottom at its middle column, as two pictures beside each other do.
+double breaks_in_middle(const Image& eye);
+
 }  // namespace ods

@@ -13,10 +13,11 @@ namespace ods {
 
 namespace {
 
-// Fills a row of the file with luminance; NaN and light below 0 count as black.
+// Fills a row of the file with luminance, or with what `part` makes of its colours; NaN and light below 0 count as
+// black.
 using Rows = std::function<void(int y, std::vector<float>& row)>;
 
-Rows rows_of(const StoredPicture& whole) {
+Rows rows_of(const StoredPicture& whole, const std::function<float(vec3)>& part = luminance) {
   const LayerPixels& layer = whole.eyes[0].layers[0];
   const size_t step = bytes_of(layer.sample);
   const bool is_float = whole.is_float;
@@ -32,7 +33,7 @@ Rows rows_of(const StoredPicture& whole) {
         const float code = sample * static_cast<float>(largest) + 0.5f;
         rgb[c] = is_float ? sample : light[static_cast<size_t>(code)];
       }
-      value = std::max(0.0f, luminance(rgb));
+      value = std::max(0.0f, part(rgb));
       if (!std::isfinite(value)) value = 0.0f;
       at += layer.pixel_stride;
     }
@@ -117,7 +118,62 @@ void compare_neighbours(const Rows& rows, Thumbnail& thumbnail) {
   if (std::min(along, down) > 0.0) thumbnail.crossed = diagonal / std::min(along, down);
 }
 
+constexpr float kBlack = 0.07f;  // as a display shows it, with what codecs add
+
+// How much of a row or a column is not black.
+double lit_share(const std::vector<float>& lights) {
+  const auto lit = std::count_if(lights.begin(), lights.end(), [](float light) { return as_shown(light) > kBlack; });
+  return static_cast<double>(lit) / static_cast<double>(lights.size());
+}
+
+// How many of the first entries, looked at from both ends, are black, up to one where much is not.
+int bar_of(int count, const std::function<double(int)>& lit, bool from_end) {
+  constexpr double kNothing = 0.003, kMuch = 0.5;
+  constexpr int kBlurred = 4;
+  int bar = 0;
+  const auto at = [&](int i) { return lit(from_end ? count - 1 - i : i); };
+  while (bar < count / 3 && at(bar) <= kNothing) bar++;
+  for (int i = bar; i < bar + kBlurred; i++) {
+    if (at(i) >= kMuch) return bar;
+  }
+  return 0;
+}
+
+// Of both ends, if they are as wide.
+int bars_at_ends(int count, const std::function<double(int)>& lit) {
+  const int first = bar_of(count, lit, false), last = bar_of(count, lit, true), least = std::max(3, count / 100);
+  return std::min(first, last) >= least && std::abs(first - last) <= std::max(2, count / 200) ? std::min(first, last)
+                                                                                              : 0;
+}
+
 }  // namespace
+
+Bars bars_of(const StoredPicture& whole) {
+  constexpr int kRows = 200;
+  const Rows rows = rows_of(whole);
+  const Extent size = whole.size;
+  std::vector<float> row;
+  Bars bars;
+  bars.top = bars.bottom = bars_at_ends(size.height, [&](int y) {
+    rows(y, row);
+    return lit_share(row);
+  });
+  std::vector<double> lit(static_cast<size_t>(size.width));  // how many of some rows
+  for (int i = 0; i < kRows; i++) {
+    rows(bars.top + static_cast<int>(static_cast<int64_t>(size.height - 2 * bars.top) * i / kRows), row);
+    for (size_t x = 0; x < lit.size(); x++) lit[x] += as_shown(row[x]) > kBlack ? 1.0 / kRows : 0.0;
+  }
+  bars.left = bars.right = bars_at_ends(size.width, [&](int x) { return lit[static_cast<size_t>(x)]; });
+  return bars;
+}
+
+StoredPicture without_bars(const StoredPicture& whole, const Bars& bars) {
+  StoredPicture part = whole;
+  part.size = {whole.size.width - bars.left - bars.right, whole.size.height - bars.top - bars.bottom};
+  for (LayerPixels& layer : part.eyes[0].layers)
+    layer.first += bars.top * layer.row_stride + bars.left * layer.pixel_stride;
+  return part;
+}
 
 Thumbnail make_thumbnail(const StoredPicture& whole) {
   Thumbnail thumbnail;
@@ -129,6 +185,14 @@ Thumbnail make_thumbnail(const StoredPicture& whole) {
   if (whole.is_float) expose({&thumbnail.light});
   compare_neighbours(rows, thumbnail);
   return thumbnail;
+}
+
+std::vector<Image> color_parts(const StoredPicture& whole, Extent size) {
+  std::vector<Image> parts;
+  for (int c = 0; c < 3; c++)
+    parts.push_back(reduce(rows_of(whole, [c](vec3 rgb) { return rgb[c]; }), whole.size, size));
+  if (whole.is_float) expose({&parts[0], &parts[1], &parts[2]});
+  return parts;
 }
 
 std::vector<Image> interleaved_eyes(const StoredPicture& whole, Layout layout) {

@@ -3,6 +3,8 @@
 //
 // A picture file seen from afar: small and grey, with its halves and faces where the file has them.
 #pragma once
+#include <vector>
+
 #include "ods/camera/layout.h"
 #include "ods/picture/stored_picture.h"
 
@@ -29,6 +31,16 @@ Thumbnail make_thumbnail(const StoredPicture& whole);
 // Both eyes of a file whose neighbouring pixels are different eyes', reduced likewise. Precondition: the size of the
 // file allows that layout.
 std::vector<Image> interleaved_eyes(const StoredPicture& whole, Layout layout);
+
+// Its red, green and blue part, reduced to that size: linear, one channel each.
+std::vector<Image> color_parts(const StoredPicture& whole, Extent size);
+
+// Black bars at two opposite sides of a file, or at all four: equally wide at both, and with an edge to what they
+// surround. None: no sides have them. `whole` as in make_thumbnail().
+Bars bars_of(const StoredPicture& whole);
+
+// What bars leave of a file: a view into its pixels.
+StoredPicture without_bars(const StoredPicture& whole, const Bars& bars);
 
 // As a display shows it, 0..1.
 Image shown(const Image& light);

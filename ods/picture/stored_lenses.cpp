@@ -22,8 +22,26 @@ FisheyeLens inscribed_lens(Extent eye, float fov) {
   return lens;
 }
 
+// Where each eye is inside the bars that surround all of them.
+static void take_bars(StoredPicture& picture, const Bars& bars) {
+  const EyePacking how = arrangement_of(picture.layout).how;
+  const int across = how == EyePacking::kBeside ? 2 : 1, down = how == EyePacking::kStacked ? 2 : 1;
+  const Extent eye = picture.size;
+  const Extent left{(across * eye.width - bars.left - bars.right) / across,
+                    (down * eye.height - bars.top - bars.bottom) / down};
+  const vec2 whole(static_cast<float>(eye.width), static_cast<float>(eye.height));
+  picture.maps.clear();
+  for (int i = 0; i < static_cast<int>(picture.eyes.size()); i++) {
+    const EyeCorner own = eye_corner(picture.layout, eye, i), inner = eye_corner(picture.layout, left, i);
+    const vec2 corner(static_cast<float>(bars.left + inner.x - own.x), static_cast<float>(bars.top + inner.y - own.y));
+    const vec2 size(static_cast<float>(left.width), static_cast<float>(left.height));
+    picture.maps.push_back(make_map(picture.camera.projection, PicturePart{corner / whole, size / whole}));
+  }
+}
+
 void take_lenses(StoredPicture& picture, const FormatHint& known, const std::string& path) {
   constexpr float kUsualFov = 195.0f;  // of cameras that look ahead and back
+  if (known.bars.any()) return take_bars(picture, known.bars);
   if (known.lenses.empty() && !known.front_and_back) return;
   if (known.front_and_back && (picture.eyes.size() != 2 || !arrangement_of(picture.layout).is_halves())) {
     throw unreadable(path, "fisheyes that look ahead and back are two halves: --layout side-by-side or top-bottom");

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ods/base/error.h"
 #include "ods/identify/eye_match.h"
 #include "ods/identify/marks.h"
 #include "ods/identify/pairs.h"
@@ -177,6 +178,104 @@ TEST_F(Unknown, FacesInAnotherOrderAreTold) {
     EXPECT_FALSE(identity.is_sure()) << truth_text(truth);
     EXPECT_NE(doubt_text(identity).find("faces of a cube in another order"), std::string::npos);
     EXPECT_FALSE(identity_of(World::kCave, truth).has_other_faces) << truth_text(truth);
+  }
+}
+
+// Two eyes of vr180, as a file beside each other, changed by `change`.
+StoredPicture vr180_file(const TemporaryFolder& folder, World world, const std::function<Image(const Image&)>& change) {
+  Image both(1280, 640, 3);
+  for (const int eye : {kLeft, kRight}) {
+    StereoCamera camera;
+    camera.projection = named("vr180");
+    const Image own = seen_in(world, camera, eye, {640, 640}, true);
+    for (int y = 0; y < own.height; y++) std::copy_n(own.at(0, y), 3 * own.width, both.at(eye == kLeft ? 0 : 640, y));
+  }
+  const std::string path = folder.path("file.jpg");
+  Picture picture;
+  picture.eyes.resize(1);
+  picture.eyes[0].eye = kMono, picture.eyes[0].radiance = change(both);
+  SaveOptions options;
+  options.layout = Layout::kSeparate, options.tone = ToneCurve::kLinear;
+  save_picture(picture, options, path);
+  return open_unknown(path);
+}
+
+Image of_height(const Image& image, int height) {
+  Image result(image.width, height, 3);
+  for (int y = 0; y < height; y++) {
+    for (int x = 0; x < 3 * image.width; x++) {
+      const float at =
+          (static_cast<float>(y) + 0.5f) * static_cast<float>(image.height) / static_cast<float>(height) - 0.5f;
+      const int y0 = std::clamp(static_cast<int>(at), 0, image.height - 2);
+      result.at(0, y)[x] = std::lerp(image.at(0, y0)[x], image.at(0, y0 + 1)[x], at - static_cast<float>(y0));
+    }
+  }
+  return result;
+}
+
+TEST_F(Unknown, Vr180SqueezedInto16To9IsRecognised) {
+  for (const World world : kWorlds) {
+    const Identity seen = identify(vr180_file(folder, world, [](const Image& both) { return of_height(both, 720); }));
+    ASSERT_FALSE(seen.readings.empty());
+    EXPECT_EQ(reading_text(seen.best()), "side-by-side, vr180") << world_name(world);
+    EXPECT_FALSE(seen.bars.any());
+  }
+}
+
+TEST_F(Unknown, BlackBarsAreNoPartOfVr180) {
+  const auto with_bars = [](const Image& both) {
+    Image file(both.width, 720, 3);
+    std::copy(both.pixels.begin(), both.pixels.end(), file.at(0, 40));
+    return file;
+  };
+  for (const World world : kWorlds) {
+    const Identity seen = identify(vr180_file(folder, world, with_bars));
+    ASSERT_FALSE(seen.readings.empty());
+    EXPECT_EQ(reading_text(seen.best()), "side-by-side, vr180") << world_name(world);
+    EXPECT_NEAR(seen.bars.top, 40, 1) << world_name(world);
+    EXPECT_NEAR(seen.bars.bottom, 40, 1) << world_name(world);
+  }
+}
+
+// The cave's colours have nothing in common: its parts match nowhere.
+TEST_F(Unknown, AnaglyphsAreToldAndNothingElseIsOne) {
+  for (const World world : {World::kField, World::kHall}) {
+    StereoCamera camera;
+    camera.projection = named("perspective");
+    Image mixed = seen_in(world, camera, kRight, {640, 480}, true);
+    const Image left = seen_in(world, camera, kLeft, {640, 480}, true);
+    for (size_t i = 0; i < mixed.pixels.size(); i += 3) mixed.pixels[i] = left.pixels[i];
+    for (const bool is_anaglyph : {true, false}) {
+      const std::string path = folder.path("file.png");
+      write_unknown(path, {std::nullopt, named("perspective")},
+                    [&](int, const ProjectionSetting&, Extent) { return is_anaglyph ? mixed : left; }, {640, 480});
+      const Identity seen = identify(open_unknown(path));
+      EXPECT_EQ(seen.is_anaglyph, is_anaglyph) << world_name(world);
+      if (!is_anaglyph) continue;
+      EXPECT_FALSE(seen.is_likely()) << world_name(world);
+      std::vector<std::string> notes;
+      EXPECT_THROW(identified(path, {}, notes), Error);
+    }
+  }
+}
+
+// px nx py ny pz nz: our order, but of a world whose Y is up.
+TEST_F(Unknown, StripsOfAWorldWhoseYIsUpAreTold) {
+  for (const World world : kWorlds) {
+    for (const char* name : {"cube-6x1", "cube-1x6"}) {
+      for (const float pitch : {0.0f, 90.0f}) {
+        const TwoEyes eyes = [&](int eye, const ProjectionSetting& projection, Extent size) {
+          StereoCamera camera;
+          camera.projection = projection, camera.pitch = pitch;
+          return seen_in(world, camera, eye, size);
+        };
+        const std::string path = folder.path("file.jpg");
+        write_unknown(path, {std::nullopt, named(name)}, eyes, unknown_eye(named(name), 768));
+        const Identity seen = identify(open_unknown(path));
+        EXPECT_EQ(seen.is_sure(), pitch == 0.0f) << world_name(world) << " " << name;
+        EXPECT_EQ(doubt_text(seen).find("faces of a cube") != std::string::npos, pitch != 0.0f) << world_name(world);
+      }
+    }
   }
 }
 

@@ -56,6 +56,12 @@ struct SeenFormat {
   std::string reason;  // for messages
 };
 
+// How wide the black bars around what a file shows are, pixels of the file.
+struct Bars {
+  int left = 0, top = 0, right = 0, bottom = 0;
+  bool any() const { return left > 0 || top > 0 || right > 0 || bottom > 0; }
+};
+
 // What the caller knows. It takes precedence over everything in the file.
 struct FormatHint {
   bool one_eye = false;  // whatever its shape and name suggest
@@ -64,7 +70,8 @@ struct FormatHint {
   std::optional<ProjectionSetting> projection;  // of the camera, too
   std::vector<FisheyeLens> lenses;              // of each eye, or one for both; their projection is not ours then
   bool front_and_back = false;                  // the halves are fisheyes that look ahead and back: one eye
-  std::optional<SeenFormat> seen;               // this alone does not take precedence, but over the shape
+  Bars bars;                       // around all eyes together; their layout is no cube's and not interleaved
+  std::optional<SeenFormat> seen;  // this alone does not take precedence, but over the shape
 };
 
 struct StereoFormat {
