@@ -105,11 +105,12 @@ bool listen(int from, float seconds, Listener& listener) {
 }  // namespace
 
 std::string find_blender(const BlenderOptions& options) {
-  if (options.program.empty()) return has_program("blender") ? "blender" : "";
-  const bool is_path = options.program.find('/') != std::string::npos;
-  const bool runs = is_path ? access(options.program.c_str(), X_OK) == 0 && !fs::is_directory(options.program)
-                            : has_program(options.program);
-  if (runs) return options.program;
+  if (options.program.empty()) return program_path("blender");
+  if (options.program.find('/') == std::string::npos) {
+    if (const std::string found = program_path(options.program); !found.empty()) return found;
+  } else if (access(options.program.c_str(), X_OK) == 0 && !fs::is_directory(options.program)) {
+    return options.program;
+  }
   throw ods::Error(ods::ErrorKind::kInput, fmt::format("--blender: there is no program '{}'", options.program));
 }
 

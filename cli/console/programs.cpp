@@ -12,13 +12,17 @@
 
 #include "cli/console/spawn.h"
 
-bool has_program(const std::string& name) {
+std::string program_path(const std::string& name) {
   const char* const path = std::getenv("PATH");
   std::istringstream folders(path ? path : "/usr/bin:/bin");
   for (std::string folder; std::getline(folders, folder, ':');) {
-    if (access((folder + "/" + name).c_str(), X_OK) == 0) return true;
+    if (access((folder + "/" + name).c_str(), X_OK) == 0) return folder + "/" + name;
   }
-  return false;
+  return "";
+}
+
+bool has_program(const std::string& name) {
+  return !program_path(name).empty();
 }
 
 std::optional<ProgramResult> run_program(const std::vector<std::string>& words, ProgramErrors errors) {

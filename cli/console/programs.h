@@ -12,7 +12,8 @@ struct ProgramResult {
   std::string out;
 };
 
-// Whether there is a program of that name.
+// Where PATH finds a program of that name; empty: nowhere.
+std::string program_path(const std::string& name);
 bool has_program(const std::string& name);
 
 enum class ProgramErrors { kShown, kHidden };
