@@ -22,6 +22,7 @@
 
 #include "bench/measure.h"
 #include "ods/image/image_file.h"
+#include "ods/kernel/surface.h"
 
 namespace {
 
@@ -123,7 +124,7 @@ Image luminance(const Image& pair, int eye) {
   for (int y = 0; y < grey.height; y++) {
     for (int x = 0; x < grey.width; x++) {
       const float* const p = pair.at(x, y + eye * grey.height);
-      *grey.at(x, y) = 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
+      *grey.at(x, y) = ods::luminance(vec3(p[0], p[1], p[2]));
     }
   }
   return grey;

@@ -53,9 +53,7 @@ std::vector<Judged> look_at_scene(const ComfortJob& job, ods::StereoCamera& came
   options = ods::with_height(options, camera);
   const ods::CpuRenderer renderer(scene);
   if (job.camera.merge_limit) {
-    camera.merge_map = std::make_shared<const ods::Image>(
-        ods::merge_map_of(ods::shares_seen(renderer, camera, *job.camera.merge_limit)));
-    camera.top.mode = camera.bottom.mode = ods::kMergeMap;
+    ods::use_merge_map(camera, ods::merge_map_of(ods::shares_seen(renderer, camera, *job.camera.merge_limit)));
   }
   const Things things = things_of(scene);
   const std::vector<int> eyes = ods::eye_list(options.eyes);
@@ -84,12 +82,13 @@ std::vector<Judged> look_at_picture(const ComfortJob& job, ods::StereoCamera& ca
   }
   for (const std::string& guess : picture.guesses) note(guess);
   camera = picture.camera;
-  const std::vector<ods::Image> greys = ods::grey_eyes(picture);
+  const std::vector<ods::Image> greys = job.heat.empty() ? std::vector<ods::Image>() : ods::grey_eyes(picture);
   std::vector<Judged> all;
   for (size_t i = 0; i < picture.eyes.size(); i++) {
     Judged& judged = all.emplace_back();
     judged.seen = {
         camera, picture.eyes[i].eye, ods::nearest_of_blocks(ods::depth_of_eye(picture, i), kMostWidth), {}, {}};
+    if (greys.empty()) continue;
     const ods::Image& depth = judged.seen.depth;
     judged.grey = ods::Image(depth.width, depth.height, 1);
     for (int y = 0; y < depth.height; y++) {

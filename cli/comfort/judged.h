@@ -10,7 +10,7 @@
 
 struct Judged {
   ods::SeenDepth seen;
-  ods::Image grey;  // what the heat is painted over: 1 channel, 0..1
+  ods::Image grey;  // what the heat is painted over: 1 channel, 0..1; may be empty if no heat is wanted
 };
 
 // camera: becomes that of the scene or picture. Throws UsageError and ods::Error.

@@ -15,7 +15,7 @@
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/camera/camera_preset.h"
-#include "ods/comfort/merge_from_depth.h"
+#include "ods/comfort/strain.h"
 #include "ods/image/image_file.h"
 #include "ods/image/tone.h"
 #include "ods/picture/metadata/sidecar.h"
@@ -71,7 +71,7 @@ std::optional<float> parse_auto_merge(const std::string& text) {
   const WordAndNumbers parts = split(text);
   if (parts.word != "auto") return std::nullopt;
   if (!parts.legal || parts.numbers.size() > 1) throw UsageError("--merge auto is auto or auto,MINUTES");
-  const float limit = parts.numbers.empty() ? ods::kFusionLimit : parts.numbers[0];
+  const float limit = parts.numbers.empty() ? static_cast<float>(ods::kFusionLimit) : parts.numbers[0];
   if (!(limit >= 1.0f && limit <= 600.0f)) throw UsageError("--merge auto takes 1 to 600 minutes of arc");
   return limit;
 }
@@ -164,9 +164,12 @@ void add_circle_options(Options& options, CameraOptions& camera) {
   const auto set_top = [&](const std::string& text) { stereo.top = parse_merge("--merge-top", text); };
   const auto set_bottom = [&](const std::string& text) { stereo.bottom = parse_merge("--merge-bottom", text); };
   const char* merge_unit = "MODE[,START[,END[,EXP]]]";
-  const char* automatic = camera.may_follow_depth ? "; auto[,MINUTES]: as much stereo as the scene's depth allows, so "
-                                                    "that eyes turn apart by no more than 25.6 minutes of arc"
-                                                  : "";
+  const std::string automatic = camera.may_follow_depth
+                                    ? fmt::format(
+                                          "; auto[,MINUTES]: as much stereo as the scene's depth allows, so that eyes "
+                                          "turn apart by no more than {} minutes of arc",
+                                          ods::kFusionLimit)
+                                    : "";
   options.custom(
       "--merge", merge_unit, same_merge(stereo.top, ods::kUsualMerge) ? "cosine,60,90,1" : "none,60,90,1", set_both,
       fmt::format("reduce the eye distance to 0 towards the poles, so that one can look up and down: {}; between the "

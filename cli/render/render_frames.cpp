@@ -18,6 +18,7 @@
 #include "cli/render/forecast.h"
 #include "ods/camera/layout.h"
 #include "ods/files/frames.h"
+#include "ods/stage/comfortable_merge.h"
 
 using ods::FrameNames;
 
@@ -136,10 +137,7 @@ void render_raw(FrameRenderer& renderer, const std::vector<Frame>& frames, const
 
 // --merge auto: the merge that the scene's depth allows. The renderer reads the job.
 void settle_merge(RenderJob& job, FrameRenderer& renderer, const std::vector<Frame>& all) {
-  if (!job.camera.merge_limit) return;
-  ods::StereoCamera& stereo = job.camera.stereo;
-  stereo.merge_map = std::make_shared<const ods::Image>(renderer.find_merge(all));
-  stereo.top.mode = stereo.bottom.mode = ods::kMergeMap;
+  if (job.camera.merge_limit) ods::use_merge_map(job.camera.stereo, renderer.find_merge(all));
 }
 
 void say_room(const RenderJob& job, const std::vector<Frame>& frames) {

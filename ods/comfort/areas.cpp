@@ -2,15 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/comfort/areas.h"
 
-#include <algorithm>
-#include <cmath>
+#include "ods/picture/picture.h"
 
 namespace ods {
-
-// Neighbours on one surface, not on a thing and its background.
-static bool touch(float a, float b) {
-  return std::abs(a - b) <= 0.1f * std::max(a, b);
-}
 
 std::vector<int> connected_areas(const AreaGrid& grid) {
   std::vector<int> areas(grid.is_in.size(), -1);
@@ -18,7 +12,7 @@ std::vector<int> connected_areas(const AreaGrid& grid) {
   int count = 0;
   const auto width = static_cast<size_t>(grid.width);
   const auto enter = [&](size_t from, size_t to) {
-    if (areas[to] >= 0 || !grid.is_in[to] || !touch(grid.nearness[from], grid.nearness[to])) return;
+    if (areas[to] >= 0 || !grid.is_in[to] || !is_one_surface(grid.nearness[from], grid.nearness[to])) return;
     areas[to] = areas[from];
     open.push_back(to);
   };

@@ -82,10 +82,13 @@ class Judge {
     return camera_.projection.kind == kLatLong && std::abs(double{camera_.projection.span.x} - 2.0 * pi) < 1e-4;
   }
   double gaze() const { return double{options_.viewer.gaze_degrees} * kDegree; }
-  vec3 look_at(int x, int y) const {
-    const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(width_),
-                  (static_cast<float>(y) + 0.5f) / static_cast<float>(height_));
-    return look_of(camera_.projection, uv, uv).direction;
+  vec2 middle_of(int x, int y) const {
+    return {(static_cast<float>(x) + 0.5f) / static_cast<float>(width_),
+            (static_cast<float>(y) + 0.5f) / static_cast<float>(height_)};
+  }
+  ViewDirection look_at(int x, int y) const {
+    const vec2 uv = middle_of(x, y);
+    return look_of(camera_.projection, uv, uv);
   }
 
   const SeenDepth& seen_;
@@ -98,23 +101,22 @@ class Judge {
 
 double rule_distance(const ComfortOptions& options, double elevation) {
   if (options.rules == ComfortRules::kSafeSphere) return double{options.safe_radius};
-  return 0.6 + (3.5 - 0.6) * std::abs(std::sin(elevation));
+  return kGoogleAhead + (kGoogleAbove - kGoogleAhead) * std::abs(std::sin(elevation));
 }
 
 void Judge::place(int x, int y) {
   Point& point = at(x, y);
-  const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(width_),
-                (static_cast<float>(y) + 0.5f) / static_cast<float>(height_));
-  const ViewDirection look = look_of(camera_.projection, uv, uv);
+  const ViewDirection look = look_at(x, y);
   if (!look.seen) return;
   point.is_shown = true;
   point.elevation = std::asin(std::clamp(double{look.direction.y}, -1.0, 1.0));
   point.azimuth = azimuth_of(look.direction);
-  const vec3 right = look_at(x + (x + 1 < width_ ? 1 : -1), y), below = look_at(x, y + (y + 1 < height_ ? 1 : -1));
+  const vec3 right = look_at(x + (x + 1 < width_ ? 1 : -1), y).direction;
+  const vec3 below = look_at(x, y + (y + 1 < height_ ? 1 : -1)).direction;
   point.solid_angle = cross_length(right - look.direction, below - look.direction);
   const float depth = seen_.depth.at(x, y)[0];
-  if (!(depth > 0.0f) || depth >= 0.1f * kFarDepth) return;
-  const Ray ray = camera_ray(camera_, seen_.eye, uv);
+  if (!is_surface(depth)) return;
+  const Ray ray = camera_ray(camera_, seen_.eye, middle_of(x, y));
   const vec3 away = ray.origin + ray.direction * depth - camera_.center;
   const vec3 local(dot(away, camera_.right), dot(away, camera_.up), dot(away, camera_.back));
   const double half = point.half_parallax = half_parallax_of(camera_, seen_.eye, look, local);
@@ -138,10 +140,11 @@ void Judge::add_step(Point& point, const Point& beside) {
 
 // Each pixel against those a degree to its sides, above and below; the nearer one has the strain.
 void Judge::add_steps() {
+  const double least = limits_[static_cast<size_t>(Strain::kStep)].caution * kDegree;
   for (int y = 0; y < height_; y++) {
     for (int x = 0; x < width_; x++) {
       Point& point = at(x, y);
-      if (!(point.vergence > strain_limits(Strain::kStep, options_.viewer).caution * kDegree)) continue;
+      if (!(point.vergence > least)) continue;
       const double side = std::sqrt(std::max(point.solid_angle, 1e-12));  // of a pixel
       const int reach = std::clamp(static_cast<int>(std::lround(kDegree / side)), 1, width_ / 4 + 1);
       for (const int to : {x - reach, x + reach}) {
@@ -187,9 +190,7 @@ double Judge::circle_for(const Point& point) const {
   const double circle = point.across * std::sin(point.half_parallax);
   double share = 1.0;
   for (int i = 0; i < 8; i++) {
-    const double radius = share * circle;
-    const double half = std::asin(radius / point.across);
-    const double elevation = std::atan2(point.height, std::sqrt(point.across * point.across - radius * radius));
+    const auto [half, elevation] = seen_from_circle(share * circle, point.across, point.height);
     const double near = vergence_dioptres(vergence(half, elevation), options_.viewer);
     const double vertical = worst_vertical_disparity(half, elevation, gaze()) / kArcMinute;
     const double over = std::max(near / limit(Strain::kNear), vertical / limit(Strain::kVertical));

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <utility>
 
 #include "ods/picture/picture.h"
 
@@ -35,8 +37,9 @@ Allowed allowed(double across, double height, double radius, double gaze, double
   Allowed result;
   for (int i = 0; i < 8; i++) {
     const double circle = std::min(result.share * radius, 0.999 * across);
-    result.elevation = std::atan2(height, std::sqrt(across * across - circle * circle));
-    const double worst = worst_vertical_disparity(std::asin(circle / across), result.elevation, gaze);
+    const CircleView view = seen_from_circle(circle, across, height);
+    result.elevation = view.elevation;
+    const double worst = worst_vertical_disparity(view.half_parallax, view.elevation, gaze);
     result.share = std::min({1.0, result.share, worst > 0.0 ? circle / radius * limit / worst : 1.0});
   }
   return result;
@@ -55,7 +58,7 @@ std::vector<float> comfortable_shares(const SeenDepth& seen, const Viewer& viewe
       const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(seen.depth.width),
                     (static_cast<float>(y) + 0.5f) / static_cast<float>(seen.depth.height));
       const ViewDirection look = look_of(camera.projection, uv, uv);
-      if (!look.seen || !(depth > 0.0f) || depth >= 0.1f * kFarDepth || radius == 0.0) continue;
+      if (!look.seen || !is_surface(depth) || radius == 0.0) continue;
       const glm::dvec3 point = glm::dvec3(look.direction) * double{depth};
       const double across = std::max(std::hypot(point.x, point.z), 1e-6);
       const Allowed own = allowed(across, point.y, radius, gaze, double{limit} * kArcMinute);
@@ -68,6 +71,11 @@ std::vector<float> comfortable_shares(const SeenDepth& seen, const Viewer& viewe
 
 void take_least(std::vector<float>& shares, const std::vector<float>& others) {
   for (size_t i = 0; i < shares.size(); i++) shares[i] = std::min(shares[i], others[i]);
+}
+
+void use_merge_map(StereoCamera& camera, Image map) {
+  camera.merge_map = std::make_shared<const Image>(std::move(map));
+  camera.top.mode = camera.bottom.mode = kMergeMap;
 }
 
 // The least within reach of each row, and then the mean of these, which is no more than what the row itself allows.

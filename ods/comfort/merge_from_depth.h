@@ -10,8 +10,7 @@
 
 namespace ods {
 
-inline constexpr int kMergeRows = 180;        // of elevations, from the zenith down
-inline constexpr float kFusionLimit = 25.6f;  // minutes of arc: the usual limit (kStrainTable)
+inline constexpr int kMergeRows = 180;  // of elevations, from the zenith down
 
 // The share of the eye distance for each elevation with which no point of `seen` is above the limit (minutes of arc, as
 // worst_vertical_disparity()). Where nothing is seen: 1. Precondition: seen.eye is kMono, the camera is level.
@@ -19,6 +18,9 @@ std::vector<float> comfortable_shares(const SeenDepth& seen, const Viewer& viewe
 
 // The least of both, row by row.
 void take_least(std::vector<float>& shares, const std::vector<float>& others);
+
+// Merges both poles by this map.
+void use_merge_map(StereoCamera& camera, Image map);
 
 // For StereoCamera::merge_map: no more than the shares, never growing towards a pole, and smooth: what is flat is not
 // seen to bend.

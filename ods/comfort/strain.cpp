@@ -25,8 +25,7 @@ StrainLimits near_limits(const Viewer& viewer) {
   const double at_focus = 2.0 * std::atan(0.5 * focus * double{viewer.ipd});
   const double one_degree = vergence_dioptres(at_focus + kDegree, viewer);
   const double zone = nearest_in_zone(focus);
-  constexpr double kGoogle = 1.0 / 0.6;
-  return {std::min(one_degree, zone), zone, std::max(zone, kGoogle)};
+  return {std::min(one_degree, zone), zone, std::max(zone, 1.0 / kGoogleAhead)};
 }
 
 // The yaw up to which a head may be turned away from the point.
@@ -41,7 +40,7 @@ StrainLimits strain_limits(Strain strain, const Viewer& viewer) {
     case Strain::kNear:
       return near_limits(viewer);
     case Strain::kVertical:
-      return {15.0, 25.6, 60.0};
+      return {15.0, kFusionLimit, 60.0};
     case Strain::kStep:
       return {1.84, 3.05, kNever};
     case Strain::kRule:
@@ -54,6 +53,10 @@ ComfortLevel level_of(double value, const StrainLimits& limits) {
   if (value > limits.error) return ComfortLevel::kError;
   if (value > limits.warning) return ComfortLevel::kWarning;
   return value > limits.caution ? ComfortLevel::kCaution : ComfortLevel::kOk;
+}
+
+CircleView seen_from_circle(double radius, double across, double height) {
+  return {std::asin(radius / across), std::atan2(height, std::sqrt(across * across - radius * radius))};
 }
 
 double vergence(double half_parallax, double elevation) {

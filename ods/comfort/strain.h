@@ -69,12 +69,22 @@ inline constexpr NameRow<ComfortLevel> kComfortLevelTable[] = {
 static_assert(has_every_member(kComfortLevelTable));
 inline constexpr auto kComfortLevels = members_of(kComfortLevelTable);
 
+inline constexpr double kFusionLimit = 25.6;                     // minutes of arc: kVertical is a warning beyond
+inline constexpr double kGoogleAhead = 0.6, kGoogleAbove = 3.5;  // metres: Google's least distances
+
 // The values from which on a strain has a level; infinite: never.
 struct StrainLimits {
   double caution, warning, error;
 };
 StrainLimits strain_limits(Strain strain, const Viewer& viewer);
 ComfortLevel level_of(double value, const StrainLimits& limits);
+
+// Where the eyes of a circle of this radius show a point, at the distance `across` from its axis, which is larger, and
+// `height` above its plane.
+struct CircleView {
+  double half_parallax, elevation;
+};
+CircleView seen_from_circle(double radius, double across, double height);
 
 // The angle between the eyes' lines of sight when they look at the point; negative if they must diverge.
 double vergence(double half_parallax, double elevation);

@@ -28,7 +28,7 @@ static float depth_at(const Reprojection& reprojection, const Texel& texel) {
 // Depths are compared as 1/metres: nearly linear over the picture of a plane, and 0 where the ray hit nothing.
 static float nearness_at(const Reprojection& reprojection, const Texel& texel) {
   const float depth = depth_at(reprojection, texel);
-  return depth > 0.0f && depth < 0.1f * kFarDepth ? 1.0f / depth : 0.0f;
+  return is_surface(depth) ? 1.0f / depth : 0.0f;
 }
 
 std::optional<size_t> depth_layer(const StoredPicture& picture) {
@@ -64,11 +64,6 @@ Reprojection make_reprojection(const Source& source) {
   }
   reprojection.nearest = std::max(1.0f / largest, 0.01f);
   return reprojection;
-}
-
-// Whether two neighbours are on one surface, not on an object and its background.
-static bool is_one_surface(float a, float b) {
-  return std::abs(a - b) <= 0.1f * std::max(a, b);
 }
 
 // Interpolates between texels of one surface; otherwise takes the nearest texel.

@@ -40,10 +40,6 @@ struct Halves {
   const Image& second;
 };
 
-}  // namespace
-
-namespace {
-
 class Correlation {
  public:
   void add(double a, double b) { count_++, a_ += a, b_ += b, aa_ += a * a, bb_ += b * b, ab_ += a * b; }

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "ods/base/median.h"
 #include "ods/camera/projection.h"
 #include "ods/identify/pairs.h"
 
@@ -23,8 +25,7 @@ static double aside(const Image& one, const Image& other) {
   if (pairs.found.size() < kLeast) return 0.0;
   std::vector<float> heights;
   for (const PointPair& pair : pairs.found) heights.push_back(pair.right.y - pair.left.y);
-  std::nth_element(heights.begin(), heights.begin() + static_cast<ptrdiff_t>(heights.size() / 2), heights.end());
-  const float height = heights[heights.size() / 2];
+  const float height = median(std::move(heights));
   const auto moved = std::count_if(pairs.found.begin(), pairs.found.end(), [&](const PointPair& pair) {
     const vec2 way = pair.right - pair.left;
     const bool is_level = std::abs(way.x) > kAside && std::abs(way.y) < kLevel;

@@ -3,6 +3,8 @@
 //
 // A renderer's result: each eye is a separate image, so that no pixel mixes the two.
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "ods/image/image.h"
@@ -18,6 +20,16 @@ enum class LayerRule {
 
 // Depth of a ray that hit nothing.
 inline constexpr float kFarDepth = 1e10f;
+
+// Whether a depth is that of a surface: not of a ray that hit nothing, and not invalid (NaN, 0 or less).
+inline bool is_surface(float depth) {
+  return depth > 0.0f && depth < 0.1f * kFarDepth;
+}
+
+// Whether neighbours are on one surface, not on a thing and its background. Both as 1 / metres, 0 where there is none.
+inline bool is_one_surface(float a, float b) {
+  return std::abs(a - b) <= 0.1f * std::max(a, b);
+}
 
 struct EyeImage {
   int eye = 0;     // kLeft, kRight or kMono (ods/kernel/camera/camera.h)

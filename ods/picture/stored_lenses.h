@@ -14,8 +14,8 @@ FisheyeLens inscribed_lens(Extent eye, float fov);
 
 // Gives the picture the lenses that the caller knows (FormatHint::lenses, front_and_back), if any: its maps, and as its
 // projection the front half or, if they look ahead and back, the whole sphere of one eye. Black bars (FormatHint::bars)
-// become maps of what they leave. Throws Error(kInput): circles
-// outside the picture; not two halves, if they look ahead and back.
+// become maps of what they leave. Throws Error(kInput): circles outside the picture; not two halves, if they look ahead
+// and back.
 void take_lenses(StoredPicture& picture, const FormatHint& known, const std::string& path);
 
 }  // namespace ods

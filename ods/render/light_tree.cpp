@@ -84,11 +84,7 @@ struct Split {
 
 Split best_split(std::span<const TreeLight> lights) {
   dvec3 low = middle_of(lights[0]), high = low;
-  Group all;
-  for (const TreeLight& light : lights) {
-    low = glm::min(low, middle_of(light)), high = glm::max(high, middle_of(light));
-    all.add(group_of(light));
-  }
+  for (const TreeLight& light : lights) low = glm::min(low, middle_of(light)), high = glm::max(high, middle_of(light));
   const dvec3 size = high - low;
   const double longest = std::max({size.x, size.y, size.z});
   Split best;

@@ -104,11 +104,10 @@ TEST(Comfort, MergesCount) {
 // With the merge that follows from depth nothing is above the limit, and what is far keeps its stereo.
 TEST(Comfort, TheMergeFromDepthKeepsTheLimit) {
   const std::vector<Ball> low = {{vec3(0, 1.5f, 0), 0.3f}, {vec3(0, -2.0f, -0.5f), 0.4f}};
-  for (const float limit : {15.0f, kFusionLimit, 50.0f}) {
+  for (const float limit : {15.0f, static_cast<float>(kFusionLimit), 50.0f}) {
     const Image map = merge_map_of(comfortable_shares(see(StereoCamera{}, kMono, low), {}, limit));
     StereoCamera merged;
-    merged.top.mode = merged.bottom.mode = kMergeMap;
-    merged.merge_map = std::make_shared<const Image>(map);
+    use_merge_map(merged, map);
     for (const int eye : {kLeft, kRight}) {
       const ComfortReport report = judge_comfort(see(merged, eye, low));
       const double worst = report.most[static_cast<size_t>(Strain::kVertical)];
@@ -122,7 +121,8 @@ TEST(Comfort, TheMergeFromDepthKeepsTheLimit) {
       EXPECT_LE(map.at(0, row)[0] - map.at(0, row - 1)[0], 0.1f) << "nothing jumps";
     }
   }
-  const Image free = merge_map_of(comfortable_shares(see(StereoCamera{}, kMono, {}), {}, kFusionLimit));
+  const Image free =
+      merge_map_of(comfortable_shares(see(StereoCamera{}, kMono, {}), {}, static_cast<float>(kFusionLimit)));
   for (const float share : free.pixels) EXPECT_EQ(share, 1.0f);
 }
 
