@@ -32,7 +32,8 @@ void print_json(const nlohmann::ordered_json& line) {
   std::fprintf(stderr, "%s\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
 }
 
-int fail(ExitCode code, const std::string& text) {
+int fail(ExitCode code, const std::string& what) {
+  const std::string text = with_options(what);
   if (console.json) {
     print_json({{"error", text}, {"exit_code", static_cast<int>(code)}});
     return code;
@@ -85,16 +86,28 @@ ExitCode exit_code(ods::ErrorKind kind) {
 
 }  // namespace
 
+std::string with_options(const std::string& text) {
+  std::string result;
+  size_t done = 0;
+  for (size_t open = text.find('`'); open != std::string::npos; open = text.find('`', open + 1)) {
+    const size_t close = text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-", open + 1);
+    if (close == std::string::npos || text[close] != '`' || close == open + 1) continue;
+    result += text.substr(done, open - done) + "--" + text.substr(open + 1, close - open - 1);
+    done = close + 1, open = close;
+  }
+  return result + text.substr(done);
+}
+
 void note(const std::string& text) {
   if (console.quiet) return;
-  if (console.json) return print_json({{"note", text}});
-  std::fprintf(stderr, "ods: %s\n", ods::one_line(text).c_str());
+  if (console.json) return print_json({{"note", with_options(text)}});
+  std::fprintf(stderr, "ods: %s\n", ods::one_line(with_options(text)).c_str());
 }
 
 void warn(const std::string& text) {
   if (console.quiet) return;
-  if (console.json) return print_json({{"warning", text}});
-  std::fprintf(stderr, "ods: warning: %s\n", ods::one_line(text).c_str());
+  if (console.json) return print_json({{"warning", with_options(text)}});
+  std::fprintf(stderr, "ods: warning: %s\n", ods::one_line(with_options(text)).c_str());
 }
 
 void announce_file(const std::string& file) {

@@ -24,6 +24,10 @@ extern Console console;
 // Whether stderr is a terminal that can move its cursor.
 bool stderr_is_terminal();
 
+// The library names settings, `layout`; the command has them as options, --layout. Messages below are changed so;
+// what is printed in other ways goes through this.
+std::string with_options(const std::string& text);
+
 // "ods: text" or {"note":"text"}, unless quiet.
 void note(const std::string& text);
 

@@ -44,7 +44,7 @@ void run_long_job(ProgressMode mode, int threads, const std::function<void(Progr
   try {
     work(lines);
   } catch (const std::exception& error) {
-    lines.fail(error.what());
+    lines.fail(with_options(error.what()));
     throw;
   }
 }

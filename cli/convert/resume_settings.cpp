@@ -8,21 +8,23 @@
 #include <filesystem>
 #include <set>
 
+#include "ods/base/text.h"
 #include "ods/files/read_file.h"
 #include "ods/picture/metadata/sidecar.h"
 
 namespace {
 
-void add_file(const std::string& path, std::string& settings) {
+void add_file(const std::string& path, ods::Settings& settings) {
   const std::string identity = ods::file_identity(path);
   if (identity.empty()) return;
-  settings += fmt::format("'{}' has {}\n", std::filesystem::absolute(path).native(), identity);
+  settings.push_back({fmt::format("'{}'", ods::one_line(std::filesystem::absolute(path).native())), identity, ""});
 }
 
 }  // namespace
 
-std::string resume_settings(const ConvertJob& job) {
-  std::string settings = fmt::format("ods {}\narguments {}\n", ODS_VERSION, fmt::join(job.arguments, " "));
+ods::Settings resume_settings(const ConvertJob& job) {
+  ods::Settings settings = {{"version of ods", ODS_VERSION, ""},
+                            {"arguments", ods::one_line(fmt::format("{}", fmt::join(job.arguments, " "))), ""}};
   std::set<std::string> files(job.arguments.begin(), job.arguments.end());
   for (size_t i = 0; i < job.files.frames.size(); i++) {
     for (const int eye : {ods::kLeft, ods::kRight}) files.insert(ods::path_for_eye(job.files.path(i), eye));

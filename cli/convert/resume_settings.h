@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // All that a converted video depends on: the command's arguments as they were given, and the files that it reads, by
-// size and time. A line each.
+// size and time.
 #pragma once
-#include <string>
-
 #include "cli/convert/convert_job.h"
+#include "ods/base/settings.h"
 
-std::string resume_settings(const ConvertJob& job);
+ods::Settings resume_settings(const ConvertJob& job);

@@ -14,13 +14,11 @@
 #include "cli/console/console.h"
 #include "cli/farm/command_words.h"
 #include "cli/options/picture_options.h"
-#include "cli/render/denoised_frames.h"
-#include "cli/render/finish_picture.h"
 #include "cli/render/frame_settings.h"
+#include "cli/render/library_options.h"
 #include "cli/render/render_frames.h"
 #include "cli/slits/stitch_frames.h"
 #include "cli/video/video_job.h"
-#include "cli/video/video_journal.h"
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/files/frames.h"
@@ -28,6 +26,8 @@
 #include "ods/render/render_target.h"
 #include "ods/scene/builtin/builtin.h"
 #include "ods/scene/gltf/gltf.h"
+#include "ods/sequence/frame_renderer.h"
+#include "ods/sequence/video_journal.h"
 
 namespace fs = std::filesystem;
 
@@ -130,7 +130,7 @@ Split split_video(const Words& words) {
   const bool has_rig = !job.rig.empty();
   SplitCommand split = begin(given);
   if (!has_rig) add_scene_files(split, job.render.scene);
-  std::vector<Setting> settings;
+  ods::Settings settings;
   std::vector<int> frames;
   if (has_rig) {
     const ods::SlitRig rig = open_rig(job.rig);
@@ -153,13 +153,13 @@ Split split_video(const Words& words) {
   split.halo = !has_rig && draws_on_neighbours(job.render) ? 1 : 0;
   count(split, "frame", frames);
   split.prepare = [output = split.output, settings, frames, restart = job.restart] {
-    VideoJournal(output, settings, restart, JournalUse::kShared).plan(frames, frames);
+    ods::VideoJournal(output, settings, restart, ods::JournalUse::kShared).plan(frames, frames);
   };
   given = without(given, kByFarm);
-  const std::string pattern = frame_pattern(split.output);
+  const std::string pattern = ods::frame_pattern(split.output);
   if (split.halo > 0) {
     split.raw = split_group(split, kRawGroup, command_words("video", given, {"--raw"}), "--only",
-                            pattern + std::string(kRawEnd));
+                            pattern + std::string(ods::kRawEnd));
     split.disk = frames.size() * ods::samples_bytes(options_to_finish(job.render));
   }
   split.groups = {split_group(split, "frames", command_words("video", given), "--only", pattern),
@@ -176,8 +176,8 @@ void check_parts(const RenderJob& first, const ods::FrameNames& names) {
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) return;
   for (const int number : ods::frames_on_disk(names)) {
-    const std::vector<Setting> then = parse_settings(ods::read_part_header(names.path(number)).settings);
-    std::vector<Setting> now = sample_settings(first);
+    const ods::Settings then = ods::read_part_header(names.path(number)).settings;
+    ods::Settings now = sample_settings(first);
     now.back().value = fmt::format("{}/{}", number, first.part->count);
     const std::string difference = settings_difference(then, now);
     if (difference.empty()) continue;

@@ -183,7 +183,7 @@ WebAnswer HttpExchange::ask(const WebRequest& request) const {
     return handler_(request);
   } catch (const ods::Error& error) {
     const bool by_user = error.kind() == ods::ErrorKind::kInput || error.kind() == ods::ErrorKind::kUsage;
-    return {.status = by_user ? 400 : 500, .body = std::string(error.what()) + "\n"};
+    return {.status = by_user ? 400 : 500, .body = with_options(error.what()) + "\n"};
   } catch (const std::exception& error) {
     warn(error.what());  // who is in the network need not know what is in it
     return {.status = 500, .body = "that did not work: the terminal of ods view says why\n"};

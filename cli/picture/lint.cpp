@@ -90,6 +90,10 @@ void run(int argc, char** argv) {
   run_long_job(job.progress, 0, [&](ProgressLines& lines) {
     report = is_film ? lint_with_progress(job, lines) : ods::lint(job.path, job.lint);
   });
+  for (ods::Finding& finding : report.findings) {
+    finding.evidence = with_options(finding.evidence), finding.cure = with_options(finding.cure);
+  }
+  for (std::string& text : report.notes) text = with_options(text);
   std::erase_if(report.findings, [&](const ods::Finding& finding) {
     return finding.certainty < static_cast<double>(job.min_certainty);
   });

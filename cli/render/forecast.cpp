@@ -10,6 +10,7 @@
 #include "cli/console/console.h"
 #include "cli/frames/disk_room.h"
 #include "ods/files/private_folder.h"
+#include "ods/sequence/looks.h"
 
 namespace {
 
@@ -17,13 +18,14 @@ constexpr double kShort = 10.0;   // seconds that need no forecast
 constexpr double kLong = 3600.0;  // seconds from which somebody may want something faster
 
 // On the average. Small pictures are less smooth than large ones, so their files are larger for their size.
-SmallFrame look_at(const RenderJob& job, FrameRenderer& renderer, const std::vector<Frame>& frames) {
+ods::SmallFrame look_at(const RenderJob& job, ods::FrameRenderer& renderer,
+                        const std::vector<ods::SequenceFrame>& frames) {
   const size_t looks = frames.size() < 16 ? 1 : 3;
   const ods::PrivateFolder folder((std::filesystem::path(job.output).parent_path() / ".look-").native());
-  SmallFrame mean;
+  ods::SmallFrame mean;
   for (size_t i = 0; i < looks; i++) {
-    const Frame& frame = frames[(2 * i + 1) * frames.size() / (2 * looks)];
-    const SmallFrame small = renderer.try_small(frame, fmt::format("{}/{}.exr", folder.path(), i));
+    const ods::SequenceFrame& frame = frames[(2 * i + 1) * frames.size() / (2 * looks)];
+    const ods::SmallFrame small = ods::try_small(renderer, frame, fmt::format("{}/{}.exr", folder.path(), i));
     mean.seconds += small.seconds / static_cast<double>(looks);
     mean.bytes += small.bytes / static_cast<double>(looks);
   }
@@ -41,8 +43,8 @@ void suggest_faster(const RenderJob& job, double seconds_per_frame) {
 
 }  // namespace
 
-void say_forecast(const RenderJob& job, FrameRenderer& renderer, const std::vector<Frame>& frames) {
-  const SmallFrame frame = look_at(job, renderer, frames);
+void say_forecast(const RenderJob& job, ods::FrameRenderer& renderer, const std::vector<ods::SequenceFrame>& frames) {
+  const ods::SmallFrame frame = look_at(job, renderer, frames);
   const double seconds = frame.seconds * static_cast<double>(frames.size());
   if (seconds >= kShort) {
     note(fmt::format("rendering takes about {}, {} for each frame, by a first look", duration_text(seconds),

@@ -5,9 +5,10 @@
 #pragma once
 #include <vector>
 
-#include "cli/render/frame_renderer.h"
+#include "cli/render/render_job.h"
+#include "ods/sequence/frame_renderer.h"
 
 // Says how long rendering these frames takes and how much disk space they need, and what would be faster if that is
 // long. Throws ods::Error(kOutput) if the disk cannot hold them; with job.force it warns. Precondition: frames is not
 // empty.
-void say_forecast(const RenderJob& job, FrameRenderer& renderer, const std::vector<Frame>& frames);
+void say_forecast(const RenderJob& job, ods::FrameRenderer& renderer, const std::vector<ods::SequenceFrame>& frames);

@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
-#include <sstream>
 
 #include "ods/base/text.h"
 #include "ods/camera/camera_fields.h"
@@ -18,7 +16,7 @@
 
 namespace {
 
-using Settings = std::vector<Setting>;
+using ods::Settings;
 
 void add(Settings& settings, const std::string& option, const std::string& value) {
   settings.push_back({option, ods::one_line(value), ""});
@@ -179,20 +177,9 @@ void add_save(Settings& settings, const ods::SaveOptions& save) {
   add(settings, "--layout", std::string(ods::layout_name(layout)));
 }
 
-std::string change(const std::string& option, const Setting* was, const Setting* is) {
-  if (!was) return fmt::format("{} is new", option);
-  if (!is) return fmt::format("{} is no longer given", option);
-  if (!was->path.empty() && was->path == is->path) {
-    return is->value == "missing" ? fmt::format("{} '{}' is missing", option, is->path)
-                                  : fmt::format("{} '{}' has changed", option, is->path);
-  }
-  const auto said = [](const Setting& setting) { return setting.path.empty() ? setting.value : setting.path; };
-  return fmt::format("{} was {}, now {}", option, said(*was), said(*is));
-}
-
 }  // namespace
 
-std::vector<Setting> frame_settings(const RenderJob& job) {
+Settings frame_settings(const RenderJob& job) {
   Settings settings;
   add(settings, "version of ods", ODS_VERSION);
   add_scene(settings, job.scene);
@@ -204,60 +191,18 @@ std::vector<Setting> frame_settings(const RenderJob& job) {
   return settings;
 }
 
-std::vector<Setting> sample_settings(const RenderJob& job) {
+Settings sample_settings(const RenderJob& job) {
   Settings settings = frame_settings(job);
-  std::erase_if(settings, [](const Setting& s) { return s.option == "--time-limit" || s.option == "--layout"; });
+  std::erase_if(settings, [](const ods::Setting& s) { return s.name == "--time-limit" || s.name == "--layout"; });
   add(settings, kPartSetting, ods::part_text(job.render.part));
   return settings;
 }
 
-std::string settings_text(const std::vector<Setting>& settings) {
-  std::string text;
-  for (const auto& [option, value, path] : settings) {
-    text += fmt::format("{}\t{}{}{}\n", option, value, path.empty() ? "" : "\t", path);
-  }
-  return text;
-}
-
-std::vector<Setting> parse_settings(const std::string& text) {
-  Settings settings;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    std::vector<std::string> fields;
-    std::istringstream stream(line);
-    for (std::string field; std::getline(stream, field, '\t');) fields.push_back(field);
-    fields.resize(3);
-    settings.push_back({fields[0], fields[1], fields[2]});
-  }
-  return settings;
-}
-
-std::vector<Setting> stitch_settings(const std::string& rig_file, const std::string& views,
-                                     const ods::SaveOptions& save) {
+Settings stitch_settings(const std::string& rig_file, const std::string& views, const ods::SaveOptions& save) {
   Settings settings;
   add(settings, "version of ods", ODS_VERSION);
   add_file(settings, "--rig", rig_file);
   add(settings, "VIEWS", views);
   add_save(settings, save);
   return settings;
-}
-
-std::string settings_difference(const std::vector<Setting>& then, const std::vector<Setting>& now) {
-  const auto find = [](const Settings& settings, const std::string& option) -> const Setting* {
-    const auto same = [&](const Setting& each) { return each.option == option; };
-    const auto found = std::find_if(settings.begin(), settings.end(), same);
-    return found == settings.end() ? nullptr : &*found;
-  };
-  std::vector<std::string> changes;
-  for (const Setting& is : now) {
-    const Setting* was = find(then, is.option);
-    if (!was || was->value != is.value) changes.push_back(change(is.option, was, &is));
-  }
-  for (const Setting& was : then) {
-    if (!find(now, was.option)) changes.push_back(change(was.option, &was, nullptr));
-  }
-  const size_t kMax = 3;
-  const std::string more = changes.size() > kMax ? fmt::format("; and {} more", changes.size() - kMax) : "";
-  changes.resize(std::min(changes.size(), kMax));
-  return fmt::format("{}{}", fmt::join(changes, "; "), more);
 }

@@ -13,8 +13,8 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
-#include "cli/render/finish_picture.h"
 #include "cli/render/frame_settings.h"
+#include "cli/render/library_options.h"
 #include "ods/denoise/oidn.h"
 #include "ods/files/frames.h"
 #include "ods/picture/metadata/sidecar.h"
@@ -48,9 +48,9 @@ std::vector<std::string> files_of(const std::vector<std::string>& words) {
   return files;
 }
 
-std::vector<Setting> settings_of(const ods::SampledPicture& part) {
-  std::vector<Setting> settings = parse_settings(part.settings);
-  std::erase_if(settings, [](const Setting& setting) { return setting.option == kPartSetting; });
+ods::Settings settings_of(const ods::SampledPicture& part) {
+  ods::Settings settings = part.settings;
+  std::erase_if(settings, [](const ods::Setting& setting) { return setting.name == kPartSetting; });
   return settings;
 }
 
@@ -172,9 +172,8 @@ void add_options(Options& options, MergeJob& job, std::optional<ods::Layout>& la
 
 // How the parts' light found its way over several surfaces.
 ods::Indirect indirect_of(const ods::SampledPicture& picture) {
-  for (const Setting& setting : parse_settings(picture.settings)) {
-    if (setting.option == "--indirect")
-      return ods::find_in(ods::kIndirectTable, setting.value).value_or(ods::Indirect{});
+  for (const ods::Setting& setting : picture.settings) {
+    if (setting.name == "--indirect") return ods::find_in(ods::kIndirectTable, setting.value).value_or(ods::Indirect{});
   }
   return {};
 }

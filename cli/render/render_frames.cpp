@@ -6,46 +6,45 @@
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <set>
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/frames/disk_room.h"
-#include "cli/frames/shared_frames.h"
+#include "cli/frames/waiting.h"
 #include "cli/options/picture_options.h"
-#include "cli/render/denoised_frames.h"
+#include "cli/render/first_look.h"
 #include "cli/render/forecast.h"
+#include "cli/render/library_options.h"
+#include "cli/render/render_still.h"
 #include "ods/camera/layout.h"
 #include "ods/files/frames.h"
-#include "ods/stage/comfortable_merge.h"
+#include "ods/sequence/render_video.h"
 
-using ods::FrameNames;
+using Frame = ods::SequenceFrame;
 
 namespace {
 
 // All frames of a video, or the one picture, whether or not they exist.
-std::vector<Frame> all_frames(const RenderJob& job, const TimeOptions& time) {
+std::vector<Frame> all_frames(const RenderJob& job, const TimeOptions& time, const ods::SequenceOptions& sequence) {
   if (!asks_for_video(time)) return {{0, static_cast<double>(time.time.value_or(0.0f)), job.output, job.render.seed}};
-  const FrameNames names = video_names(job.output);
-  std::vector<Frame> frames;
-  for (const int number : video_frames(time)) frames.push_back(make_frame(job.render.seed, time, names, number));
-  return frames;
+  video_names(job.output);  // throws
+  return ods::make_frames(sequence, video_frames(time), job.output, time.grain == Grain::kChanging);
 }
 
-// Those that are to be rendered.
-std::vector<Frame> choose_frames(const TimeOptions& time, const std::vector<Frame>& all) {
+// Indices of those that are to be rendered.
+std::vector<size_t> choose_frames(const TimeOptions& time, const std::vector<Frame>& all) {
   std::vector<int> numbers;
   for (const Frame& frame : all) numbers.push_back(frame.number);
   const std::vector<int> chosen = own_frames(time.only, numbers);
   const std::set<int> own(chosen.begin(), chosen.end());
-  std::vector<Frame> frames;
-  for (const Frame& frame : all) {
-    if (!own.contains(frame.number)) continue;
-    if (time.skip_existing && ods::is_saved(frame.path)) {
-      remove_dead_claim(frame.path);
+  std::vector<size_t> frames;
+  for (size_t i = 0; i < all.size(); i++) {
+    if (!own.contains(all[i].number)) continue;
+    if (time.skip_existing && ods::is_saved(all[i].path)) {
+      ods::remove_dead_claim(all[i].path);
     } else {
-      frames.push_back(frame);
+      frames.push_back(i);
     }
   }
   const size_t skipped = own.size() - frames.size();
@@ -71,78 +70,54 @@ void tell_speed(const RenderJob& job, size_t frames, const std::string& file, do
     warn("few samples fit into --time-limit: expect specks; more time or a smaller --width makes a cleaner picture");
 }
 
-using Saved = std::function<void(const Rendered& frame)>;
-
-std::vector<SharedFrame> files_of(const std::vector<Frame>& frames) {
-  std::vector<SharedFrame> files;
+std::vector<ods::SharedFrame> files_of(const std::vector<Frame>& frames) {
+  std::vector<ods::SharedFrame> files;
   for (const Frame& frame : frames) files.push_back({frame.number, frame.path});
   return files;
 }
 
-// Renders and saves the frames; `shared`: except those claimed by other processes. Returns how many it rendered.
-size_t render_all(FrameRenderer& renderer, const TimeOptions& time, const std::vector<Frame>& frames, bool shared,
-                  const StepReport& report, const Saved& saved) {
-  size_t rendered = 0;
-  const auto render = [&](size_t i) {
-    const int number = static_cast<int>(i) + 1, count = static_cast<int>(frames.size());
-    const ProgressStep step{"render", number, asks_for_video(time) ? count : 0, frames[i].path};
-    saved(renderer.render(frames[i], [&](double done) { report((static_cast<double>(i) + done) / count, step); }));
-    rendered++;
+// report: gets the frames' place in the order of work.
+ods::SequenceProgress progress_of(const std::vector<Frame>& all, const std::vector<size_t>& missing,
+                                  const StepReport& report) {
+  ods::SequenceProgress progress;
+  progress.report = [&](double done, size_t index) {
+    const auto place = std::ranges::find(missing, index) - missing.begin() + 1;
+    report(done, {"render", static_cast<int>(place), static_cast<int>(missing.size()), all[index].path});
   };
-  if (!shared) {
-    for (size_t i = 0; i < frames.size(); i++) render(i);
-    return rendered;
-  }
-  make_shared_frames(files_of(frames), asks_for_video(time) ? "frame" : "part", render);
-  return rendered;
+  progress.waiting = say_waiting("frame");
+  return progress;
 }
 
-// Renders and saves those of a video's frames that are missing, each denoised together with those beside it; `shared`:
-// as in render_all().
-void render_denoised(const RenderJob& job, FrameRenderer& renderer, const std::vector<Frame>& all,
-                     const std::vector<Frame>& missing, bool shared, const StepReport& report, const Saved& saved) {
-  std::map<int, size_t> places;  // in `all`, of the missing ones
-  for (const Frame& frame : missing) places[frame.number] = 0;
-  std::set<size_t> wanted;
-  for (size_t i = 0; i < all.size(); i++) {
-    const auto found = places.find(all[i].number);
-    if (found == places.end()) continue;
-    found->second = i;
-    wanted.insert(i);
-  }
-  DenoisedFrames frames(job, renderer, all, wanted);
-  int made = 0;
-  const auto make = [&](size_t index) {
-    const ProgressStep step{"render", ++made, static_cast<int>(wanted.size()), all[index].path};
-    saved(frames.make(index, [&](double done) { report(done, step); }));
+// Renders the one picture; `shared`: unless another process does. Returns how many were made here.
+size_t render_picture(const RenderJob& job, ods::FrameRenderer& renderer, const Frame& frame, bool shared,
+                      const StepReport& report, const std::function<void(const ods::Rendered&)>& saved) {
+  size_t made = 0;
+  const auto render = [&](size_t) {
+    saved(render_still(job, renderer, frame, [&](double done) { report(done, {"render", 1, 0, frame.path}); }));
+    made++;
   };
   if (shared) {
-    make_shared_frames(files_of(missing), "frame", [&](size_t i) { make(places.at(missing[i].number)); });
+    ods::make_shared_frames(files_of({frame}), render, say_waiting("part"));
   } else {
-    for (const size_t index : wanted) make(index);
+    render(0);
   }
+  return made;
 }
 
-// Leaves the frames as rendered to whoever denoises them.
-void render_raw(FrameRenderer& renderer, const std::vector<Frame>& frames, const StepReport& report) {
-  std::vector<SharedFrame> files;
-  for (const Frame& frame : frames) files.push_back({frame.number, raw_path(frame)});
-  const int count = static_cast<int>(frames.size());
-  make_shared_frames(files, "frame", [&](size_t i) {
-    const ProgressStep step{"render", static_cast<int>(i) + 1, count, files[i].path};
-    renderer.keep_raw(frames[i], [&](double done) { report((static_cast<double>(i) + done) / count, step); });
-    announce_file(files[i].path);
-  });
+void say_room(const RenderJob& job, size_t frames) {
+  if (asks_for_video(job.time)) say_disk_room(job.output, frames, largest_frame(job.output, job.render, job.save));
 }
 
-// --merge auto: the merge that the scene's depth allows. The renderer reads the job.
-void settle_merge(RenderJob& job, FrameRenderer& renderer, const std::vector<Frame>& all) {
-  if (job.camera.merge_limit) ods::use_merge_map(job.camera.stereo, renderer.find_merge(all));
-}
-
-void say_room(const RenderJob& job, const std::vector<Frame>& frames) {
-  if (!asks_for_video(job.time) || frames.empty()) return;
-  say_disk_room(job.output, frames.size(), largest_frame(job.output, job.render, job.save));
+// What the scene decides before its first picture: what the renderer reads from then on.
+void look_first(RenderJob& job, const TimeOptions& time, ods::Scene& scene, ods::SequenceOptions& sequence,
+                ods::FrameRenderer& renderer, const std::vector<Frame>& all) {
+  say_where(job, time, scene, all.front());
+  settle_merge(job, renderer, all);
+  const auto [saved, judged] = choose_exposure(job, scene, renderer, all);
+  job.save.exposure = saved;
+  if (scene.as_painted && !gives(job, "--tone")) job.save.tone = ods::ToneCurve::kLinear;
+  sequence.finish.save = job.save;
+  sequence.render.noise_exposure = judged;
 }
 
 }  // namespace
@@ -153,25 +128,31 @@ void render_job(const RenderJob& wanted, ProgressLines& lines) {
   ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
   TimeOptions time = job.time;
   start_clock(time, job.camera, scene);
-  const std::vector<Frame> all = all_frames(job, time), frames = choose_frames(time, all);
-  if (frames.empty()) return;
-  say_room(job, frames);
-  FrameRenderer renderer(job, time, scene, all.front());
-  settle_merge(job, renderer, all);
-  job.save.exposure = renderer.find_exposure(all);
-  if (scene.as_painted && !gives(job, "--tone")) job.save.tone = ods::ToneCurve::kLinear;
+  ods::SequenceOptions sequence = sequence_of(job, time);
+  const std::vector<Frame> all = all_frames(job, time, sequence);
+  const std::vector<size_t> missing = choose_frames(time, all);
+  if (missing.empty()) return;
+  say_room(job, missing.size());
+  ods::FrameRenderer renderer(sequence, scene);
+  look_first(job, time, scene, sequence, renderer, all);
   const auto start = std::chrono::steady_clock::now();
   std::string first;
   double samples = 0.0;
-  const auto saved = [&](const Rendered& frame) {
+  const auto saved = [&](const ods::Rendered& frame) {
     lines.clear();
     first = frame.files.front();
     samples += frame.samples;
     for (const std::string& file : frame.files) announce_file(file);
   };
-  const bool shared = time.skip_existing;
   const auto report = [&](double done, const ProgressStep& step) { lines.report(done, seconds_since(start), step); };
-  const size_t rendered = render_all(renderer, time, frames, shared, report, saved);
+  size_t rendered = 0;
+  if (asks_for_video(time)) {
+    ods::SequenceProgress progress = progress_of(all, missing, report);
+    progress.saved = saved;
+    rendered = render_sequence(renderer, all, missing, time.skip_existing, progress);
+  } else {
+    rendered = render_picture(job, renderer, all.front(), time.skip_existing, report, saved);
+  }
   if (rendered > 0) tell_speed(job, rendered, first, samples, seconds_since(start));
 }
 
@@ -202,26 +183,33 @@ RenderedFrames render_frames(const RenderJob& wanted, const StepReport& report,
   check_length(scene, time);
   const std::vector<int> numbers = video_frames(time);
   planned(numbers);
-  const std::vector<Frame> all = all_frames(job, time);
+  ods::SequenceOptions sequence = sequence_of(job, time);
+  const std::vector<Frame> all = all_frames(job, time, sequence);
   wait_for_frames(files_of(all), "frame", job.wait);
-  const std::vector<Frame> frames = choose_frames(time, all);
+  const std::vector<size_t> missing = choose_frames(time, all);
+  ods::FrameRenderer renderer(sequence, scene);
+  if (!missing.empty()) say_where(job, time, scene, all.front()), settle_merge(job, renderer, all);
+  const float exposure = choose_exposure(job, scene, renderer, all).judged;
+  sequence.render.noise_exposure = exposure;
+  if (missing.empty()) return {numbers, exposure, scene.as_painted};
   const bool shared = !time.only.empty();
-  FrameRenderer renderer(job, time, scene, all.front());
-  if (!frames.empty()) settle_merge(job, renderer, all);
-  const float exposure = renderer.find_exposure(all);
-  if (!frames.empty()) {
-    note(fmt::format("to render: {} frame{}, {}x{} per eye, at most {} samples per pixel", frames.size(),
-                     frames.size() == 1 ? "" : "s", job.render.width, job.render.height, job.render.samples));
-    shared ? say_room(job, frames) : say_forecast(job, renderer, frames);
-    if (job.raw) return render_raw(renderer, frames, report), RenderedFrames{numbers, exposure};
-    const auto saved = [&](const Rendered& frame) {
-      if (shared) std::ranges::for_each(frame.files, announce_file);
-    };
-    if (draws_on_neighbours(job)) {
-      render_denoised(job, renderer, all, frames, shared, report, saved);
-    } else {
-      render_all(renderer, time, frames, shared, report, saved);
-    }
+  note(fmt::format("to render: {} frame{}, {}x{} per eye, at most {} samples per pixel", missing.size(),
+                   missing.size() == 1 ? "" : "s", job.render.width, job.render.height, job.render.samples));
+  if (shared) {
+    say_room(job, missing.size());
+  } else {
+    std::vector<Frame> frames;
+    for (const size_t index : missing) frames.push_back(all[index]);
+    say_forecast(job, renderer, frames);
+  }
+  ods::SequenceProgress progress = progress_of(all, missing, report);
+  progress.saved = [&](const ods::Rendered& frame) {
+    if (shared) std::ranges::for_each(frame.files, announce_file);
+  };
+  if (job.raw) {
+    render_raw_sequence(renderer, all, missing, progress);
+  } else {
+    render_sequence(renderer, all, missing, shared, progress);
   }
   return {numbers, exposure, scene.as_painted};
 }

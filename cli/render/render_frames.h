@@ -11,7 +11,7 @@
 
 // Renders the job's picture or frames, and prints the name of every file as soon as it exists. A frame's file exists
 // only when it is complete, so --skip-existing resumes a killed run; several processes with that option share the
-// frames (cli/frames/shared_frames.h).
+// frames (ods/sequence/sequence.h).
 void render_job(const RenderJob& job, ProgressLines& lines);
 
 // The frames that the job asks for. Loads the scene if their number depends on it. Throws UsageError if nothing moves

@@ -6,7 +6,7 @@
 
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
-#include "cli/render/finish_picture.h"
+#include "cli/render/library_options.h"
 #include "cli/render/unfinished_picture.h"
 #include "ods/render/part_file.h"
 #include "ods/render/render_target.h"
@@ -19,11 +19,13 @@ const char* stopping_words() {
   return stderr_is_terminal() ? "\r\x1b[Kods: stopping; Ctrl-C again ends at once\n" : "ods: stopping\n";
 }
 
-Rendered finish(const RenderJob& job, const ods::StereoCamera& camera, const ods::RenderOptions& options,
-                ods::PictureSamples samples) {
+ods::Rendered finish(const RenderJob& job, const ods::StereoCamera& camera, const ods::RenderOptions& options,
+                     ods::PictureSamples samples) {
   const auto taken = static_cast<double>(ods::count_samples(samples));
   if (job.part) return {{ods::save_part(job.output, sampled_picture(job, options, camera), samples)}, taken};
-  return {finish_picture(job, camera, ods::develop(std::move(samples), options), job.output), taken};
+  return {
+      ods::finish_picture(finish_of(job), job.render, camera, ods::develop(std::move(samples), options), job.output),
+      taken};
 }
 
 [[noreturn]] void end_early(const RenderJob& job, const ods::StereoCamera& camera, const ods::RenderOptions& options,
@@ -41,26 +43,31 @@ Rendered finish(const RenderJob& job, const ods::StereoCamera& camera, const ods
 
 }  // namespace
 
-Rendered render_still(const RenderJob& job, const ods::CpuRenderer& renderer,
-                      std::span<const ods::StereoCamera> cameras, const ods::RenderOptions& options,
-                      const ods::Progress& progress) {
-  const ods::StereoCamera& camera = cameras[cameras.size() / 2];
+ods::Rendered render_still(const RenderJob& job, ods::FrameRenderer& renderer, const ods::SequenceFrame& frame,
+                           const std::function<void(double done)>& report) {
+  const ods::Shot shot = renderer.set(frame);
+  const ods::StereoCamera& camera = shot.camera();
+  ods::RenderOptions options = shot.options;
+  const ods::RenderOptions sampled = options_to_finish(job);
+  options.layers = sampled.layers, options.statistics = sampled.statistics;
   ods::check_picture_memory(options);
   UnfinishedPicture unfinished(job, options, camera);
   ods::PictureSamples samples = unfinished.begin();
   {
     const GentleStop stop(stopping_words());
-    ods::Progress stoppable = progress;
-    stoppable.cancelled = [&] { return stop.requested(); };
+    const double share = denoiser_of(job) == ods::Denoiser::kNone ? 1.0 : ods::kShareOfRendering;
+    ods::Progress progress;
+    progress.report = [&](double done) { report(share * done); };
+    progress.cancelled = [&] { return stop.requested(); };
     try {
-      renderer.sample(cameras, options, samples, stoppable,
-                      [&](const ods::PictureSamples& now) { unfinished.keep(now); });
+      renderer.renderer().sample(shot.cameras, options, samples, progress,
+                                 [&](const ods::PictureSamples& now) { unfinished.keep(now); });
     } catch (const ods::Error& error) {
       if (error.kind() != ods::ErrorKind::kCancelled) throw;
       end_early(job, camera, options, samples, unfinished, stop);
     }
   }
-  Rendered rendered = finish(job, camera, options, std::move(samples));
+  ods::Rendered rendered = finish(job, camera, options, std::move(samples));
   unfinished.remove();
   return rendered;
 }

@@ -6,7 +6,7 @@
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "cli/frames/shared_frames.h"
+#include "cli/frames/waiting.h"
 #include "cli/render/render_still.h"
 #include "cli/slits/stitch_frames.h"
 #include "ods/kernel/random.h"
@@ -50,13 +50,13 @@ void render_views(const RenderJob& job, ProgressLines& lines) {
   };
   std::vector<int> all(rig.views.size());
   std::iota(all.begin(), all.end(), 1);
-  std::vector<SharedFrame> views;
+  std::vector<ods::SharedFrame> views;
   for (const int number : own_frames(time.only, all)) {
     views.push_back({number, view_path(rig, files, static_cast<size_t>(number - 1))});
   }
   const auto render_own = [&](size_t i) { render_view(static_cast<size_t>(views[i].number - 1)); };
   if (time.skip_existing) {
-    make_shared_frames(views, "view", render_own);
+    ods::make_shared_frames(views, render_own, say_waiting("view"));
   } else {
     for (size_t i = 0; i < views.size(); i++) render_own(i);
   }

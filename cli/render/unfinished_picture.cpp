@@ -13,7 +13,7 @@
 ods::SampledPicture sampled_picture(const RenderJob& job, const ods::RenderOptions& options,
                                     const ods::StereoCamera& camera) {
   const ods::Sidecar sidecar{camera, {options.width, options.height}, job.save.layout, ods::eye_list(options.eyes)};
-  return {settings_text(sample_settings(job)), ods::write_sidecar(sidecar), job.save.exposure, job.save.tone, options};
+  return {sample_settings(job), ods::write_sidecar(sidecar), job.save.exposure, job.save.tone, options};
 }
 
 UnfinishedPicture::UnfinishedPicture(const RenderJob& job, const ods::RenderOptions& options,
@@ -38,7 +38,7 @@ ods::PictureSamples UnfinishedPicture::begin() {
   }
   ods::PictureSamples samples;
   const ods::SampledPicture then = ods::read_unfinished(path_, samples);
-  const std::string difference = settings_difference(parse_settings(then.settings), parse_settings(about().settings));
+  const std::string difference = settings_difference(then.settings, about().settings);
   if (!difference.empty() || !ods::fit(samples, options_)) {
     throw UsageError(fmt::format("'{}' was rendered with other options: {}; give the same ones, or leave --resume out",
                                  path_, difference.empty() ? "its layers differ" : difference));

@@ -43,6 +43,10 @@ void info(int argc, char** argv) {
   const vec3 position = place_camera(camera, scene).position;
   SceneInfo info = describe(scene, position);
   info.has_environment |= wishes.given.radiance != vec3(0.0f);
+  found.advice = with_options(found.advice), found.settled.unit_reason = with_options(found.settled.unit_reason);
+  for (std::string& loss : info.losses) loss = with_options(loss);
+  for (std::string& warning : info.warnings) warning = with_options(warning);
+  for (ods::UsedExtension& extension : info.extensions) extension.how = with_options(extension.how);
   json ? print_json(info, found, position) : print_text(info, found, position);
 }
 

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "cli/console/console.h"
+
 using ods::SceneInfo, ods::vec3, ods::ViewPoint;
 
 namespace {
@@ -38,7 +40,7 @@ void print_text(const SceneInfo& info, const SceneFindings& found, vec3 position
   if (found.settled.kind != ods::SceneKind::kNothing) {
     row("taken for", std::string(scene_kind_name(found.settled.kind)));
     if (!found.settled.unit_reason.empty()) row("unit", found.settled.unit_reason + "; --unit m keeps its size");
-    if (found.settled.doubted) row("doubt", settle_doubt(found.settled.kind));
+    if (found.settled.doubted) row("doubt", with_options(settle_doubt(found.settled.kind)));
     if (!found.settled.camera_reason.empty()) row("doubt", found.settled.camera_reason + ": it is not used by default");
   }
   if (found.viewing && (info.view_points.empty() || found.viewing->replaces_cameras)) {
@@ -86,7 +88,7 @@ void print_json(const SceneInfo& info, const SceneFindings& found, vec3 position
       {"kind", nullptr},
       {"metres_per_unit", found.settled.metres_per_unit},
       {"unit_reason", found.settled.unit_reason},
-      {"doubt", found.settled.doubted ? settle_doubt(found.settled.kind) : ""},
+      {"doubt", found.settled.doubted ? with_options(settle_doubt(found.settled.kind)) : ""},
       {"camera_reason", found.settled.camera_reason},
       {"viewer", nullptr},
       {"position", to_json(position)},

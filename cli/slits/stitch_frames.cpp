@@ -11,7 +11,7 @@
 
 #include "cli/console/console.h"
 #include "cli/frames/disk_room.h"
-#include "cli/frames/shared_frames.h"
+#include "cli/frames/waiting.h"
 #include "cli/options/picture_options.h"
 #include "cli/options/time_options.h"
 #include "ods/base/error.h"
@@ -109,8 +109,8 @@ static FrameNames folder_names(const std::string& views) {
   throw UsageError("--frames: the views' folder has no mark for the frame: 'views/####/####.exr'");
 }
 
-static void say_room(const StitchJob& job, const ods::SlitRig& rig, const std::vector<SharedFrame>& files) {
-  const auto is_left = [&](const SharedFrame& file) { return !job.skip_existing || !ods::is_saved(file.path); };
+static void say_room(const StitchJob& job, const ods::SlitRig& rig, const std::vector<ods::SharedFrame>& files) {
+  const auto is_left = [&](const ods::SharedFrame& file) { return !job.skip_existing || !ods::is_saved(file.path); };
   const auto left = std::count_if(files.begin(), files.end(), is_left);
   ods::RenderOptions picture;
   picture.width = rig.eye.width, picture.height = rig.eye.height;
@@ -133,11 +133,11 @@ std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, co
                    [&](double part, const ProgressStep&) { report((static_cast<double>(i) + part) / count, step); });
     each.says_unmarked = false;  // one note is enough
   };
-  std::vector<SharedFrame> files;
+  std::vector<ods::SharedFrame> files;
   for (const int frame : frames) files.push_back({frame, outputs.path(frame)});
   say_room(job, rig, files);
   if (job.skip_existing && job.claims) {
-    make_shared_frames(files, "frame", stitch_frame);
+    ods::make_shared_frames(files, stitch_frame, say_waiting("frame"));
     return frames;
   }
   for (size_t i = 0; i < frames.size(); i++) {

@@ -92,7 +92,10 @@ void run(int argc, char** argv) {
   options.flag("--json", json, "print JSON");
   add_console_options(options);
   if (!options.parse(argc, argv)) return;
-  const ProbeReport report = probe(path);
+  ProbeReport report = probe(path);
+  for (std::vector<std::string>& warnings : report.warnings) {
+    for (std::string& warning : warnings) warning = with_options(warning);
+  }
   json ? print_json(report) : print_text(report);
 }
 

@@ -4,22 +4,20 @@
 // ods video: renders a scene as a video, or some of its frames.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
-#include <filesystem>
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "cli/render/frame_renderer.h"
+#include "cli/render/frame_settings.h"
 #include "cli/render/render_frames.h"
 #include "cli/slits/stitch_frames.h"
 #include "cli/video/video_job.h"
-#include "cli/video/video_journal.h"
+#include "ods/sequence/render_video.h"
 
 namespace {
 
 // Stitches frames from the views of a rig.
-RenderedFrames stitch_views(const VideoJob& job, const ods::SlitRig& rig, VideoJournal& journal,
+RenderedFrames stitch_views(const VideoJob& job, const ods::SlitRig& rig, ods::VideoJournal& journal,
                             const StepReport& report) {
   StitchJob stitch;
   stitch.views.names = job.render.scene.name;
@@ -37,7 +35,6 @@ RenderedFrames stitch_views(const VideoJob& job, const ods::SlitRig& rig, VideoJ
 }
 
 void make_video(VideoJob job, ProgressLines& lines) {
-  const double kRendering = 0.95;  // share of the total time
   const auto start = std::chrono::steady_clock::now();
   const RenderJob& render = job.render;
   const std::optional<ods::SlitRig> rig = job.rig.empty() ? std::nullopt : std::optional(open_rig(job.rig));
@@ -49,14 +46,14 @@ void make_video(VideoJob job, ProgressLines& lines) {
   const ods::EncodeOptions options = encode_options(job.video, expected.size, job.render.render.threads);
   ods::check_packing(expected, options.packing);
   say_what_players_need(job.video, expected, options);
-  VideoJournal journal(job.video.output,
-                       rig ? stitch_settings(job.rig, render.scene.name, render.save) : frame_settings(render),
-                       job.restart, render.time.only.empty() ? JournalUse::kAlone : JournalUse::kShared,
-                       std::chrono::seconds(static_cast<int>(render.wait)));
+  ods::VideoJournal journal(job.video.output,
+                            rig ? stitch_settings(job.rig, render.scene.name, render.save) : frame_settings(render),
+                            job.restart, render.time.only.empty() ? ods::JournalUse::kAlone : ods::JournalUse::kShared,
+                            std::chrono::seconds(static_cast<int>(render.wait)));
   job.render.output = journal.pattern();
   const auto rendered = [&](double done, const ProgressStep& step) {
     journal.check();
-    lines.report(kRendering * done, seconds_since(start), step);
+    lines.report(ods::kRenderingShare * done, seconds_since(start), step);
   };
   const auto planned = [&](const std::vector<int>& numbers) {
     journal.plan(numbers, own_frames(render.time.only, numbers));
@@ -68,23 +65,19 @@ void make_video(VideoJob job, ProgressLines& lines) {
   job.display.exposure = made.exposure;
   if (made.as_painted && !gives(render, "--tone")) job.display.tone = ods::ToneCurve::kLinear;
 
-  const ods::FrameFiles files = ods::find_frames(journal.pattern(), frames);
-  const ods::VideoPlan plan = ods::plan_video(files, {}, {});
   say_length_of_sound(options, frames.size());
   ods::Progress progress;
   progress.report = [&](double done) {
-    lines.report(kRendering + (1.0 - kRendering) * done, seconds_since(start),
+    lines.report(ods::kRenderingShare + (1.0 - ods::kRenderingShare) * done, seconds_since(start),
                  video_step("encode", done, frames.size(), job.video.output));
   };
-  ods::make_video(files, plan, job.display, options, job.video.output, progress);
+  const ods::VideoPlan plan =
+      ods::encode_frames(journal, frames, job.display, options, job.video.output, job.keep_frames, progress);
   lines.clear();
   announce_file(job.video.output);
   note(fmt::format("{}: {}, in {}", job.video.output, video_text(plan, options, frames.size()),
                    duration_text(seconds_since(start))));
-  std::error_code ignored;
-  for (size_t i = 0; i < frames.size(); i++) std::filesystem::remove(files.path(i) + std::string(kRawEnd), ignored);
-  if (job.keep_frames) return note(fmt::format("the frames are in {}", journal.folder()));
-  journal.remove();
+  if (job.keep_frames) note(fmt::format("the frames are in {}", journal.folder()));
 }
 
 void video(int argc, char** argv) {

@@ -7,7 +7,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
-#include "cli/render/denoised_frames.h"
+#include "cli/render/library_options.h"
 
 namespace {
 

@@ -103,7 +103,7 @@ void RenderProcess::end(const std::string& output, bool is_well) {
     }
     if (is_wanted && is_well) status_.state = "done", status_.done = 1.0, status_.left = 0.0, status_.output = free;
   } catch (const ods::Error& error) {
-    status_.text = error.what();
+    status_.text = with_options(error.what());
   }
   folder_.reset();
 }

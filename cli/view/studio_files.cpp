@@ -43,6 +43,7 @@ std::string Studio::environment_of(const std::string& word) const {
 
 // A message for the page: names of our own files mean nothing to its user, and say where this machine has what.
 std::string Studio::without_paths(std::string text) const {
+  text = with_options(text);
   const auto replace = [&](const std::string& path, const std::string& name) {
     for (size_t at = 0; !path.empty() && (at = text.find(path, at)) != std::string::npos; at += name.size()) {
       text.replace(at, path.size(), name);

@@ -239,7 +239,7 @@ constexpr Entry kEntries[] = {
       kOspray},
      like_ospray},
     {{"domemaster", "Domemaster3D LatLongStereo", true,
-      "LatLongStereo.cpp; its maps are --merge-map and --head-tilt-map here", kDomemaster},
+      "LatLongStereo.cpp; with maps for the merge and the head's tilt", kDomemaster},
      like_domemaster},
     {{"nerfstudio", "nerfstudio", true, "cameras.py", kGoogle}, like_google},
     {{"replica360", "Replica360, MatryODShka", true, "mesh-ptex-spherical.vert", kReplica}, like_replica},

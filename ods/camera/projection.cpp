@@ -37,7 +37,7 @@ static ProjectionSetting lens(int kind, float fov, float tilt) {
 
 std::span<const NamedProjection> named_projections() {
   static const NamedProjection kAll[] = {
-      {"lat-long", "the whole sphere, or the part that --range gives", of_kind(kLatLong)},
+      {"lat-long", "the whole sphere, or a part of it", of_kind(kLatLong)},
       {"vr180", "the front half of it", part(kLatLong, {-90.0f, 90.0f}, {-90.0f, 90.0f})},
       {"cylinder", "all around, 60 degrees up and down", part(kCylinder, {-180.0f, 180.0f}, {-60.0f, 60.0f})},
       {"fisheye", "equidistant, 180 degrees", lens(kFisheye, 180.0f, 0.0f)},

@@ -51,7 +51,7 @@ std::string add_font_file(const Fontconfig& fonts, const std::string& path) {
   const bool added = FcConfigAppFontAddFile(fonts.config, name);
   const FcFontSet* own = added ? FcConfigGetFonts(fonts.config, FcSetApplication) : nullptr;
   if (!own || own->nfont == 0)
-    throw Error(ErrorKind::kInput, fmt::format("--font: '{}' is missing or not a font file", path));
+    throw Error(ErrorKind::kInput, fmt::format("`font`: '{}' is missing or not a font file", path));
   PangoFontDescription* description = pango_fc_font_description_from_pattern(own->fonts[0], FALSE);
   char* text = pango_font_description_to_string(description);
   const std::string found = text;

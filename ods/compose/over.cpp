@@ -28,7 +28,7 @@ static bool has_alpha(const StoredPicture& picture) {
 
 std::string over_fault(const StoredPicture& foreground, const StoredPicture& background, const OverOptions& options) {
   if (!has_alpha(foreground) && !options.by_depth) {
-    return "the foreground has no alpha and would hide the whole background (--by-depth needs no alpha)";
+    return "the foreground has no alpha and would hide the whole background (`by-depth` needs no alpha)";
   }
   if (options.by_depth && (!depth_layer(foreground) || !depth_layer(background))) {
     return "by depth, both need a depth layer, as in an .exr of ods render or ods title";
@@ -48,7 +48,7 @@ static void compare_eyes_of(const StereoCamera& front, const StereoCamera& back,
   if (std::abs(front.ipd - back.ipd) > micrometre) {
     warnings.push_back(
         fmt::format("the foreground was made for eyes {:g} mm apart, the background for {:g}: make it with "
-                    "--ipd {:g}, or it appears at other distances",
+                    "`ipd` {:g}, or it appears at other distances",
                     1000.0f * front.ipd, 1000.0f * back.ipd, back.ipd));
   }
   if (!same_merge(front.top, back.top) || !same_merge(front.bottom, back.bottom) ||
@@ -56,9 +56,9 @@ static void compare_eyes_of(const StereoCamera& front, const StereoCamera& back,
     warnings.push_back("the foreground has another pole merge: near the poles it does not stay on what it stands on");
   }
   if (!same_map(front.head_tilt_map, back.head_tilt_map)) {
-    warnings.push_back("the foreground has another --head-tilt-map: its eyes differ in height from the background's");
+    warnings.push_back("the foreground has another `head-tilt-map`: its eyes differ in height from the background's");
   }
-  if (front.neck != back.neck) warnings.push_back("the foreground has another --eye-to-neck");
+  if (front.neck != back.neck) warnings.push_back("the foreground has another `eye-to-neck`");
 }
 
 std::vector<std::string> over_warnings(const StoredPicture& foreground, const StoredPicture& background) {
@@ -157,7 +157,7 @@ PictureRows fitted_foreground(const StoredPicture& foreground, const StoredPictu
 std::string behind_warning(const Overlay& overlay) {
   if (*overlay.behind == 0) return {};
   return fmt::format(
-      "{:.3g} % of the foreground is farther away than what it covers: bring it nearer, or use --by-depth",
+      "{:.3g} % of the foreground is farther away than what it covers: bring it nearer, or use `by-depth`",
       100.0 * static_cast<double>(*overlay.behind) / static_cast<double>(*overlay.covered));
 }
 

@@ -58,7 +58,7 @@ Library open_library() {
   if (!library) {
     throw Error(ErrorKind::kInput,
                 "Open Image Denoise is not installed (libOpenImageDenoise.so.2 or .1; LD_LIBRARY_PATH can name its "
-                "folder): use --denoise own");
+                "folder): use `denoise` own");
   }
   Library l;
   find(library, l.new_device, "oidnNewDevice");

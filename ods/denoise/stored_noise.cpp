@@ -134,8 +134,8 @@ Found find_all(const StoredPicture& stored, const NoiseLayers& layers, const std
   }
   if (!found.variance && !found.half_a && layers.needed) {
     throw Error(ErrorKind::kInput,
-                fmt::format("'{}' does not say how noisy it is: render it with --statistics, or name a layer with "
-                            "--variance, or two with --half-a and --half-b; {}",
+                fmt::format("'{}' does not say how noisy it is: render it with `statistics`, or name a layer with "
+                            "`variance`, or two with `half-a` and `half-b`; {}",
                             path, names_of_layers(stored)));
   }
   if (found.samples) found.samples->from.resize(1);
@@ -164,7 +164,7 @@ int64_t count_unusable(const EyeImage& eye) {
 StoredNoise read_noise(const StoredPicture& stored, const NoiseLayers& layers, const std::string& path) {
   if (!stored.is_float) {
     throw Error(ErrorKind::kInput, fmt::format("'{}' is display-encoded and does not say how noisy it is: use an .exr "
-                                               "with statistics (ods render --statistics)",
+                                               "with statistics (ods render `statistics`)",
                                                path));
   }
   const Found found = find_all(stored, layers, path);

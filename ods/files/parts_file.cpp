@@ -37,19 +37,10 @@ static uint64_t place_in(std::FILE* stream) {
   return static_cast<uint64_t>(ftello(stream));
 }
 
-// The first lines that differ, for messages.
-static std::string difference(std::string_view then, std::string_view now) {
-  while (!then.empty() || !now.empty()) {
-    const std::string_view was = then.substr(0, then.find('\n')), is = now.substr(0, now.find('\n'));
-    if (was != is) return fmt::format("{}, now {}", was.empty() ? "nothing" : was, is.empty() ? "nothing" : is);
-    then.remove_prefix(std::min(was.size() + 1, then.size())), now.remove_prefix(std::min(is.size() + 1, now.size()));
-  }
-  return "";
-}
-
-PartsFile::PartsFile(const std::string& path, const std::string& settings)
+PartsFile::PartsFile(const std::string& path, const Settings& settings)
     : claim_(claim(path)), path_(path + ".unfinished") {
-  head_ = std::string(kHead) + number(settings.size(), 4) + settings;
+  const std::string text = settings_text(settings);
+  head_ = std::string(kHead) + number(text.size(), 4) + text;
   if (std::filesystem::exists(std::filesystem::symlink_status(path_))) open_old(settings);
 }
 
@@ -69,9 +60,9 @@ void PartsFile::check(bool is_well) const {
               fmt::format("cannot keep parts in '{}': {}", path_, why == 0 ? "it is damaged" : std::strerror(why)));
 }
 
-void PartsFile::open_old(const std::string& settings) {
+void PartsFile::open_old(const Settings& settings) {
   if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path_))) {
-    throw Error(ErrorKind::kOutput, fmt::format("'{}' is no file of parts: remove it, or choose another -o", path_));
+    throw Error(ErrorKind::kOutput, fmt::format("'{}' is no file of parts: remove it, or choose another name", path_));
   }
   stream_ = std::fopen(path_.c_str(), "r+be");
   check(stream_ != nullptr);
@@ -79,9 +70,9 @@ void PartsFile::open_old(const std::string& settings) {
   if (head != kHead || length.size() != 4) {
     std::fclose(std::exchange(stream_, nullptr));
     throw Error(ErrorKind::kOutput,
-                fmt::format("'{}' was not written by this version of ods: remove it, or choose another -o", path_));
+                fmt::format("'{}' was not written by this version of ods: remove it, or choose another name", path_));
   }
-  removed_ = difference(read_bytes(stream_, get_number(length, 0, 4)), settings);
+  removed_ = settings_difference(parse_settings(read_bytes(stream_, get_number(length, 0, 4))), settings);
   begin_ = end_ = head_.size();
   if (removed_.empty()) find_end();
   if (count_ == 0) remove();

@@ -18,15 +18,16 @@
 #include <string>
 #include <string_view>
 
+#include "ods/base/settings.h"
 #include "ods/files/claim.h"
 
 namespace ods {
 
 class PartsFile {
  public:
-  // Opens the parts of the file at `path`. settings: all that they depend on, a line each; parts that were made with
+  // Opens the parts of the file at `path`. settings: all that they depend on; parts that were made with
   // others are removed. Throws Error(kOutput): another process makes that file, or FILE.unfinished is none of ours.
-  PartsFile(const std::string& path, const std::string& settings);
+  PartsFile(const std::string& path, const Settings& settings);
   PartsFile(const PartsFile&) = delete;
   PartsFile& operator=(const PartsFile&) = delete;
   // Without a part nothing stays on the disk.
@@ -34,7 +35,7 @@ class PartsFile {
 
   const std::string& path() const { return path_; }
   int count() const { return count_; }  // finished parts
-  // The first settings that differ, as "was, now"; empty if no parts were removed.
+  // What differs in the settings; empty if no parts were removed.
   const std::string& removed() const { return removed_; }
 
   // Calls `take` with the records of all finished parts, in order. Throws Error(kOutput).
@@ -47,7 +48,7 @@ class PartsFile {
   void remove();
 
  private:
-  void open_old(const std::string& settings);
+  void open_old(const Settings& settings);
   void find_end();
   void check(bool is_well) const;
 

@@ -98,7 +98,7 @@ static void refuse_shapeless(const std::string& path, const StereoFormat& format
   if (format.layout.source != LayoutSource::kNothing) return;
   throw Error(ErrorKind::kInput,
               fmt::format("nothing tells what '{}' shows, and its pixels show too little: say it with "
-                          "--layout and --projection",
+                          "`layout` and `projection`",
                           path));
 }
 
@@ -112,7 +112,7 @@ static FormatHint identified_picture(const std::string& path, const FormatHint& 
     refuse_shapeless(path, format);
     notes.emplace_back(
         "taken for what its shape suggests, because its pixels show too little: if it is something else, "
-        "say which with --layout and --projection");
+        "say which with `layout` and `projection`");
     return known;
   }
   refuse_unlikely(path, *identity);

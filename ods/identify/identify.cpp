@@ -134,7 +134,7 @@ std::vector<Cut> all_cuts(const StoredPicture& whole, const Thumbnail& thumbnail
 constexpr double kEyes = 6.0, kCircle = 5.0, kBall = 2.5, kDome = 1.6, kPoles = 2.5, kSeam = 2.5, kFaces = 4.0;
 constexpr double kTurnedCube = 12.0, kBroken = 4.0;
 constexpr double kUnknownUp = 0.15;  // a cube of which nothing tells what is up is not ours, rather
-constexpr double kLevel = 0.25;  // of the likelihood of parallax: its pairs are not independent
+constexpr double kLevel = 0.25;      // of the likelihood of parallax: its pairs are not independent
 constexpr double kMostLevel = 12.0;
 constexpr int kManyPairs = 120;
 constexpr double kLeftFirst = 2.0;  // nearly everybody has the left eye first
@@ -459,7 +459,7 @@ std::string doubt_text(const Identity& identity) {
     texts.emplace_back("faces of a cube in another order than ods has, to be reordered first");
   if (identity.is_anaglyph) texts.emplace_back("an anaglyph, whose eyes cannot be taken apart again");
   if (identity.is_front_and_back) texts.emplace_back("a front and a back fisheye, to be stitched first");
-  return fmt::format("{}: say which with --layout and --projection", fmt::join(texts, " or "));
+  return fmt::format("{}: say which with `layout` and `projection`", fmt::join(texts, " or "));
 }
 
 }  // namespace ods

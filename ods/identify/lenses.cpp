@@ -300,7 +300,7 @@ FormatHint with_lenses(const std::string& path, const FormatHint& known, std::ve
   if (seen->front_and_back) {
     all.front_and_back = true, all.lenses = seen->lenses, all.projection = find_projection("fisheye")->setting;
     notes.push_back(
-        fmt::format("two fisheyes that look ahead and back, {:.1f} degrees each (--circle {},{}): they agree by "
+        fmt::format("two fisheyes that look ahead and back, {:.1f} degrees each (`circle` {},{}): they agree by "
                     "{:.2f} where both see",
                     seen->lenses[0].fov, lens_text(seen->lenses[0]), lens_text(seen->lenses[1]), seen->alike));
     return all;
@@ -308,7 +308,7 @@ FormatHint with_lenses(const std::string& path, const FormatHint& known, std::ve
   if (is_inscribed(seen->lenses[0], *eye) && is_inscribed(seen->lenses[1], *eye)) return known;
   all.lenses = seen->lenses, all.projection = told ? *told : find_projection("fisheye")->setting;
   for (FisheyeLens& lens : all.lenses) lens.kind = all.projection->kind;
-  notes.push_back(fmt::format("a pair of fisheyes whose circles do not touch the edges: --circle {},{}",
+  notes.push_back(fmt::format("a pair of fisheyes whose circles do not touch the edges: `circle` {},{}",
                               lens_text(seen->lenses[0]), lens_text(seen->lenses[1])));
   return all;
 }

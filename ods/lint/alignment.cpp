@@ -25,10 +25,10 @@ struct TermRow {
   const char* option;
 };
 constexpr TermRow kTerms[] = {
-    {kRaiseTerm, Fault::kVerticalOffset, 0.2, 0.45, "--right-raise"},
-    {kPitchTerm, Fault::kEyePitched, 0.2, 0.45, "--right-pitch"},
-    {kRollTerm, Fault::kEyeRolled, 0.3, 0.7, "--right-roll"},
-    {kZoomTerm, Fault::kEyeMagnified, 0.006, 0.014, "--right-zoom"},
+    {kRaiseTerm, Fault::kVerticalOffset, 0.2, 0.45, "`right-raise`"},
+    {kPitchTerm, Fault::kEyePitched, 0.2, 0.45, "`right-pitch`"},
+    {kRollTerm, Fault::kEyeRolled, 0.3, 0.7, "`right-roll`"},
+    {kZoomTerm, Fault::kEyeMagnified, 0.006, 0.014, "`right-zoom`"},
 };
 constexpr double kUnsure = 0.05;  // degrees: with a larger standard error of a height, lint judges nothing
 constexpr double kEnoughHeadings = 1.0;

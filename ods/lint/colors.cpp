@@ -153,8 +153,8 @@ Response find_response(const std::vector<Pair>& pairs) {
 // What makes the right eye's light equal to the left one's.
 std::string cure_of(const Subject& subject, const Response& response) {
   const glm::dvec3 gain = 1.0 / glm::pow(response.gain, glm::dvec3(1.0 / response.gamma));
-  std::string options = fmt::format("--right-gain {:.3f},{:.3f},{:.3f}", gain.x, gain.y, gain.z);
-  if (response.gamma != 1.0) options = fmt::format("--right-gamma {:.3f} ", 1.0 / response.gamma) + options;
+  std::string options = fmt::format("`right-gain` {:.3f},{:.3f},{:.3f}", gain.x, gain.y, gain.z);
+  if (response.gamma != 1.0) options = fmt::format("`right-gamma` {:.3f} ", 1.0 / response.gamma) + options;
   return "develop both eyes alike, or correct the picture: " + convert_command(subject, options);
 }
 

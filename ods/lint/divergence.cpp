@@ -56,7 +56,7 @@ void check_divergence(const Subject& subject, double swapped, LintReport& report
                    "at what is far must diverge by that",
                    angles.size(), yaw, far.error),
        "turn the cameras inwards, or turn the picture: " +
-           convert_command(subject, fmt::format("--right-yaw {:.2f}", yaw))});
+           convert_command(subject, fmt::format("`right-yaw` {:.2f}", yaw))});
 }
 
 }  // namespace ods

@@ -150,7 +150,7 @@ void check_horizon(const Subject& subject, LintReport& report) {
   const double better = std::clamp(3.5 * (tilt.share - level) / tilt.share, 0.0, 1.0);
   const double certainty = peak * better * std::clamp((tilt.angle() - 0.5) / 1.0, 0.0, 1.0);
   if (certainty < 0.1) return;
-  const std::string angles = fmt::format("--pitch {:.1f} --roll {:.1f}", tilt.back, tilt.right);
+  const std::string angles = fmt::format("`pitch` {:.1f} `roll` {:.1f}", tilt.back, tilt.right);
   const std::string cure = subject.eyes.size() == 1 ? "level it: " + convert_command(subject, angles)
                                                     : "render or stitch it level: the eyes of a "
                                                       "stereo picture cannot be tilted afterwards";

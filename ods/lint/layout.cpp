@@ -83,7 +83,7 @@ void add_misread(const Subject& subject, const Cut& cut, double certainty, const
       case LayoutSource::kFile:
         return {Fault::kMetadata, fmt::format("correct what the file says: it is {}", truth)};
       default:
-        return {Fault::kLayoutMisread, fmt::format("read it as {} (--layout {})", truth, truth)};
+        return {Fault::kLayoutMisread, fmt::format("read it as {} (`layout` {})", truth, truth)};
     }
   }();
   report.findings.push_back({fault, certainty, evidence + ", " + subject.format.layout.reason, cure});

@@ -120,7 +120,7 @@ static std::string advice(const VideoFile& video, const VideoTrack& track, const
   } catch (const Error&) {
     return "";
   }
-  const std::string which = video.tracks.size() > 1 ? fmt::format(" --track {}", track.id) : "";
+  const std::string which = video.tracks.size() > 1 ? fmt::format(" `track` {}", track.id) : "";
   std::string options;
   for (const MetadataConflict& conflict : find_conflicts({}, track, path)) {
     options += fmt::format("{}{}", options.empty() ? ", told which is true: " : ", and ", conflict.options);

@@ -24,12 +24,12 @@ static void check_aspect(const Subject& subject, LintReport& report) {
   // Rounding moves an edge by one pixel, squeezing by another.
   const double off = std::max(0, std::abs(height - natural) - squeeze.height) / static_cast<double>(natural);
   if (off == 0.0) return;
-  std::string cure = "crop or pad the picture to that shape, or say which part of the sphere it shows (--range)";
+  std::string cure = "crop or pad the picture to that shape, or say which part of the sphere it shows (`range`)";
   if (std::abs(height * 2 - natural) <= 2) cure = "its eyes look squeezed: read it as top-bottom-half, or stretch them";
   if (std::abs(height - natural * 2) <= 4)
     cure = "its eyes look squeezed: read it as side-by-side-half, or stretch them";
-  if (std::abs(width * 2 - height * 3) <= 2) cure += "; 3:2 may be a cube (--projection cube-3x2)";
-  if (width == height) cure += "; square eyes may be vr180 or a fisheye (--projection vr180)";
+  if (std::abs(width * 2 - height * 3) <= 2) cure += "; 3:2 may be a cube (`projection` cube-3x2)";
+  if (width == height) cure += "; square eyes may be vr180 or a fisheye (`projection` vr180)";
   report.findings.push_back(
       {Fault::kWrongAspect, off / (off + 0.005),
        fmt::format("an eye is {}x{}; {} of that width is {} high", width, height, report.projection, natural), cure});
@@ -63,7 +63,7 @@ static void check_headsets(LintReport& report) {
                     "smaller, or not at all",
                     width, height, kTexture),
         fmt::format(
-            "ods convert --width {} for headsets (ods sizes lists what they take)",
+            "ods convert `width` {} for headsets (ods sizes lists what they take)",
             std::min(kTexture, static_cast<int>(int64_t{kTexture} * report.eye.width / std::max(width, height)))));
   }
   if (width % 2 != 0 || height % 2 != 0) {

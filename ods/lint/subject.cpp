@@ -106,7 +106,7 @@ static void load(Subject& subject, const LintOptions& options) {
   look_at_pixels(subject, picture, known);
   const Extent size{subject.info.width, subject.info.height};
   if (!unpacked_size(subject.layout(), size)) {
-    throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}x{} pixels are not two eyes, {}; say --layout",
+    throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}x{} pixels are not two eyes, {}; say `layout`",
                                                path, size.width, size.height, layout_name(subject.layout())));
   }
   subject.packed = grey_eyes(picture)[0];
@@ -169,10 +169,10 @@ static std::string output_name(const std::string& path) {
 std::string convert_command(const Subject& subject, const std::string& options) {
   std::string from;
   if (subject.format.layout.source == LayoutSource::kCaller) {
-    from += fmt::format(" --layout {}", layout_name(subject.layout()));
+    from += fmt::format(" `layout` {}", layout_name(subject.layout()));
   }
   if (subject.format.camera.projection != ProjectionSetting()) {
-    from += fmt::format(" --projection {}", projection_name(subject.projection()));
+    from += fmt::format(" `projection` {}", projection_name(subject.projection()));
   }
   return fmt::format("ods convert {} -o {}{} {}", quoted(subject.path), output_name(subject.path), from, options);
 }

@@ -44,7 +44,7 @@ void take_lenses(StoredPicture& picture, const FormatHint& known, const std::str
   if (known.bars.any()) return take_bars(picture, known.bars);
   if (known.lenses.empty() && !known.front_and_back) return;
   if (known.front_and_back && (picture.eyes.size() != 2 || !arrangement_of(picture.layout).is_halves())) {
-    throw unreadable(path, "fisheyes that look ahead and back are two halves: --layout side-by-side or top-bottom");
+    throw unreadable(path, "fisheyes that look ahead and back are two halves: `layout` side-by-side or top-bottom");
   }
   std::vector<FisheyeLens> lenses = known.lenses;
   if (lenses.empty()) lenses.push_back(inscribed_lens(picture.size, kUsualFov));

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <functional>
 
+#include "ods/base/checksum.h"
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
 #include "ods/files/file_input.h"
@@ -31,6 +32,9 @@ constexpr const char* kSamples = "ods:samples";
 constexpr const char* kExposure = "ods:exposure";
 constexpr const char* kSettings = "ods:settings";
 constexpr const char* kSidecar = "ods:sidecar";
+
+// The CRC-32 of a row's other numbers of this eye, the same in each pixel: one flipped bit can pass zlib's Adler-32.
+constexpr const char* kCheck = "check";
 
 // A number's bits as whole numbers that floats hold exactly.
 template <typename Number>
@@ -78,6 +82,7 @@ std::vector<RowLayer> layers_of(const PictureSamples& samples) {
     if (plane.empty()) return;
     layers.push_back({channels_of(name, numbers, Words<Number>::kCount), LayerRule::kNearest, SampleType::kFloat});
   });
+  layers.push_back({channels_of(kCheck, 1, Words<uint32_t>::kCount), LayerRule::kNearest, SampleType::kFloat});
   return layers;
 }
 
@@ -93,7 +98,12 @@ void fill_row(const PictureSamples& samples, const EyeSamples& eye, int y, std::
       for (size_t n = 0; n < numbers; n++, to += Words<Number>::kCount)
         Words<Number>::split(plane[numbers * pixel + n], to);
     });
+    to += Words<uint32_t>::kCount;
   }
+  const size_t channels = row.size() / width, end = channels - Words<uint32_t>::kCount;
+  uint32_t crc = 0;
+  for (size_t x = 0; x < width; x++) crc = crc32(std::as_bytes(row.subspan(x * channels + 3, end - 3)), crc);
+  for (size_t x = 0; x < width; x++) Words<uint32_t>::split(crc, &row[x * channels + end]);
 }
 
 // The layer of an eye that holds a plane; nullptr if there is none.
@@ -149,10 +159,10 @@ std::string save_part(const std::string& path, const SampledPicture& picture, co
   options.attributes = {{kPart, part_text(picture.options.part)},
                         {kSamples, picture.options.samples},
                         {kExposure, fmt::format("{}", picture.exposure)},
-                        {kSettings, picture.settings},
+                        {kSettings, settings_text(picture.settings)},
                         {kSidecar, picture.camera}};
   options.rows_alone = true;    // so long that several together are no smaller
-  options.has_checksum = true;  // of the header; each row has its own
+  options.has_checksum = true;  // of the header
   return save_picture(rows, &camera, options, path).front();
 }
 
@@ -177,14 +187,14 @@ SampledPicture read_part_header(const std::string& path) {
   };
   const auto samples = info.numbers.find(kSamples);
   SampledPicture picture;
-  picture.settings = text(kSettings), picture.camera = text(kSidecar);
+  picture.settings = parse_settings(text(kSettings)), picture.camera = text(kSidecar);
   const float exposure = std::strtof(text(kExposure).c_str(), nullptr);
   if (std::isfinite(exposure)) picture.exposure = exposure;
   RenderOptions& options = picture.options;
   const std::optional<Part> part = parse_part(text(kPart));
   options.samples = samples == info.numbers.end() ? 0 : static_cast<int>(samples->second.front());
   if (!part || options.samples < 1 || options.samples > kMaxSamples || picture.camera.empty()) {
-    fail(path, "is no part of a picture: ods render --part makes those");
+    fail(path, "is no part of a picture: ods render `part` makes those");
   }
   check_header(path, info);
   options.part = *part;
@@ -203,15 +213,26 @@ SampledPicture read_part_header(const std::string& path) {
 
 // --- reading --------------------------------------------------------------------------------------------------------
 
-// One part, and where a pixel of it has its sums.
+namespace {
+
+// Where a pixel of a part has an eye's numbers, in bytes, in the order of each_plane() and channels_of().
+struct EyeOffsets {
+  std::vector<size_t> sums;     // that are wanted
+  std::vector<size_t> checked;  // all, of which the row has a CRC
+  std::array<size_t, Words<uint32_t>::kCount> check{};
+};
+
+}  // namespace
+
 struct PartsReader::File {
+  std::string path;
   std::unique_ptr<RowReader> rows;
-  size_t stride = 0;                         // bytes of a pixel
-  std::vector<std::vector<size_t>> offsets;  // for each eye in bytes, in the order of each_plane() and channels_of()
+  size_t stride = 0;  // bytes of a pixel
+  std::vector<EyeOffsets> eyes;
 };
 
 PartsReader::File PartsReader::open(const std::string& path) const {
-  File file{open_rows(path), 0, {}};
+  File file{path, open_rows(path), 0, {}};
   const FileInfo& info = file.rows->info();
   if (info.width != options_.width || info.height != options_.height) {
     fail(path, fmt::format("is not {}x{} pixels large", options_.width, options_.height));
@@ -224,16 +245,23 @@ PartsReader::File PartsReader::open(const std::string& path) const {
   for (const EyeSamples& eye : pixel.eyes) {
     const bool alone = pixel.eyes.size() == 1;
     const ViewChannels channels = channels_of_view(info, alone ? "" : std::string(eye_name(eye.eye)), alone);
-    std::vector<size_t>& offsets = file.offsets.emplace_back();
+    const auto has = [&](const std::string& channel) { return channels.contains(channel); };
+    const auto offset = [&](const std::string& channel) {
+      if (!has(channel) || info.samples[channels.at(channel)] != SampleType::kFloat) {
+        fail(path, fmt::format("lacks {} of eye '{}': render the part again", channel, eye_name(eye.eye)));
+      }
+      return starts[channels.at(channel)];
+    };
+    EyeOffsets& offsets = file.eyes.emplace_back();
     each_plane(eye, [&]<typename Number>(const char* name, const std::vector<Number>& plane) {
-      for (const std::string& channel : channels_of(name, plane.size(), Words<Number>::kCount)) {
-        const auto found = channels.find(channel);
-        if (found == channels.end() || info.samples[found->second] != SampleType::kFloat) {
-          fail(path, fmt::format("lacks {} of eye '{}': render the part again", channel, eye_name(eye.eye)));
-        }
-        offsets.push_back(starts[found->second]);
+      for (const std::string& channel : channels_of(name, plane.size(), Words<Number>::kCount))
+        offsets.sums.push_back(offset(channel));
+      for (const size_t numbers : {1, 3}) {
+        for (const std::string& channel : channels_of(name, numbers, Words<Number>::kCount))
+          if (has(channel)) offsets.checked.push_back(offset(channel));
       }
     });
+    std::ranges::transform(channels_of(kCheck, 1, offsets.check.size()), offsets.check.begin(), offset);
   }
   return file;
 }
@@ -261,15 +289,36 @@ static void add_pixels(const std::byte* bytes, size_t stride, const size_t* offs
   });
 }
 
+// Whether a row is as it was written.
+static bool is_whole(const std::byte* row, size_t stride, size_t width, const EyeOffsets& eye) {
+  std::vector<float> words(eye.checked.size());
+  uint32_t crc = 0;
+  for (size_t x = 0; x < width; x++) {
+    for (size_t i = 0; i < words.size(); i++) std::memcpy(&words[i], row + x * stride + eye.checked[i], sizeof(float));
+    crc = crc32(std::as_bytes(std::span(words)), crc);
+  }
+  std::array<float, Words<uint32_t>::kCount> check;
+  for (size_t i = 0; i < check.size(); i++) std::memcpy(&check[i], row + eye.check[i], sizeof(float));
+  return Words<uint32_t>::join(check.data()) == crc;
+}
+
 void PartsReader::add(const File& file, int begin, PictureSamples& band) {
   const size_t width = static_cast<size_t>(band.width), all = width * static_cast<size_t>(band.height);
   if (bytes_.size() < all * file.stride) bytes_.resize(all * file.stride);
   file.rows->read(begin, begin + band.height, file.rows->info().channels.size(), bytes_.data());
+  tbb::parallel_for(0, band.height, [&](int y) {
+    const std::byte* const row = &bytes_[static_cast<size_t>(y) * width * file.stride];
+    for (const EyeOffsets& eye : file.eyes) {
+      if (!is_whole(row, file.stride, width, eye)) {
+        fail(file.path, fmt::format("is damaged: row {} is not as it was written; render the part again", begin + y));
+      }
+    }
+  });
   constexpr size_t kTogether = 64;  // pixels whose bytes stay close to the processor
   tbb::parallel_for(size_t{0}, (all + kTogether - 1) / kTogether, [&](size_t piece) {
     const size_t first = piece * kTogether, pixels = std::min(kTogether, all - first);
     for (size_t i = 0; i < band.eyes.size(); i++) {
-      add_pixels(&bytes_[first * file.stride], file.stride, file.offsets[i].data(), first, pixels, all, band.eyes[i]);
+      add_pixels(&bytes_[first * file.stride], file.stride, file.eyes[i].sums.data(), first, pixels, all, band.eyes[i]);
     }
   });
 }

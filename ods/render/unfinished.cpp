@@ -43,6 +43,7 @@ class Writer {
     number(uint64_t{values.size()});
     bytes(std::as_bytes(std::span(values)));
   }
+  void settings(const Settings& values) { list(settings_text(values)); }
   void checksum() { number(uint32_t{checksum_}); }
 
  private:
@@ -84,6 +85,11 @@ class Reader {
     values.resize(count);
     bytes(std::as_writable_bytes(std::span(values)));
   }
+  void settings(Settings& values) {
+    std::string text;
+    list(text);
+    values = parse_settings(text);
+  }
   void checksum() {
     const uint32_t computed = checksum_;
     uint32_t written = 0;
@@ -105,7 +111,7 @@ class Reader {
 // Calls stream.number() or stream.list() for all that the file has.
 template <typename Stream, typename About, typename Samples>
 void each_field(Stream& stream, About& picture, Samples& samples) {
-  stream.list(picture.settings), stream.list(picture.camera);
+  stream.settings(picture.settings), stream.list(picture.camera);
   stream.number(picture.exposure), stream.number(picture.tone);
   auto& o = picture.options;
   stream.number(o.width), stream.number(o.height), stream.number(o.samples), stream.number(o.noise);

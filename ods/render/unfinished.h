@@ -8,6 +8,7 @@
 #pragma once
 #include <string>
 
+#include "ods/base/settings.h"
 #include "ods/image/tone.h"
 #include "ods/render/picture_samples.h"
 
@@ -15,7 +16,7 @@ namespace ods {
 
 // What the samples are of.
 struct SampledPicture {
-  std::string settings;   // everything that the picture depends on, in the caller's words
+  Settings settings;      // everything that the picture depends on, in the caller's words
   std::string camera;     // as a sidecar (ods/picture/metadata/sidecar.h)
   float exposure = 0.0f;  // how a file for the screen is to be made of it
   ToneCurve tone = ToneCurve::kNeutral;

@@ -118,8 +118,8 @@ Settled settle(Scene& scene, const SettleOptions& options, const LookAround& loo
 
 std::string settle_doubt(SceneKind kind) {
   if (kind == SceneKind::kObject)
-    return "taken for an object, but somebody could stand in it: --as place if it is a place";
-  return "taken for a place, but closed from all sides like an object: --as object or --unit cm if it is one";
+    return "taken for an object, but somebody could stand in it: `as` place if it is a place";
+  return "taken for a place, but closed from all sides like an object: `as` object or `unit` cm if it is one";
 }
 
 std::string view_fault(const SceneRays& rays, vec3 eye) {

@@ -143,7 +143,7 @@ void scale_scene(Scene& scene, float factor) {
   if (!(std::max({reach.x, reach.y, reach.z}) <= kFarthest)) {
     throw Error(ErrorKind::kInput,
                 fmt::format("with a unit of {:g} m the scene would extend further than a million km; "
-                            "--unit m keeps its size",
+                            "`unit` m keeps its size",
                             factor));
   }
   std::erase(scene.warnings, reach_warning(scene));

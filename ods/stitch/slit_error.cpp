@@ -176,7 +176,7 @@ int slits_for(const StereoCamera& camera, Extent eye, const SlitOptions& options
         ErrorKind::kUsage,
         fmt::format(
             "even a slit for every column is off by {:.3g} pixels at {:g} m: the pole merge moves the eyes from "
-            "one pitch to the next. Use more --pitches, --merge none, or views with depth",
+            "one pitch to the next. Use more `pitches`, `merge` none, or views with depth",
             pixels_off(camera, eye, tried, nearest), nearest));
   }
   int few = 2;

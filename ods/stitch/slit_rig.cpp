@@ -161,9 +161,9 @@ std::string slit_fault(const StereoCamera& camera, Extent eye, const SlitOptions
                        projection_name(camera.projection));
   }
   if (camera.head_tilt_map) {
-    return "slits are level and cannot show a tilted head: leave out --head-tilt-map, or use ods render";
+    return "slits are level and cannot show a tilted head: leave out `head-tilt-map`, or use ods render";
   }
-  if (camera.lens_radius > 0.0f) return "the views' renderer makes the depth of field: leave out --lens";
+  if (camera.lens_radius > 0.0f) return "the views' renderer makes the depth of field: leave out `lens`";
   if (options.slits < 3 || options.slits > eye.width) {
     return fmt::format("{} slits: there must be at least 3, and at most as many as the picture has columns ({})",
                        options.slits, eye.width);

@@ -32,10 +32,9 @@ static std::optional<Layout> layout_of_video(VideoStereo stereo, const std::stri
 
 static ProjectionSetting projection_of(const SphericalMetadata& metadata, const std::string& path) {
   if (metadata.projection != VideoProjection::kEquirect) {
-    throw unusable(path,
-                   fmt::format("it claims to be {}; ods reads videos in lat-long and parts of it (--projection "
-                               "overrides a wrong claim)",
-                               projection_name(*metadata.projection)));
+    throw unusable(path, fmt::format("it claims to be {}; ods reads videos in lat-long and parts of it (`projection` "
+                                     "overrides a wrong claim)",
+                                     projection_name(*metadata.projection)));
   }
   const auto part = [](uint32_t bound, double whole) { return static_cast<float>(bound / 4294967296.0 * whole); };
   ProjectionSetting projection;
@@ -85,8 +84,7 @@ static void take_mesh(VideoInput& video, const VideoTrack& track) {
     notes.push_back(fmt::format("it has its camera's lenses as a mesh ({} triangles)", eyes.eyes[0].triangles.size()));
   } catch (const MalformedFile& fault) {
     if (!track.v1 || track.v1->projection != VideoProjection::kEquirect) {
-      throw unusable(video.path,
-                     fmt::format("{}; --projection and --layout say what it shows", fault.what()));
+      throw unusable(video.path, fmt::format("{}; `projection` and `layout` say what it shows", fault.what()));
     }
     notes.push_back(fmt::format("{}: taken as its V1 says, {}", fault.what(), metadata_text(*track.v1)));
     video.metadata = *track.v1;
@@ -102,7 +100,7 @@ VideoInput open_video(const std::string& path, const FormatHint& known) {
         path,
         "its eyes are layers of its stream (MV-HEVC, a spatial video of a phone), which ods does not take "
         "apart. FFmpeg 7.1 does: ffmpeg -i VIDEO -filter_complex '[0:v:view:0][0:v:view:1]hstack' FLAT_SBS.mp4; "
-        "--layout separate takes the first eye alone");
+        "`layout` separate takes the first eye alone");
   }
   VideoInput video;
   video.path = path;

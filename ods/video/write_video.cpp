@@ -56,11 +56,13 @@ namespace {
 class Parts {
  public:
   Parts(const NewVideo& video, const std::string& path, VideoEncoder& encoder) : encoder_(encoder) {
-    const std::string& settings = video.resume.settings;
+    Settings settings = video.resume.settings;
     if (settings.empty() || video.options.bitrate) return;
     const int interval = key_interval(video.options.rate);
     frames_ = (kPartFrames + interval - 1) / interval * interval;
-    file_.emplace(path, fmt::format("{}parts of {}\nheader {}\n", settings, frames_, md5(encoder.header())));
+    settings.push_back({"parts", fmt::format("{}", frames_), ""});
+    settings.push_back({"header", md5(encoder.header()), ""});
+    file_.emplace(path, settings);
     if (video.resume.tell && finished() > 0) {
       video.resume.tell(fmt::format("goes on after {} frames, which '{}' has", finished(), file_->path()));
     }

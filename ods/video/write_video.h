@@ -9,6 +9,7 @@
 #include <string>
 
 #include "ods/base/progress.h"
+#include "ods/base/settings.h"
 #include "ods/video/encode.h"
 
 namespace ods {
@@ -17,7 +18,7 @@ namespace ods {
 // at least kPartFrames frames, until the video is complete. A bit rate, which is kept over the whole video, allows no
 // parts.
 struct Resume {
-  std::string settings;                                // all that the frames depend on, a line each; empty: no parts
+  Settings settings;                                   // all that the frames depend on; empty: no parts
   std::function<void(const std::string& words)> tell;  // says that it goes on, or why not. May be empty
 };
 inline constexpr int kPartFrames = 240;

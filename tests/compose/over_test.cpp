@@ -107,7 +107,7 @@ TEST(Over, WarnsOfAnotherTilt) {
     const MadePicture front = front_picture(other);
     const std::vector<std::string> warnings = over_warnings(front.picture, back.picture);
     ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_NE(warnings[0].find("--head-tilt-map"), std::string::npos) << warnings[0];
+    EXPECT_NE(warnings[0].find("`head-tilt-map`"), std::string::npos) << warnings[0];
     EXPECT_EQ(over_fault(front.picture, back.picture, {}), "") << "taken as it is";
   }
 }

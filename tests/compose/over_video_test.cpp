@@ -186,7 +186,7 @@ TEST_F(VideoOver, ATitleForOtherEyesIsReported) {
   Sidecar sidecar;
   sidecar.camera.ipd = 0.05f;
   save_sidecar(sidecar, folder.path("video.camera.json"));
-  EXPECT_NE(warning().find("for eyes 70 mm apart, the background for 50: make it with --ipd 0.05"), std::string::npos)
+  EXPECT_NE(warning().find("for eyes 70 mm apart, the background for 50: make it with `ipd` 0.05"), std::string::npos)
       << warning();
   SphericalMetadata metadata = open_video(video).metadata;
   metadata.for_apple = true;
@@ -195,7 +195,7 @@ TEST_F(VideoOver, ATitleForOtherEyesIsReported) {
     tag_video(video, video, 1, metadata);
     EXPECT_EQ(open_video(video).prototype.has_ipd, true);
     EXPECT_EQ(
-        warning().find("for eyes 70 mm apart, the background for 60: make it with --ipd 0.06") != std::string::npos,
+        warning().find("for eyes 70 mm apart, the background for 60: make it with `ipd` 0.06") != std::string::npos,
         ipd == 0.06)
         << warning();
     EXPECT_EQ(warning().empty(), ipd == 0.07) << warning();

@@ -128,7 +128,7 @@ TEST_F(StoredNoiseOf, HalvesByTheirUsualNames) {
     const StoredNoise noise = read({kColour, {rgb(a), all(2.0f)}, {rgb(b), all(1.0f)}});
     EXPECT_EQ(noise.picture.eyes[0].variance.at(1, 1)[0], 0.25f) << a;
   }
-  EXPECT_EQ(kind_of_error({kColour, {rgb("halfA"), all(2.0f)}}, {}, "--half-a"), ErrorKind::kInput);
+  EXPECT_EQ(kind_of_error({kColour, {rgb("halfA"), all(2.0f)}}, {}, "`half-a`"), ErrorKind::kInput);
   const StoredNoise both =
       read({kColour, {rgb("halfA"), all(2.0f)}, {rgb("halfB"), all(1.0f)}, {rgb("variance"), all(7.0f)}});
   EXPECT_EQ(both.picture.eyes[0].variance.at(1, 1)[0], 7.0f);
@@ -159,7 +159,7 @@ TEST_F(StoredNoiseOf, PixelsWithoutUsableStatisticsAreCounted) {
 TEST_F(StoredNoiseOf, WhatIsMissingIsSaid) {
   EXPECT_EQ(kind_of_error({kColour, {rgb("variance"), all(0.0f)}, {{"samples"}, all(1.0f)}}, {}, "2 samples"),
             ErrorKind::kInput);
-  EXPECT_EQ(kind_of_error({kColour, {{"Z"}, all(1.0f)}}, {}, "--half-a"), ErrorKind::kInput);
+  EXPECT_EQ(kind_of_error({kColour, {{"Z"}, all(1.0f)}}, {}, "`half-a`"), ErrorKind::kInput);
   EXPECT_EQ(kind_of_error({kColour, {{"Z"}, all(1.0f)}}, {.variance = "mse"}, "no layer 'mse'"), ErrorKind::kUsage);
   EXPECT_EQ(kind_of_error({kColour, {{"a.X", "a.Q"}, all(1.0f)}}, {.half_a = "a", .half_b = "a"}, "no layer 'a'"),
             ErrorKind::kUsage);

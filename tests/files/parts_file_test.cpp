@@ -13,6 +13,8 @@
 namespace ods {
 namespace {
 
+const Settings kSet = {{"layout", "as set", ""}};
+
 class PartsFiles : public testing::Test {
  protected:
   std::vector<std::string> records_of(PartsFile& parts) const {
@@ -25,7 +27,7 @@ class PartsFiles : public testing::Test {
   std::string bytes_of_two_parts() {
     std::string bytes;
     {
-      PartsFile parts(path, "as set\n");
+      PartsFile parts(path, kSet);
       parts.add("one"), parts.end_part();
       parts.add("two"), parts.add(""), parts.end_part();
       parts.add("three");
@@ -42,13 +44,13 @@ class PartsFiles : public testing::Test {
 TEST_F(PartsFiles, FinishedPartsAreReadAndOthersFollow) {
   folder.write("film.mp4.unfinished", bytes_of_two_parts());
   {
-    PartsFile parts(path, "as set\n");
+    PartsFile parts(path, kSet);
     EXPECT_EQ(parts.count(), 2);
     EXPECT_EQ(parts.removed(), "");
     EXPECT_EQ(records_of(parts), (std::vector<std::string>{"one", "two", ""}));
     parts.add("four"), parts.end_part();
   }
-  PartsFile parts(path, "as set\n");
+  PartsFile parts(path, kSet);
   EXPECT_EQ(parts.count(), 3);
   EXPECT_EQ(records_of(parts), (std::vector<std::string>{"one", "two", "", "four"}));
   parts.remove();
@@ -58,11 +60,11 @@ TEST_F(PartsFiles, FinishedPartsAreReadAndOthersFollow) {
 // Wherever a process was killed, whole parts are read and nothing else.
 TEST_F(PartsFiles, EveryTruncationGivesWholeParts) {
   const std::string bytes = bytes_of_two_parts();
-  const size_t head = std::string("omnistereo parts, 1\n").size() + 4 + std::string("as set\n").size();
+  const size_t head = std::string("omnistereo parts, 1\n").size() + 4 + settings_text(kSet).size();
   const size_t first = head + 4 + 3 + 12, second = first + 4 + 3 + 4 + 12;
   for (size_t size = head; size <= bytes.size(); size++) {
     folder.write("film.mp4.unfinished", bytes.substr(0, size));
-    PartsFile parts(path, "as set\n");
+    PartsFile parts(path, kSet);
     EXPECT_EQ(parts.count(), size < first ? 0 : size < second ? 1 : 2) << size;
     EXPECT_EQ(records_of(parts).size(), size < first ? 0u : size < second ? 1u : 3u) << size;
   }
@@ -70,15 +72,15 @@ TEST_F(PartsFiles, EveryTruncationGivesWholeParts) {
 
 TEST_F(PartsFiles, OtherSettingsRemoveThem) {
   folder.write("film.mp4.unfinished", bytes_of_two_parts());
-  PartsFile parts(path, "set otherwise\n");
+  PartsFile parts(path, {{"layout", "otherwise", ""}});
   EXPECT_EQ(parts.count(), 0);
-  EXPECT_EQ(parts.removed(), "as set, now set otherwise");
+  EXPECT_EQ(parts.removed(), "layout was as set, now otherwise");
   EXPECT_FALSE(std::filesystem::exists(path + ".unfinished"));
 }
 
 TEST_F(PartsFiles, NothingStaysWithoutAPart) {
   {
-    PartsFile parts(path, "");
+    PartsFile parts(path, {});
     parts.add("one");
     EXPECT_TRUE(std::filesystem::exists(path + ".unfinished"));
   }
@@ -87,14 +89,14 @@ TEST_F(PartsFiles, NothingStaysWithoutAPart) {
 
 TEST_F(PartsFiles, AnotherFileAndAnotherProcessAreRefused) {
   folder.write("film.mp4.unfinished", "somebody's");
-  EXPECT_THROW(PartsFile(path, ""), Error);
+  EXPECT_THROW(PartsFile(path, {}), Error);
   EXPECT_EQ(folder.read("film.mp4.unfinished"), "somebody's");
   std::filesystem::remove(path + ".unfinished");
   std::filesystem::create_directory(path + ".unfinished");
-  EXPECT_THROW(PartsFile(path, ""), Error);
+  EXPECT_THROW(PartsFile(path, {}), Error);
   std::filesystem::remove(path + ".unfinished");
-  PartsFile parts(path, "");
-  EXPECT_THROW(PartsFile(path, ""), Error);
+  PartsFile parts(path, {});
+  EXPECT_THROW(PartsFile(path, {}), Error);
 }
 
 }  // namespace

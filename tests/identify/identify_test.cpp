@@ -155,7 +155,7 @@ TEST_F(Unknown, ALensIsNotSure) {
   const std::string doubt = doubt_text(identity);
   EXPECT_NE(doubt.find("one eye, fisheye ("), std::string::npos) << doubt;
   EXPECT_NE(doubt.find("one eye, fisheye-equisolid ("), std::string::npos) << doubt;
-  EXPECT_NE(doubt.find("--layout and --projection"), std::string::npos) << doubt;
+  EXPECT_NE(doubt.find("`layout` and `projection`"), std::string::npos) << doubt;
 }
 
 // Faces in an order that is none of ours are told, whatever the layout, and no reading is sure.

@@ -99,11 +99,11 @@ struct Misalignment {
 };
 
 TEST_F(LintEyes, ThatAreMisalignedAreFoundAndCured) {
-  for (const Misalignment& wrong : {Misalignment{&EyeCorrection::raise, 0.7f, Fault::kVerticalOffset, "--right-raise"},
-                                    Misalignment{&EyeCorrection::raise, -5.0f, Fault::kVerticalOffset, "--right-raise"},
-                                    Misalignment{&EyeCorrection::pitch, 1.5f, Fault::kEyePitched, "--right-pitch"},
-                                    Misalignment{&EyeCorrection::roll, -10.0f, Fault::kEyeRolled, "--right-roll"},
-                                    Misalignment{&EyeCorrection::roll, 1.0f, Fault::kEyeRolled, "--right-roll"}}) {
+  for (const Misalignment& wrong : {Misalignment{&EyeCorrection::raise, 0.7f, Fault::kVerticalOffset, "`right-raise`"},
+                                    Misalignment{&EyeCorrection::raise, -5.0f, Fault::kVerticalOffset, "`right-raise`"},
+                                    Misalignment{&EyeCorrection::pitch, 1.5f, Fault::kEyePitched, "`right-pitch`"},
+                                    Misalignment{&EyeCorrection::roll, -10.0f, Fault::kEyeRolled, "`right-roll`"},
+                                    Misalignment{&EyeCorrection::roll, 1.0f, Fault::kEyeRolled, "`right-roll`"}}) {
     EyeCorrection made;
     made.*wrong.field = wrong.amount;
     const LintReport report = lint(make(made, "wrong_TB.png"));
@@ -124,7 +124,7 @@ TEST_F(LintEyes, ThatDifferInSizeAreFound) {
   made.zoom = 1.03f;
   const LintReport report = lint(make(made, "larger_TB.png"));
   EXPECT_EQ(faults_of(report), std::set<Fault>{Fault::kEyeMagnified});
-  EXPECT_NEAR(number_after(cure_of(report, Fault::kEyeMagnified), "--right-zoom"), 1.0f / 1.03f, 0.003f);
+  EXPECT_NEAR(number_after(cure_of(report, Fault::kEyeMagnified), "`right-zoom`"), 1.0f / 1.03f, 0.003f);
 }
 
 // What is far in this scene has hardly any parallax.
@@ -135,7 +135,7 @@ TEST_F(LintEyes, ThatMustDivergeAreFoundAndCured) {
     const LintReport report = lint(make(made, "wide_TB.png"));
     EXPECT_EQ(faults_of(report), std::set<Fault>{Fault::kEyesDiverge}) << amount;
     EyeCorrection cured;
-    cured.yaw = number_after(cure_of(report, Fault::kEyesDiverge), "--right-yaw");
+    cured.yaw = number_after(cure_of(report, Fault::kEyesDiverge), "`right-yaw`");
     EXPECT_NEAR(cured.yaw, -amount, 0.15f);
     EXPECT_EQ(faults_of(lint(corrected(folder.path("wide_TB.png"), cured, "cured_TB.png"))), std::set<Fault>{});
   }
@@ -169,19 +169,19 @@ TEST_F(LintEyes, OfOtherColoursAreFoundAndCured) {
   const LintReport tint = lint(make(tinted, "tinted_TB.png"));
   EXPECT_EQ(faults_of(tint), std::set<Fault>{Fault::kEyeTinted});
   const std::string cure = cure_of(tint, Fault::kEyeTinted);
-  EXPECT_NEAR(number_after(cure, "--right-gain"), 1.0f / 0.9f, 0.02f) << cure;
+  EXPECT_NEAR(number_after(cure, "`right-gain`"), 1.0f / 0.9f, 0.02f) << cure;
 
   EyeCorrection darker;
   darker.gain = vec3(std::exp2(-0.3f));
   const LintReport exposure = lint(make(darker, "darker_TB.png"));
   EXPECT_EQ(faults_of(exposure), std::set<Fault>{Fault::kEyeBrighter});
-  EXPECT_NEAR(number_after(cure_of(exposure, Fault::kEyeBrighter), "--right-gain"), std::exp2(0.3f), 0.03f);
+  EXPECT_NEAR(number_after(cure_of(exposure, Fault::kEyeBrighter), "`right-gain`"), std::exp2(0.3f), 0.03f);
 
   EyeCorrection power;
   power.gamma = 1.15f;
   const LintReport gamma = lint(make(power, "gamma_TB.png"));
   EXPECT_EQ(faults_of(gamma).count(Fault::kEyeGamma), 1u);
-  EXPECT_NEAR(number_after(cure_of(gamma, Fault::kEyeGamma), "--right-gamma"), 1.0f / 1.15f, 0.02f);
+  EXPECT_NEAR(number_after(cure_of(gamma, Fault::kEyeGamma), "`right-gamma`"), 1.0f / 1.15f, 0.02f);
 }
 
 TEST_F(LintEyes, OfWhichOneIsBlurredAreFound) {

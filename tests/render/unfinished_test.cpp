@@ -35,7 +35,10 @@ PictureSamples samples_with(const RenderOptions& options) {
 }
 
 SampledPicture about(const RenderOptions& options) {
-  return {"--seed\t7\n", write_sidecar({StereoCamera(), {options.width, options.height}}), 1.5f, ToneCurve::kLinear,
+  return {{{"seed", "7", ""}},
+          write_sidecar({StereoCamera(), {options.width, options.height}}),
+          1.5f,
+          ToneCurve::kLinear,
           options};
 }
 
@@ -70,7 +73,7 @@ TEST(Unfinished, ComesBackBitForBit) {
     PictureSamples again;
     const SampledPicture picture = read_unfinished(folder.path("a"), again);
     expect_same(again, samples);
-    EXPECT_EQ(picture.settings, about(options).settings);
+    EXPECT_EQ(settings_difference(picture.settings, about(options).settings), "");
     EXPECT_EQ(picture.camera, about(options).camera);
     EXPECT_EQ(picture.exposure, 1.5f);
     EXPECT_EQ(picture.tone, ToneCurve::kLinear);
@@ -116,7 +119,7 @@ TEST(PartFile, HoldsTheExactSums) {
     const SampledPicture header = read_part_header(folder.path("part.exr"));
     EXPECT_EQ(header.options.part.number, 2);
     EXPECT_EQ(header.options.part.count, 3);
-    EXPECT_EQ(header.settings, picture.settings);
+    EXPECT_EQ(settings_difference(header.settings, picture.settings), "");
     EXPECT_EQ(header.camera, picture.camera);
     EXPECT_EQ(samples_bytes(header.options), samples_bytes(options));
     PictureSamples again = PartsReader({folder.path("part.exr")}, options).sum(0, options.height);
@@ -157,8 +160,8 @@ TEST(PartFile, BandsMakeThePictureOfTheWholeSum) {
   }
 }
 
-// The header's checksum, and those of the rows. These are zlib's Adler-32, which one flipped bit in some thousands
-// passes.
+// By the header's checksum or the row's. A flipped bit of a row may change nothing: the colour that programs show is
+// not among the sums.
 TEST(PartFile, AFlippedBitIsNoticedOrChangesNothing) {
   const TemporaryFolder folder;
   RenderOptions options = options_with(true);
@@ -167,7 +170,7 @@ TEST(PartFile, AFlippedBitIsNoticedOrChangesNothing) {
   const PictureSamples sums = PartsReader({part}, options).sum(0, options.height);
   const std::string whole = folder.read("part.exr");
   const size_t end = read_exr_header(FileInput(part)).end;
-  size_t headers = 0, refused_headers = 0, unnoticed = 0;
+  size_t headers = 0, refused_headers = 0;
   for (size_t at = 0; at < whole.size(); at += at < end ? 3 : 17) {
     std::string bytes = whole;
     bytes[at] = static_cast<char>(bytes[at] ^ (1 << (at % 8)));
@@ -175,12 +178,10 @@ TEST(PartFile, AFlippedBitIsNoticedOrChangesNothing) {
     if (at < end) headers++;
     try {
       const SampledPicture header = read_part_header(folder.path("flipped.exr"));
-      EXPECT_EQ(header.settings, about(options).settings) << at;
+      EXPECT_EQ(settings_text(header.settings), settings_text(about(options).settings)) << at;
       EXPECT_EQ(samples_bytes(header.options), samples_bytes(options)) << at;
       const PictureSamples read = PartsReader({folder.path("flipped.exr")}, options).sum(0, options.height);
-      if (at < end) expect_same(read, sums);
-      const EyeSamples &is = read.eyes[0], &was = sums.eyes[0];
-      if (is.light != was.light || is.normal != was.normal || is.albedo != was.albedo) unnoticed++;
+      expect_same(read, sums);
     } catch (const Error& error) {
       EXPECT_TRUE(error.kind() == ErrorKind::kInput) << at << error.what();
       EXPECT_TRUE(is_quotable(error.what())) << at;
@@ -188,7 +189,6 @@ TEST(PartFile, AFlippedBitIsNoticedOrChangesNothing) {
     }
     ASSERT_FALSE(HasFailure()) << "byte " << at << " of " << whole.size() << ", header " << end;
   }
-  EXPECT_LE(unnoticed, 1u);
   EXPECT_GE(refused_headers + 2, headers) << "only bits of the version may mean nothing";
 }
 

@@ -92,8 +92,8 @@ TEST(ObjectOrPlace, TheUserDecides) {
 TEST(ObjectOrPlace, DoubtIsSaid) {
   Scene bed = make_bed();
   EXPECT_TRUE(settle(bed).doubted);
-  EXPECT_NE(settle_doubt(SceneKind::kObject).find("--as place"), std::string::npos);
-  EXPECT_NE(settle_doubt(SceneKind::kClosedRoom).find("--unit cm"), std::string::npos);
+  EXPECT_NE(settle_doubt(SceneKind::kObject).find("`as` place"), std::string::npos);
+  EXPECT_NE(settle_doubt(SceneKind::kClosedRoom).find("`unit` cm"), std::string::npos);
   Scene chair = make_chair(), room = make_walled_room();
   EXPECT_FALSE(settle(chair).doubted);
   EXPECT_FALSE(settle(room).doubted);

@@ -151,7 +151,7 @@ void WebpEncoder::finish() {
   const WebPEncodingError fault = picture.error_code;
   if (fault == VP8_ENC_ERROR_OUT_OF_MEMORY || fault == VP8_ENC_ERROR_BITSTREAM_OUT_OF_MEMORY) throw std::bad_alloc();
   throw cannot_write(file_, fault == VP8_ENC_ERROR_PARTITION0_OVERFLOW || fault == VP8_ENC_ERROR_PARTITION_OVERFLOW
-                                ? "it is too large for WebP; a lower --quality or .png holds it"
+                                ? "it is too large for WebP; a lower `quality` or .png holds it"
                                 : "libwebp cannot encode it; try .png");
 }
 

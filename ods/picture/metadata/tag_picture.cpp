@@ -79,13 +79,13 @@ PictureTag complete_tag(const FormatHint& known, const std::string& path, std::v
   }
   const std::optional<Extent> eye = whole_eye(tag.layout.value_or(Layout::kSeparate), {info.width, info.height});
   if (!eye) {
-    throw unusable(path, fmt::format("{}x{} pixels are not two eyes, {}: give another --layout", info.width,
+    throw unusable(path, fmt::format("{}x{} pixels are not two eyes, {}: give another `layout`", info.width,
                                      info.height, layout_name(*tag.layout)));
   }
   const bool is_told = known.projection || known.seen || format.has_camera || read_name(path).projection != nullptr;
   if (!is_told && natural_height(format.camera.projection, eye->width) != eye->height) {
     throw unusable(path, fmt::format("neither its name (_360, _360_TB ...) nor its shape ({}x{}) tells what it "
-                                     "shows: give --layout and --projection",
+                                     "shows: give `layout` and `projection`",
                                      info.width, info.height));
   }
   guesses = format.guesses;

@@ -91,7 +91,7 @@ static void choose_variant(GltfFile& file, Scene& scene, const std::string& chos
     const std::string others = scene.variants.empty() ? "; it has no variants"
                                : !near.empty()        ? near
                                                       : fmt::format("; it has {}", fmt::join(scene.variants, ", "));
-    throw Error(ErrorKind::kUsage, fmt::format("--variant: '{}' has no variant '{}'{}", file.path, chosen, others));
+    throw Error(ErrorKind::kUsage, fmt::format("`variant`: '{}' has no variant '{}'{}", file.path, chosen, others));
   }
   file.variant = static_cast<int>(found - scene.variants.begin());
 }
@@ -213,7 +213,7 @@ void find_losses(const GltfFile& file, Scene& scene, const AnimatedNodes& animat
   }
   if (scene.view_points.empty() && !bare.cameras.empty()) {
     scene.losses.push_back(fmt::format(
-        "Blender's export empties panoramic cameras: {} may be one; --camera '{}' stands there and moves with it",
+        "Blender's export empties panoramic cameras: {} may be one; `camera` '{}' stands there and moves with it",
         listed(bare.cameras), bare.cameras.front()));
   }
   if (!file.lights.empty() && !bare.lights.empty()) {

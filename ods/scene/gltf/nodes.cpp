@@ -113,7 +113,7 @@ static std::vector<int> nodes_of_scene(const GltfFile& file, const Hierarchy& tr
   if (scenes.empty() && chosen == 0) return tree.order;
   if (chosen < 0 || static_cast<size_t>(chosen) >= scenes.size()) {
     const std::string what = fmt::format("has no scene {}, only {} (counted from 0)", chosen, scenes.size());
-    if (is_asked_for) throw Error(ErrorKind::kUsage, fmt::format("--scene: '{}' {}", file.path, what));
+    if (is_asked_for) throw Error(ErrorKind::kUsage, fmt::format("`scene`: '{}' {}", file.path, what));
     fail(file, what);
   }
   std::vector<char> inside(tree.order.size(), 0);

@@ -18,10 +18,10 @@ Scene load_scene(const std::string& name, const SceneOptions& options) {
   if (const BuiltinScene* builtin = find_builtin(name)) {
     if (options.scene > 0) {
       throw Error(ErrorKind::kUsage,
-                  fmt::format("--scene: '{}' has no scene {}: a built-in scene has only one", name, options.scene));
+                  fmt::format("`scene`: '{}' has no scene {}: a built-in scene has only one", name, options.scene));
     }
     if (!options.variant.empty()) {
-      throw Error(ErrorKind::kUsage, fmt::format("--variant: '{}' is a built-in scene, which has no variants", name));
+      throw Error(ErrorKind::kUsage, fmt::format("`variant`: '{}' is a built-in scene, which has no variants", name));
     }
     Scene scene = builtin->make();
     scene.name = name;

@@ -111,29 +111,29 @@ std::string note_for(const Survey& survey, const LightPlan& plan, const LightWis
   if (plan.paint == Paint::kUnlit) return "the scene is shown as it is painted: " + paint_reason(plan.paint);
   if (plan.as_painted) {
     return fmt::format(
-        "the scene seems to hold its light in its colours ({}): it is shown as it is painted (--env sky or --lamp "
+        "the scene seems to hold its light in its colours ({}): it is shown as it is painted (`env` sky or `lamp` "
         "X,Y,Z "
         "lights it instead)",
         paint_reason(plan.paint));
   }
   if (plan.lamp && wishes.lamp == LampWish::kAuto) {
     return fmt::format(
-        "a closed room without light: a lamp hangs at {} (--lamp X,Y,Z moves it, --lamp none removes it)",
+        "a closed room without light: a lamp hangs at {} (`lamp` X,Y,Z moves it, `lamp` none removes it)",
         place_text(plan.lamp->position));
   }
   if (!plan.surround || wishes.surround != Surround::kAuto) return "";
   if (plan.surround == Surround::kStudio) {
     const bool floats = survey.kind == SceneKind::kOpenPlace;
     return fmt::format(
-        "{} own: a studio lights {} (--env sky, white, R,G,B or a lat-long picture replaces the studio, --env "
+        "{} own: a studio lights {} (`env` sky, white, R,G,B or a lat-long picture replaces the studio, `env` "
         "0 removes it)",
         floats ? "floating things without light of their" : "an object without light of its", floats ? "them" : "it");
   }
   const std::string sky = fmt::format(
-      "--env sky:elevation={:g},azimuth={:g} is this sun, --env white, R,G,B or a lat-long picture replaces the sky)",
+      "`env` sky:elevation={:g},azimuth={:g} is this sun, `env` white, R,G,B or a lat-long picture replaces the sky)",
       plan.sky.elevation, plan.sky.azimuth);
   if (survey.kind == SceneKind::kClosedRoom && plan.windows >= kWindows) {
-    return "a room with windows and no lamp: sun and sky light it from outside (--lamp X,Y,Z adds a lamp, " + sky;
+    return "a room with windows and no lamp: sun and sky light it from outside (`lamp` X,Y,Z adds a lamp, " + sky;
   }
   return "an open place without light of its own: sun and sky light it (" + sky;
 }
@@ -179,7 +179,7 @@ std::string advice_for(const SceneRays& rays, const Survey& survey, const LightP
     return fmt::format("the room's light is {}, in a window: without it, sun and sky would light the room", glowing);
   }
   if (plan.windows < kWindows) return "";
-  return fmt::format("the room's only light is {}, and nothing is behind its windows: --env sky puts sun and sky there",
+  return fmt::format("the room's only light is {}, and nothing is behind its windows: `env` sky puts sun and sky there",
                      scene.lights.empty() ? glowing : "that of its lamps");
 }
 

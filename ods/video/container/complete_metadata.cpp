@@ -88,7 +88,7 @@ static void guess_projection(SphericalMetadata& known, const StereoFormat& forma
   if (!is_told && natural_height(format.camera.projection, eye.width) != eye.height) {
     throw Error(ErrorKind::kInput,
                 fmt::format("cannot tell what '{}' shows, from its name (_360_TB, _180_LR ...) or its shape "
-                            "({}x{}): give --layout and --projection",
+                            "({}x{}): give `layout` and `projection`",
                             path, track.size.width, track.size.height));
   }
   set_projection(known, format.camera.projection);
@@ -126,7 +126,7 @@ SphericalMetadata complete_metadata(SphericalMetadata known, const VideoTrack& t
   const Layout layout = format.layout.layout.value_or(Layout::kSeparate);
   if (is_new && !unpacked_size(layout, track.size)) {
     throw Error(ErrorKind::kInput,
-                fmt::format("cannot tag '{}': {}x{} pixels are not two eyes, {}: give another --layout", path,
+                fmt::format("cannot tag '{}': {}x{} pixels are not two eyes, {}: give another `layout`", path,
                             track.size.width, track.size.height, layout_name(layout)));
   }
   if (!known.stereo) known.stereo = layout == Layout::kSeparate ? VideoStereo::kOneView : video_stereo(layout);
@@ -185,7 +185,7 @@ static std::string word_of(const SphericalMetadata& metadata) {
 
 static MetadataConflict layout_conflict(const SphericalMetadata& said, VideoStereo other, const std::string& reason) {
   return {fmt::format("it says {}, but {}", stereo_name(*said.stereo), reason),
-          fmt::format("--layout {} or --layout {}", stereo_name(*said.stereo), stereo_name(other))};
+          fmt::format("`layout` {} or `layout` {}", stereo_name(*said.stereo), stereo_name(other))};
 }
 
 static MetadataConflict projection_conflict(const SphericalMetadata& said, const ProjectionSetting& other,
@@ -195,9 +195,9 @@ static MetadataConflict projection_conflict(const SphericalMetadata& said, const
   eye.yaw = eye.pitch = eye.roll = 0.0;
   std::vector<std::string> options;
   const std::string word = word_of(said);
-  if (!said.is_partial() || word == "vr180") options.push_back("--projection " + word);
+  if (!said.is_partial() || word == "vr180") options.push_back("`projection` " + word);
   const std::string_view name = projection_name(other);
-  if (name == "lat-long" || name == "vr180") options.push_back(fmt::format("--projection {}", name));
+  if (name == "lat-long" || name == "vr180") options.push_back(fmt::format("`projection` {}", name));
   if (options.size() < 2) options.emplace_back("another name for the file");
   return {fmt::format("it says {}, but {}", metadata_text(eye), reason), fmt::format("{}", fmt::join(options, " or "))};
 }
@@ -234,8 +234,8 @@ std::vector<MetadataConflict> find_conflicts(const SphericalMetadata& known, con
   const std::string fault = shape_fault(*said, track.size);
   if (known.stereo || known.projection || !conflicts.empty() || fault.empty()) return conflicts;
   const bool is_square = track.size.width == track.size.height;
-  conflicts.push_back({fault, fmt::format("--layout {} or {}", stereo_name(*said->stereo),
-                                          is_square ? "--layout top-bottom" : "--projection flat")});
+  conflicts.push_back({fault, fmt::format("`layout` {} or {}", stereo_name(*said->stereo),
+                                          is_square ? "`layout` top-bottom" : "`projection` flat")});
   return conflicts;
 }
 

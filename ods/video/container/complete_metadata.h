@@ -39,7 +39,7 @@ bool is_told_by_shape(const SphericalMetadata& known, const VideoTrack& track, c
 // A contradiction to the video's own metadata.
 struct MetadataConflict {
   std::string text;     // "it says top-bottom, but its name ends in _LR"
-  std::string options;  // of ods inject, to resolve it: "--layout top-bottom or --layout side-by-side"
+  std::string options;  // settings that resolve it: "`layout` top-bottom or `layout` side-by-side"
 };
 // Contradictions from the sidecar, the name and the shape, except those that `known` resolves.
 std::vector<MetadataConflict> find_conflicts(const SphericalMetadata& known, const VideoTrack& track,

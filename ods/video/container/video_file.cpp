@@ -57,13 +57,13 @@ const VideoTrack& choose_track(const VideoFile& video, std::optional<int> id, co
     ids += fmt::format("{}{} ({}x{})", ids.empty() ? "" : ", ", track.id, track.size.width, track.size.height);
   }
   if (id) {
-    throw Error(ErrorKind::kUsage, fmt::format("--track: '{}' has no video track {}, but {}", path, *id, ids));
+    throw Error(ErrorKind::kUsage, fmt::format("`track`: '{}' has no video track {}, but {}", path, *id, ids));
   }
   const auto smaller = [](const VideoTrack& a, const VideoTrack& b) { return pixels(a) < pixels(b); };
   const VideoTrack& largest = *std::max_element(video.tracks.begin(), video.tracks.end(), smaller);
   const auto as_large = [&](const VideoTrack& track) { return pixels(track) == pixels(largest); };
   if (std::count_if(video.tracks.begin(), video.tracks.end(), as_large) > 1) {
-    throw unusable(path, fmt::format("several tracks share the largest size, of {}: choose one with --track", ids));
+    throw unusable(path, fmt::format("several tracks share the largest size, of {}: choose one with `track`", ids));
   }
   return largest;
 }

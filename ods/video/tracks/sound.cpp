@@ -42,8 +42,8 @@ struct SoundFile {
 static int find_sound(AVFormatContext& file, const std::string& what, const AVCodec** codec) {
   const int index = av_find_best_stream(&file, AVMEDIA_TYPE_AUDIO, -1, -1, codec, 0);
   if (index == AVERROR_STREAM_NOT_FOUND) {
-    throw Error(ErrorKind::kInput, fmt::format("{}: it has none; give --audio a sound file (wav, flac, mp3 ...) or a "
-                                               "video with sound, or leave --audio out",
+    throw Error(ErrorKind::kInput, fmt::format("{}: it has none; give `audio` a sound file (wav, flac, mp3 ...) or a "
+                                               "video with sound, or leave `audio` out",
                                                what));
   }
   return checked_small_input(index, what);

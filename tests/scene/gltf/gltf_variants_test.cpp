@@ -71,10 +71,10 @@ std::string refusal(const GltfBuilder& file, const std::string& variant) {
 
 TEST(GltfVariants, AnUnknownNameIsAUsageError) {
   GltfBuilder file = make_triangle();
-  EXPECT_EQ(refusal(file, "red"), "--variant: 'test.glb' has no variant 'red'; it has no variants");
+  EXPECT_EQ(refusal(file, "red"), "`variant`: 'test.glb' has no variant 'red'; it has no variants");
   add_variants(file);
-  EXPECT_EQ(refusal(file, "gren"), "--variant: 'test.glb' has no variant 'gren'; did you mean 'green'?");
-  EXPECT_EQ(refusal(file, "purple"), "--variant: 'test.glb' has no variant 'purple'; it has red, green, blue");
+  EXPECT_EQ(refusal(file, "gren"), "`variant`: 'test.glb' has no variant 'gren'; did you mean 'green'?");
+  EXPECT_EQ(refusal(file, "purple"), "`variant`: 'test.glb' has no variant 'purple'; it has red, green, blue");
   EXPECT_THROW(load_scene("furnace", {.variant = "red"}), Error);
 }
 

@@ -50,7 +50,7 @@ TEST(GltfLosses, LightsAndCamerasWithoutTheirBoxes) {
 TEST(GltfLosses, EmptyNodesThatWereCamerasAndAreaLights) {
   const Scene scene = make_lit_export().load();
   ASSERT_EQ(scene.losses.size(), 2u);
-  EXPECT_TRUE(says(scene, "--camera 'Eye'")) << scene.losses[0];
+  EXPECT_TRUE(says(scene, "`camera` 'Eye'")) << scene.losses[0];
   EXPECT_TRUE(says(scene, "area lights: 'ceiling area' may")) << scene.losses[1];
   EXPECT_FALSE(says(scene, "Empty"));
   EXPECT_TRUE(scene.view_points.empty());

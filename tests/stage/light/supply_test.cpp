@@ -63,7 +63,7 @@ TEST(Supply, AnObjectGetsAStudioAndAGround) {
     EXPECT_EQ(plan.surround, Surround::kStudio);
     EXPECT_TRUE(plan.ground);
     EXPECT_FALSE(plan.lamp);
-    EXPECT_TRUE(says(plan, "studio") && says(plan, "--env 0")) << plan.note;
+    EXPECT_TRUE(says(plan, "studio") && says(plan, "`env` 0")) << plan.note;
     ASSERT_EQ(scene.instances.size(), instances + 1);
     EXPECT_EQ(scene.supplied, 1u);
     EXPECT_TRUE(scene.background);
@@ -81,7 +81,7 @@ TEST(Supply, APlaceThatIsOpenUpwardsGetsASky) {
     EXPECT_EQ(plan.surround, Surround::kSky);
     EXPECT_EQ(scene.environment.width, 1024);
     EXPECT_EQ(scene.instances.size(), instances) << "no ground, no lamp";
-    EXPECT_TRUE(says(plan, fmt::format("--env sky:elevation={:g},azimuth={:g}", plan.sky.elevation, plan.sky.azimuth)))
+    EXPECT_TRUE(says(plan, fmt::format("`env` sky:elevation={:g},azimuth={:g}", plan.sky.elevation, plan.sky.azimuth)))
         << plan.note;
   }
 }
@@ -93,7 +93,7 @@ TEST(Supply, AClosedRoomGetsALamp) {
     EXPECT_FALSE(plan.surround);
     ASSERT_TRUE(plan.lamp);
     EXPECT_EQ(scene.instances.size(), instances + 1);
-    EXPECT_TRUE(says(plan, "--lamp none")) << plan.note;
+    EXPECT_TRUE(says(plan, "`lamp` none")) << plan.note;
     EXPECT_TRUE(has_light(scene));
     EXPECT_TRUE(plan_for(scene).note.empty()) << "it has light now";
   }
@@ -244,7 +244,7 @@ TEST(Supply, NothingBehindAWindowIsSaid) {
   room.lights.push_back(lamp);
   const LightPlan plan = plan_for(room);
   EXPECT_FALSE(plan.surround);
-  EXPECT_NE(plan.advice.find("--env sky"), std::string::npos) << plan.advice;
+  EXPECT_NE(plan.advice.find("`env` sky"), std::string::npos) << plan.advice;
   EXPECT_EQ(plan_for(make_walled_room(true)).advice, "") << "it gets a sky";
   LightWishes wishes;
   wishes.surround = Surround::kSky;

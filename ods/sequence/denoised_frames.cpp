@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/render/denoised_frames.h"
+#include "ods/sequence/denoised_frames.h"
 
 #include <algorithm>
-#include <iterator>
+#include <set>
 #include <utility>
 
-#include "cli/render/finish_picture.h"
+#include "ods/sequence/finish_picture.h"
 
+namespace ods {
 namespace {
 
 // The indices of a frame and those beside it: first .. last.
@@ -17,13 +18,9 @@ std::pair<size_t, size_t> reach_of(size_t index, size_t count) {
 
 }  // namespace
 
-bool draws_on_neighbours(const RenderJob& job) {
-  return job.time.is_video && denoiser_of(job) == ods::Denoiser::kOwn;
-}
-
-DenoisedFrames::DenoisedFrames(const RenderJob& job, FrameRenderer& renderer, const std::vector<Frame>& all,
-                               const std::set<size_t>& wanted)
-    : job_(job), renderer_(renderer), all_(all) {
+DenoisedFrames::DenoisedFrames(FrameRenderer& renderer, const std::vector<SequenceFrame>& all,
+                               const std::vector<size_t>& wanted)
+    : renderer_(renderer), all_(all) {
   std::set<size_t> needed;
   for (const size_t index : wanted) {
     const auto [first, last] = reach_of(index, all.size());
@@ -32,7 +29,7 @@ DenoisedFrames::DenoisedFrames(const RenderJob& job, FrameRenderer& renderer, co
   needed_ = needed.size();
 }
 
-void DenoisedFrames::render(size_t index, const std::function<void(double done)>& report) {
+void DenoisedFrames::render(size_t index, const FrameRenderer::Report& report) {
   const auto part = [&](double done) {
     report((static_cast<double>(rendered_) + done) / static_cast<double>(needed_));
   };
@@ -45,7 +42,7 @@ void DenoisedFrames::render(size_t index, const std::function<void(double done)>
   frame.before = renderer_.places(frame.raw, before->second.raw.time);
 }
 
-Rendered DenoisedFrames::make(size_t index, const std::function<void(double done)>& report) {
+Rendered DenoisedFrames::make(size_t index, const FrameRenderer::Report& report) {
   const auto [first, last] = reach_of(index, all_.size());
   if (!window_.empty() && first < window_.begin()->first) window_.clear();  // back to a frame that others left
   window_.erase(window_.begin(), window_.lower_bound(first));
@@ -53,7 +50,7 @@ Rendered DenoisedFrames::make(size_t index, const std::function<void(double done
     if (!window_.contains(i)) render(i, report);
   }
   Neighbour& frame = window_.at(index);
-  std::vector<ods::FrameBeside> beside;
+  std::vector<FrameBeside> beside;
   const auto add = [&](size_t other, const auto& places) {
     const RawFrame& raw = window_.at(other).raw;
     if (other != index) beside.push_back({raw.picture, raw.camera, places, all_[other].seed == all_[index].seed});
@@ -61,5 +58,9 @@ Rendered DenoisedFrames::make(size_t index, const std::function<void(double done
   add(first, frame.before);
   add(last, frame.after);
   const double samples = frame.raw.picture.samples_taken;
-  return {finish_picture(job_, frame.raw.camera, frame.raw.picture, all_[index].path, beside), samples};
+  return {finish_picture(renderer_.options().finish, renderer_.options().render, frame.raw.camera, frame.raw.picture,
+                         all_[index].path, beside),
+          samples};
 }
+
+}  // namespace ods

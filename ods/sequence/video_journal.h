@@ -14,8 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/render/frame_settings.h"
+#include "ods/base/settings.h"
 #include "ods/files/claim.h"
+
+namespace ods {
 
 // The names of a video's frames (ods/files/frames.h).
 std::string frame_pattern(const std::string& video);
@@ -24,11 +26,11 @@ enum class JournalUse { kAlone, kShared };
 
 class VideoJournal {
  public:
-  // Opens the frames of this video, or starts anew. `restart` removes existing frames. Throws UsageError if the folder
-  // holds frames made with other settings or is not ours; ods::Error(kOutput), also if another process is working on
+  // Opens the frames of this video, or starts anew. `restart` removes existing frames. Throws Error(kUsage) if the
+  // folder holds frames made with other settings or is not ours; Error(kOutput), also if another process is working on
   // the video, and does not end within `patience`.
-  VideoJournal(const std::string& video, const std::vector<Setting>& settings, bool restart,
-               JournalUse use = JournalUse::kAlone, std::chrono::seconds patience = std::chrono::seconds(0));
+  VideoJournal(const std::string& video, const Settings& settings, bool restart, JournalUse use = JournalUse::kAlone,
+               std::chrono::seconds patience = std::chrono::seconds(0));
 
   VideoJournal(const VideoJournal&) = delete;
   VideoJournal& operator=(const VideoJournal&) = delete;
@@ -39,12 +41,12 @@ class VideoJournal {
   const std::string& folder() const { return folder_; }
   std::string pattern() const;  // frame_pattern()
 
-  // Records which frames the job will make, before it makes the first; own: those of this process. Throws UsageError if
-  // a file for one of them exists that no job of ours made; ods::Error(kOutput). Of frames that are recorded already it
+  // Records which frames the job will make, before it makes the first; own: those of this process. Throws Error(kUsage)
+  // if a file for one of them exists that no job of ours made; Error(kOutput). Of frames that are recorded already it
   // looks at its own only.
   void plan(const std::vector<int>& frames, const std::vector<int>& own);
 
-  // Throws ods::Error(kOutput) if another machine has taken the video over. Call it regularly.
+  // Throws Error(kOutput) if another machine has taken the video over. Call it regularly.
   void check() const {
     if (claim_) claim_->check();
   }
@@ -55,13 +57,15 @@ class VideoJournal {
  private:
   std::set<std::string> frame_files() const;  // file names in the folder
   bool has_frames() const;
-  bool read_note(std::vector<Setting>& settings);
+  bool read_note(Settings& settings);
   void write_note() const;
   std::string note_path() const;
   void begin(bool restart);
 
-  std::unique_ptr<ods::Claim> claim_;  // released last; null where the frames are shared
+  std::unique_ptr<Claim> claim_;  // released last; null where the frames are shared
   std::string folder_;
-  std::vector<Setting> settings_;
+  Settings settings_;
   std::set<int> frames_;  // that this job and earlier ones made, or were going to make
 };
+
+}  // namespace ods

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/frames/shared_frames.h"
-
-#include <fmt/format.h>
+#include "ods/sequence/shared_frames.h"
 
 #include <algorithm>
 #include <chrono>
@@ -10,22 +8,13 @@
 #include <numeric>
 #include <thread>
 
-#include "cli/console/console.h"
 #include "ods/files/claim.h"
-#include "ods/files/frames.h"
 #include "ods/picture/save.h"
 
-static void say_who(const std::vector<SharedFrame>& frames, const std::vector<size_t>& others, const std::string& noun,
-                    const std::string& holder) {
-  std::vector<int> numbers;
-  for (const size_t i : others) numbers.push_back(frames[i].number);
-  const bool one = others.size() == 1;
-  note(fmt::format("waiting for {}{} {}, which {} made by {}{}", noun, one ? "" : "s", ods::frames_text(numbers),
-                   one ? "is being" : "are being", holder, one ? "" : " and others"));
-}
+namespace ods {
 
-void make_shared_frames(const std::vector<SharedFrame>& frames, const std::string& noun,
-                        const std::function<void(size_t index)>& make) {
+void make_shared_frames(const std::vector<SharedFrame>& frames, const std::function<void(size_t index)>& make,
+                        const OnWaiting& waiting) {
   std::vector<size_t> open(frames.size());
   std::iota(open.begin(), open.end(), size_t{0});
   size_t said = 0;  // the number of frames in the last message
@@ -33,12 +22,12 @@ void make_shared_frames(const std::vector<SharedFrame>& frames, const std::strin
     std::vector<size_t> others;
     std::string holder, first;
     for (const size_t i : open) {
-      if (ods::is_saved(frames[i].path)) {
+      if (is_saved(frames[i].path)) {
         remove_dead_claim(frames[i].path);
         continue;
       }
-      if (const std::unique_ptr<ods::Claim> own = ods::try_claim(frames[i].path, holder)) {
-        if (!ods::is_saved(frames[i].path)) make(i);  // its previous owner may have saved it just now
+      if (const std::unique_ptr<Claim> own = try_claim(frames[i].path, holder)) {
+        if (!is_saved(frames[i].path)) make(i);  // its previous owner may have saved it just now
         continue;
       }
       if (others.empty()) first = holder;
@@ -47,22 +36,26 @@ void make_shared_frames(const std::vector<SharedFrame>& frames, const std::strin
     const bool waits = others.size() == open.size();
     open = std::move(others);
     if (!waits) continue;
-    if (open.size() != said) say_who(frames, open, noun, first);
+    if (open.size() != said && waiting) {
+      std::vector<int> numbers;
+      for (const size_t i : open) numbers.push_back(frames[i].number);
+      waiting(numbers, first);
+    }
     said = open.size();
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
   }
 }
 
-void wait_for_frames(const std::vector<SharedFrame>& frames, const std::string& noun, float seconds) {
+void wait_for_frames(const std::vector<SharedFrame>& frames, float seconds,
+                     const std::function<void(size_t missing)>& waiting) {
   if (seconds <= 0.0f) return;
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<float>(seconds);
   std::vector<SharedFrame> missing = frames;
   bool said = false;
   while (true) {
-    std::erase_if(missing, [](const SharedFrame& frame) { return ods::is_saved(frame.path); });
+    std::erase_if(missing, [](const SharedFrame& frame) { return is_saved(frame.path); });
     if (missing.empty() || std::chrono::steady_clock::now() >= end) return;
-    if (!said)
-      note(fmt::format("waiting up to {:g} s for {} {}s that are not there yet", seconds, missing.size(), noun));
+    if (!said && waiting) waiting(missing.size());
     said = true;
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     std::error_code ignored;  // reading the folder makes a client of NFS look again
@@ -74,5 +67,7 @@ void wait_for_frames(const std::vector<SharedFrame>& frames, const std::string& 
 void remove_dead_claim(const std::string& path) {
   std::error_code ignored;
   std::string holder;
-  if (std::filesystem::exists(ods::claim_path(path), ignored)) ods::try_claim(path, holder);
+  if (std::filesystem::exists(claim_path(path), ignored)) try_claim(path, holder);
 }
+
+}  // namespace ods

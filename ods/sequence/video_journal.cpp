@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/video/video_journal.h"
+#include "ods/sequence/video_journal.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -12,14 +12,15 @@
 #include <iterator>
 #include <thread>
 
-#include "cli/console/console.h"
-#include "cli/render/frame_renderer.h"
+#include "ods/base/error.h"
 #include "ods/files/atomic_file.h"
 #include "ods/files/frames.h"
 #include "ods/files/read_file.h"
+#include "ods/sequence/frame_renderer.h"
 
 namespace fs = std::filesystem;
 
+namespace ods {
 namespace {
 
 constexpr const char* kNote = "job.txt";
@@ -50,22 +51,23 @@ std::string frame_pattern(const std::string& video) {
   return video + ".frames/" + kFrame;
 }
 
-VideoJournal::VideoJournal(const std::string& video, const std::vector<Setting>& settings, bool restart, JournalUse use,
+VideoJournal::VideoJournal(const std::string& video, const Settings& settings, bool restart, JournalUse use,
                            std::chrono::seconds patience)
-    : claim_(use == JournalUse::kAlone ? ods::claim(video, patience) : nullptr),
+    : claim_(use == JournalUse::kAlone ? claim(video, patience) : nullptr),
       folder_(video + ".frames"),
       settings_(settings) {
   const fs::file_type type = type_of(folder_);
   if (type != fs::file_type::directory && type != fs::file_type::not_found) {
-    throw UsageError(fmt::format("the frames belong in '{}', but it is {}; remove it, or choose another -o", folder_,
-                                 type == fs::file_type::symlink ? "a link" : "no folder"));
+    throw Error(ErrorKind::kUsage,
+                fmt::format("the frames belong in '{}', but it is {}; remove it, or choose another name", folder_,
+                            type == fs::file_type::symlink ? "a link" : "no folder"));
   }
   begin(restart);
   write_note();
 }
 
 void VideoJournal::begin(bool restart) {
-  std::vector<Setting> then;
+  Settings then;
   bool is_known = read_note(then);
   for (int i = 0; i < 20 && !is_known && !claim_ && type_of(folder_) == fs::file_type::directory; i++) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));  // another process is about to write it
@@ -73,12 +75,12 @@ void VideoJournal::begin(bool restart) {
   }
   if (!is_known) {
     if (type_of(note_path()) != fs::file_type::not_found) {
-      throw UsageError(
-          fmt::format("'{}' was not written by this version of ods video; remove '{}', or choose another -o",
-                      note_path(), folder_));
+      throw Error(ErrorKind::kUsage,
+                  fmt::format("'{}' was not written by this version of ods; remove '{}', or choose another name",
+                              note_path(), folder_));
     }
     if (type_of(folder_) == fs::file_type::directory && !is_empty(folder_) && !restart) {
-      throw UsageError(fmt::format("the frames belong in '{}', but it is not empty", folder_));
+      throw Error(ErrorKind::kUsage, fmt::format("the frames belong in '{}', but it is not empty", folder_));
     }
     return;
   }
@@ -87,8 +89,9 @@ void VideoJournal::begin(bool restart) {
     remove();
     frames_.clear();
   } else if (!difference.empty()) {
-    throw UsageError(fmt::format("'{}' has frames rendered with other options: {}; --restart renders them again",
-                                 folder_, difference));
+    throw Error(ErrorKind::kUsage,
+                fmt::format("'{}' has frames rendered with other options: {}; `restart` renders them again", folder_,
+                            difference));
   }
 }
 
@@ -106,36 +109,36 @@ std::string VideoJournal::pattern() const {
 }
 
 // False if there is no note of ours.
-bool VideoJournal::read_note(std::vector<Setting>& settings) {
+bool VideoJournal::read_note(Settings& settings) {
   if (type_of(note_path()) != fs::file_type::regular) return false;
-  const std::vector<unsigned char> bytes = ods::read_file(note_path(), size_t{64} << 20);
+  const std::vector<unsigned char> bytes = read_file(note_path(), size_t{64} << 20);
   const std::string note(bytes.begin(), bytes.end());
   if (!note.starts_with(kMark + std::string("\n"))) return false;
   for (const Setting& setting : parse_settings(note.substr(note.find('\n') + 1))) {
-    if (setting.option != kFrames) {
+    if (setting.name != kFrames) {
       settings.push_back(setting);
     } else if (!setting.value.empty()) {
-      for (const int frame : ods::parse_frames(setting.value)) frames_.insert(frame);
+      for (const int frame : parse_frames(setting.value)) frames_.insert(frame);
     }
   }
   return true;
 }
 
 void VideoJournal::write_note() const {
-  const std::string frames = ods::frames_text({frames_.begin(), frames_.end()});
+  const std::string frames = frames_text({frames_.begin(), frames_.end()});
   const std::string note = fmt::format("{}\n{}\t{}\n{}", kMark, kFrames, frames, settings_text(settings_));
-  ods::write_file(note_path(), note);
+  write_file(note_path(), note);
 }
 
 void VideoJournal::plan(const std::vector<int>& frames, const std::vector<int>& own) {
-  const ods::FrameNames names = *ods::frame_names(pattern());
+  const FrameNames names = *frame_names(pattern());
   const auto refuse = [&](int frame) {
-    throw UsageError(
-        fmt::format("'{}' is not a frame of this video; remove it, or choose another -o", names.path(frame)));
+    throw Error(ErrorKind::kUsage,
+                fmt::format("'{}' is not a frame of this video; remove it, or choose another name", names.path(frame)));
   };
   std::set<int> added;
   std::ranges::copy_if(frames, std::inserter(added, added.end()), [&](int f) { return !frames_.contains(f); });
-  const std::vector<int> there = added.empty() ? std::vector<int>() : ods::frames_on_disk(names);
+  const std::vector<int> there = added.empty() ? std::vector<int>() : frames_on_disk(names);
   for (const int frame : there) {
     if (added.contains(frame)) refuse(frame);
   }
@@ -158,7 +161,7 @@ static std::string frame_of(const std::string& name) {
 
 std::set<std::string> VideoJournal::frame_files() const {
   std::set<std::string> files;
-  const ods::FrameNames names = *ods::frame_names(kFrame);
+  const FrameNames names = *frame_names(kFrame);
   for (const int frame : frames_) files.insert(names.path(frame));
   return files;
 }
@@ -189,3 +192,5 @@ void VideoJournal::remove() const {
   close(folder);
   rmdir(folder_.c_str());
 }
+
+}  // namespace ods

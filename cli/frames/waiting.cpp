@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/frames/waiting.h"
+
+#include <fmt/format.h>
+
+#include "cli/console/console.h"
+#include "ods/files/frames.h"
+
+ods::OnWaiting say_waiting(const std::string& noun) {
+  return [noun](const std::vector<int>& numbers, const std::string& holder) {
+    const bool one = numbers.size() == 1;
+    note(fmt::format("waiting for {}{} {}, which {} made by {}{}", noun, one ? "" : "s", ods::frames_text(numbers),
+                     one ? "is being" : "are being", holder, one ? "" : " and others"));
+  };
+}
+
+void wait_for_frames(const std::vector<ods::SharedFrame>& frames, const std::string& noun, float seconds) {
+  ods::wait_for_frames(frames, seconds, [&](size_t missing) {
+    note(fmt::format("waiting up to {:g} s for {} {}s that are not there yet", seconds, missing, noun));
+  });
+}

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render/first_look.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cli/console/console.h"
+#include "cli/options/picture_options.h"
+#include "ods/comfort/merge_from_depth.h"
+#include "ods/scene/builtin/builtin.h"
+#include "ods/scene/motion.h"
+#include "ods/scene/sheet_glass.h"
+#include "ods/sequence/looks.h"
+#include "ods/stage/place.h"
+
+namespace {
+
+// Warns about a camera that the user or the file has placed where there is nothing to see. Where it stands by our own
+// choice it is in free space.
+void check_view(const RenderJob& job, const ods::Scene& scene, ods::vec3 eye) {
+  const bool own_choice = !job.camera.position &&
+                          ods::camera_choice(job.camera.view_point) != ods::CameraChoice::kNamed &&
+                          !uses_own_camera(scene);
+  const bool made_for_it = !job.camera.position && ods::find_builtin(job.scene.name);
+  if (own_choice || made_for_it) return;
+  const std::string fault = ods::view_fault(ods::SceneRays(scene), eye);
+  if (fault.empty()) return;
+  std::string cure = "--position X,Y,Z moves it";
+  if (job.camera.position && scene.viewing) {
+    const ods::vec3 better = scene.viewing->view.position;
+    cure = fmt::format("without --position it would be at {:.4g},{:.4g},{:.4g}", better.x, better.y, better.z);
+  } else if (scene.viewing) {
+    const ods::vec3 better = scene.viewing->view.position;
+    cure = fmt::format("--position {:.4g},{:.4g},{:.4g} is in free space", better.x, better.y, better.z);
+  }
+  warn(fmt::format("the camera {}; {}, or the scene has another unit (--unit cm)", fault, cure));
+}
+
+// Says once what --caustics straight simplifies.
+void note_straight_light(const RenderJob& job, const ods::Scene& scene) {
+  if (job.render.caustics != ods::Caustics::kStraight) return;
+  const std::vector<std::string> solids = ods::smooth_solids(scene);
+  if (solids.empty()) return;
+  const std::string others = solids.size() == 1 ? "" : fmt::format(" and {} more", solids.size() - 1);
+  note(fmt::format("light passes solid glass ('{}'{}) unbent; --caustics path refracts it", solids.front(), others));
+}
+
+bool is_looked_at(const RenderJob& job) {
+  return job.time.is_video || job.part || !keeps_light(job.output);
+}
+
+bool is_made_for_it(const RenderJob& job) {
+  const auto& [environment, lamp, background, unlit, lamp_unit] = job.scene.light;
+  return ods::find_builtin(job.scene.name) && environment.empty() && lamp.empty() && background.empty() && !unlit;
+}
+
+// As Exposures::judged. Also for a scene-linear file whose noise is judged: somebody will look at it, too.
+float judged_exposure(const RenderJob& job, const ods::Scene& scene, ods::FrameRenderer& renderer,
+                      const std::vector<ods::SequenceFrame>& all) {
+  const bool shown = is_looked_at(job);
+  if (job.exposure || !(shown || job.render.noise > 0.0f) || is_made_for_it(job) || all.empty()) {
+    return job.exposure.value_or(job.brighter);
+  }
+  if (scene.as_painted) {
+    if (shown)
+      note("exposure 0 and no tone curve, since the colours are shown as they are painted (--exposure, --tone)");
+    return 0.0f;
+  }
+  const std::optional<float> stops = ods::suitable_exposure(renderer, all);
+  if (!stops) {
+    warn("there is nothing to see: no light reaches the camera (--env 1 lights the scene, --position X,Y,Z moves it)");
+    return job.brighter;
+  }
+  const float exposure = brightened(*stops, job.brighter);
+  if (!shown) {
+    note(fmt::format("noise is judged at {:+} stops, as the picture will be looked at", exposure));
+    return exposure;
+  }
+  const std::string more = job.brighter == 0.0f ? "" : fmt::format(" and --brighter {}", job.brighter);
+  note(fmt::format("exposure {:+} stops, from a first look at the light{} (--exposure {})", exposure, more, exposure));
+  return exposure;
+}
+
+}  // namespace
+
+void say_where(const RenderJob& job, const TimeOptions& time, ods::Scene& scene, const ods::SequenceFrame& first) {
+  ods::set_time(scene, first.time);
+  const ods::StereoCamera camera = ods::moved(place_camera_again(job.camera, scene), time.move, first.time);
+  note_camera(job.camera, scene, camera);
+  check_view(job, scene, camera.position);
+  note_straight_light(job, scene);
+}
+
+Exposures choose_exposure(const RenderJob& job, const ods::Scene& scene, ods::FrameRenderer& renderer,
+                          const std::vector<ods::SequenceFrame>& all) {
+  const float judged = judged_exposure(job, scene, renderer, all);
+  return {is_looked_at(job) || job.exposure ? judged : job.brighter, judged};
+}
+
+void settle_merge(RenderJob& job, ods::FrameRenderer& renderer, const std::vector<ods::SequenceFrame>& all) {
+  if (!job.camera.merge_limit) return;
+  ods::Image map = ods::comfortable_merge(renderer, all, *job.camera.merge_limit);
+  const auto full = [&](int from, int step) {
+    int row = from;
+    while (row > 0 && row + 1 < map.height && map.at(0, row)[0] == 1.0f) row += step;
+    return std::abs(90 - row);
+  };
+  note(fmt::format(
+      "merge by depth: full stereo up to {} degrees up and {} down, {:.0f} % straight up, {:.0f} % straight "
+      "down",
+      full(89, -1), full(90, 1), 100.0f * map.at(0, 0)[0], 100.0f * map.at(0, map.height - 1)[0]));
+  ods::use_merge_map(job.camera.stereo, std::move(map));
+}

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Renders a stereo 360 video through the library: video [SCENE [VIDEO]]. Run it again after an interruption: it goes
+// on.
+#include <cstdio>
+#include <numeric>
+
+#include "ods/base/error.h"
+#include "ods/camera/camera_move.h"
+#include "ods/scene/load/load.h"
+#include "ods/sequence/render_video.h"
+
+int main(int argc, char** argv) try {
+  ods::Scene scene = ods::load_scene(argc > 1 ? argv[1] : "room");
+  ods::play(scene.animation, "");  // whatever the file animates
+
+  ods::StereoCamera camera;
+  camera.position = ods::default_view(scene).position;
+  ods::CameraMove move;
+  move.seconds = 1.0, move.fly_to = {camera.position + ods::vec3(0.5f, 0.0f, 0.0f)};
+
+  ods::SequenceOptions options;
+  options.camera = [&](const ods::Scene&, double seconds) { return ods::moved(camera, move, seconds); };
+  options.shutter = 180.0;
+  options.render.width = 256, options.render.samples = 4;
+
+  ods::VideoOptions video;
+  video.frames.resize(4);
+  std::iota(video.frames.begin(), video.frames.end(), 0);
+  ods::Progress progress;
+  progress.report = [](double done) { std::fprintf(stderr, "%3.0f %%\n", 100.0 * done); };
+  ods::render_video(scene, options, video, argc > 2 ? argv[2] : "room_360_TB.mp4", progress);
+} catch (const ods::Error& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/base/settings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace ods {
+
+static std::string change(const std::string& name, const Setting* was, const Setting* is) {
+  if (!was) return fmt::format("{} is new", name);
+  if (!is) return fmt::format("{} is no longer given", name);
+  if (!was->path.empty() && was->path == is->path) {
+    return is->value == "missing" ? fmt::format("{} '{}' is missing", name, is->path)
+                                  : fmt::format("{} '{}' has changed", name, is->path);
+  }
+  const auto said = [](const Setting& setting) { return setting.path.empty() ? setting.value : setting.path; };
+  return fmt::format("{} was {}, now {}", name, said(*was), said(*is));
+}
+
+std::string settings_text(const Settings& settings) {
+  std::string text;
+  for (const auto& [name, value, path] : settings) {
+    text += fmt::format("{}\t{}{}{}\n", name, value, path.empty() ? "" : "\t", path);
+  }
+  return text;
+}
+
+Settings parse_settings(const std::string& text) {
+  Settings settings;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> fields;
+    std::istringstream stream(line);
+    for (std::string field; std::getline(stream, field, '\t');) fields.push_back(field);
+    fields.resize(3);
+    settings.push_back({fields[0], fields[1], fields[2]});
+  }
+  return settings;
+}
+
+std::string settings_difference(const Settings& then, const Settings& now) {
+  const auto find = [](const Settings& settings, const std::string& name) -> const Setting* {
+    const auto found = std::ranges::find(settings, name, &Setting::name);
+    return found == settings.end() ? nullptr : &*found;
+  };
+  std::vector<std::string> changes;
+  for (const Setting& is : now) {
+    const Setting* was = find(then, is.name);
+    if (!was || was->value != is.value) changes.push_back(change(is.name, was, &is));
+  }
+  for (const Setting& was : then) {
+    if (!find(now, was.name)) changes.push_back(change(was.name, &was, nullptr));
+  }
+  constexpr size_t kMost = 3;
+  const std::string more = changes.size() > kMost ? fmt::format("; and {} more", changes.size() - kMost) : "";
+  changes.resize(std::min(changes.size(), kMost));
+  return fmt::format("{}{}", fmt::join(changes, "; "), more);
+}
+
+}  // namespace ods

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a picture, a video or what is left of one was made with, so that only work of the same kind is continued.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace ods {
+
+struct Setting {
+  std::string name;   // whoever makes the pictures chooses it: "samples", "scene"
+  std::string value;  // for a file: the MD5 of its contents
+  std::string path;   // for a file; otherwise empty
+};
+using Settings = std::vector<Setting>;
+
+// A line for each setting, with tabs between its fields; and back. Names, values and paths are one line each.
+std::string settings_text(const Settings& settings);
+Settings parse_settings(const std::string& text);
+
+// The differences between `then` and `now`, for messages: "samples was 64, now 128; scene 'a.glb' has changed". At most
+// three. Empty if there are none.
+std::string settings_difference(const Settings& then, const Settings& now);
+
+}  // namespace ods

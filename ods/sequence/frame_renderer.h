@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Renders the frames of a sequence one after the other. Acceleration structures of static meshes are kept between
+// frames.
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ods/render/cpu/render.h"
+#include "ods/scene/motion.h"
+#include "ods/sequence/sequence.h"
+
+namespace ods {
+
+// The file of a frame as rendered, for whoever denoises it: samples (ods/render/unfinished.h).
+inline constexpr std::string_view kRawEnd = ".raw";
+inline std::string raw_path(const SequenceFrame& frame) {
+  return frame.path + std::string(kRawEnd);
+}
+
+// A frame's camera, during the shutter, and the options that render it.
+struct Shot {
+  std::vector<StereoCamera> cameras;
+  RenderOptions options;
+  const StereoCamera& camera() const { return cameras[cameras.size() / 2]; }
+};
+
+// A frame as rendered, before it is denoised and saved.
+struct RawFrame {
+  double time = 0.0;
+  StereoCamera camera;  // in the middle of the shutter
+  Picture picture;
+  std::vector<std::vector<Hit>> hits;  // CpuRenderer::center_hits(); empty if nothing but the camera moves
+};
+
+class FrameRenderer {
+ public:
+  using Report = std::function<void(double done)>;
+
+  // Both must outlive this object. The options may change between frames.
+  FrameRenderer(const SequenceOptions& options, Scene& scene) : options_(options), scene_(scene) {}
+
+  const SequenceOptions& options() const { return options_; }
+
+  // Whether frames are denoised together with those beside them.
+  bool draws_on_neighbours() const;
+
+  // Sets the scene to the frame's time.
+  Shot set(const SequenceFrame& frame);
+
+  // The scene as set. Precondition: set() has been called.
+  const CpuRenderer& renderer() const { return *renderer_; }
+
+  // Renders, denoises and saves. report: gets the fraction done, if it is set.
+  Rendered render(const SequenceFrame& frame, const Report& report = {});
+
+  // Reads what keep_raw() has written, if it is there; else renders. Warns if what is there is of no use.
+  RawFrame render_raw(const SequenceFrame& frame, const Report& report = {});
+
+  // Renders, and writes raw_path(frame).
+  void keep_raw(const SequenceFrame& frame, const Report& report = {});
+
+  // As FrameBeside::places: where the surfaces of a frame are at another time.
+  std::vector<std::vector<vec3>> places(const RawFrame& frame, double seconds);
+
+ private:
+  std::optional<Picture> read_raw(const std::string& path, const RenderOptions& options) const;
+
+  const SequenceOptions& options_;
+  Scene& scene_;
+  SceneChange change_;  // since renderer_ was updated
+  std::optional<CpuRenderer> renderer_;
+};
+
+}  // namespace ods

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/sequence/looks.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "ods/render/light_cache.h"
+#include "ods/render/render_target.h"
+#include "ods/stage/comfortable_merge.h"
+#include "ods/stage/exposure.h"
+
+namespace ods {
+
+// Indices of so many frames, spread evenly; of fewer if there are fewer.
+static std::set<size_t> looks_at(const std::vector<SequenceFrame>& frames, size_t count) {
+  assert(!frames.empty());
+  std::set<size_t> chosen;
+  for (size_t i = 0; i < count; i++) chosen.insert((2 * i + 1) * frames.size() / (2 * count));
+  return chosen;
+}
+
+std::optional<float> suitable_exposure(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames) {
+  constexpr size_t kLooks = 5;
+  std::vector<Picture> looks;
+  for (const size_t i : looks_at(frames, kLooks)) {
+    const Shot shot = renderer.set(frames[i]);
+    looks.push_back(
+        renderer.renderer().render(first_look_camera(shot.camera()), first_look(renderer.options().render)));
+  }
+  return suitable_exposure(looks);
+}
+
+Image comfortable_merge(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames, float limit) {
+  constexpr size_t kLooks = 16;
+  std::vector<float> shares(kMergeRows, 1.0f);
+  for (const size_t i : looks_at(frames, kLooks)) {
+    const Shot shot = renderer.set(frames[i]);
+    take_least(shares, shares_seen(renderer.renderer(), shot.camera(), limit));
+  }
+  return merge_map_of(std::move(shares));
+}
+
+// Options for a picture of the same kind that takes a 64th of the time; more where few pixels would tell little, and
+// where few paths would not fill the light cache.
+static RenderOptions small_picture(const RenderOptions& whole, const StereoCamera& camera) {
+  constexpr double kLeast = 1.0 / 64.0, kFewestPixels = 16384.0, kPathsThatFill = 65536.0, kMostForPaths = 0.25;
+  const auto paths = static_cast<double>(light_cache_paths(whole));
+  const double for_paths = paths == 0.0 ? 0.0 : std::min(kPathsThatFill / paths, kMostForPaths);
+  const double for_pixels = std::min(kFewestPixels / (1.0 * whole.width * whole.height), 1.0);
+  const double share = std::max({kLeast, for_paths, for_pixels});
+  const int step = width_step(camera.projection);
+  RenderOptions small = whole;
+  small.width = std::max(static_cast<int>(whole.width * std::sqrt(share)) / step * step, step);
+  small.height = 0;
+  small.cache_paths = static_cast<int>(paths * share);
+  return with_height(small, camera);
+}
+
+SmallFrame try_small(FrameRenderer& renderer, const SequenceFrame& frame, const std::string& path) {
+  using Clock = std::chrono::steady_clock;
+  const auto seconds = [](Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+  };
+  const Clock::time_point start = Clock::now();
+  const Shot shot = renderer.set(frame);
+  const RenderOptions &whole = shot.options, small = small_picture(whole, shot.camera());
+  const Clock::time_point set = Clock::now();
+  Picture picture = renderer.renderer().render(shot.cameras, small);
+  const Clock::time_point rendered = Clock::now();
+  const double times = 1.0 * whole.width * whole.height / (1.0 * small.width * small.height);
+  const SequenceOptions& options = renderer.options();
+  double bytes = 0.0;
+  for (const std::string& file :
+       finish_picture(options.finish, options.render, shot.camera(), std::move(picture), path)) {
+    bytes += static_cast<double>(std::filesystem::file_size(file));
+  }
+  const double limit = whole.time_limit > 0.0 ? whole.time_limit : std::numeric_limits<double>::infinity();
+  const double rendering = std::min(times * seconds(set, rendered), limit);
+  return {seconds(start, set) + rendering + times * seconds(rendered, Clock::now()), times * bytes};
+}
+
+}  // namespace ods
