@@ -28,10 +28,10 @@ constexpr const char* kExamples =
     "  ods submit --to slurm --dry-run --chunk 10 -- video scene.glb -o scene_360_TB.mp4";
 
 constexpr const char* kSummary =
-    "Sends a command to a render farm; the result has the same bits as on one machine. video, render, stitch, convert\n"
-    "and over become many tasks (frames in chunks, parts of a picture's samples, views of a rig) and a last one, such\n"
-    "as the video or the merge; denoise, merge, encode, inject and lint are one task. Writes a plan and the files of\n"
-    "the scheduler into a folder. Only for Slurm it also submits the job.";
+    "Sends a command to a render farm; the result has the same bits as on one machine. It splits video, render,\n"
+    "stitch, convert and over into many tasks (frames in chunks, parts of a picture's samples, views of a rig) and a\n"
+    "last one, such as the video or the merge; denoise, merge, encode, inject and lint are one task. It writes a\n"
+    "plan and the scheduler's files into a folder, and for Slurm also submits the job.";
 
 void check_line(const std::string& option, const std::string& value) {
   if (!ods::is_quotable(value))
