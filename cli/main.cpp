@@ -54,9 +54,9 @@ struct Command {
 constexpr Command kCommands[] = {
     {"render", "render a scene as a stereo 360 picture or frames", ods_render},
     {"convert", "change a picture's projection, layout, size or eyes", ods_convert},
-    {"denoise", "remove the noise of a rendered picture, both eyes as one", ods_denoise},
-    {"merge", "put together parts of a picture that were rendered apart", ods_merge},
-    {"view", "look at pictures and videos in the browser and in the headset", ods_view},
+    {"denoise", "remove the noise of a rendered picture, both eyes together", ods_denoise},
+    {"merge", "merge the parts of a picture that several machines rendered", ods_merge},
+    {"view", "show pictures and videos in the browser and in the headset", ods_view},
     {"video", "render a scene as a stereo 360 video", ods_video},
     {"encode", "encode frames as a stereo 360 video", ods_encode},
     {"submit", "send a command to a render farm, split into tasks", ods_submit},

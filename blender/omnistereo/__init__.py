@@ -23,7 +23,7 @@ running = None  # the Job, or the last one
 
 class OmnistereoPreferences(bpy.types.AddonPreferences):
     bl_idname = __package__
-    program: StringProperty(name="ods", description="The command ods; empty: as PATH finds it", subtype="FILE_PATH")
+    program: StringProperty(name="ods", description="The command ods; empty: the one on PATH", subtype="FILE_PATH")
 
     def draw(self, context):
         self.layout.prop(self, "program")

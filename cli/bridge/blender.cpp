@@ -142,7 +142,8 @@ static void run_script(const BlenderOptions& options, const std::vector<std::str
   int status = 0;
   waitpid(program->process, &status, 0);
   if (!in_time) {
-    fail(what, fmt::format("Blender was not done after {:g} seconds (--blender-limit gives it more)", options.seconds));
+    fail(what,
+         fmt::format("Blender did not finish within {:g} seconds (--blender-limit gives it more)", options.seconds));
   }
   if (!listener.error().empty()) fail(what, listener.error());
   if (listener.is_done()) return;

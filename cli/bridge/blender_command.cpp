@@ -11,8 +11,8 @@ int ods_blender(int argc, char** argv) {
     BlenderOptions blender;
     Options options("blender", "Installs the add-on: the panel Stereo 360 in Blender's render properties.",
                     "  ods blender\n  ods blender --blender ~/blender-4.2/blender");
-    options.text("--blender", "PROGRAM", blender.program, "which Blender; by default as PATH finds it");
-    options.number("--blender-limit", blender.seconds, 0.1f, 1e6f, "seconds after which Blender must be done");
+    options.text("--blender", "PROGRAM", blender.program, "which Blender; by default the one on PATH");
+    options.number("--blender-limit", blender.seconds, 0.1f, 1e6f, "the seconds that Blender may take");
     options.group("Console");
     add_console_options(options);
     if (!options.parse(argc, argv)) return;

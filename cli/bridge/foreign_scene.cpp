@@ -53,13 +53,14 @@ void check_blend(const std::string& path) {
   file.read(start, 7);
   const std::string_view words(start, 7);
   const bool known = words == "BLENDER" || words.starts_with("\x1f\x8b") || words.starts_with("\x28\xb5\x2f\xfd");
-  if (!known) fail(path, "is no Blender file, or a damaged one");
+  if (!known) fail(path, "is not a Blender file, or is damaged");
 }
 
 void run_assimp(const std::string& path, const std::string& folder) {
   const std::string made = folder + "/scene.glb";
   const auto result = run_program({"assimp", "export", fs::absolute(path).native(), made, "-fglb2"});
-  if (!result || result->code != 0 || !fs::exists(made)) fail(path, "cannot be read by Assimp, nor is there a Blender");
+  if (!result || result->code != 0 || !fs::exists(made))
+    fail(path, "cannot be read by Assimp, and there is no Blender");
   ods::write_file(folder + "/bridge.json", R"({"omnistereo_bridge": 1, "assimp": true})");
 }
 
@@ -90,12 +91,11 @@ void convert(const std::string& path, const ForeignFormat& format, const Blender
   const ods::PrivateFolder folder(cache_folder() + "/.new-");
   const std::string blender = find_blender(options);
   if (!blender.empty()) {
-    note(fmt::format("Blender converts '{}'; what comes out is kept in '{}' while the file stays as it is", path,
+    note(fmt::format("Blender converts '{}'; the result is kept in '{}' until the file changes", path,
                      fs::path(kept).parent_path().native()));
     run_blender(options, path, folder.path());
   } else if (format.assimp && has_program("assimp")) {
-    note(fmt::format("Assimp converts '{}' as there is no Blender: without materials by nodes, and without its world",
-                     path));
+    note(fmt::format("there is no Blender, so Assimp converts '{}', without node materials and the world", path));
     run_assimp(path, folder.path());
   } else if (format.assimp) {
     fail(path, "needs Blender or Assimp's command to be read: install one (blender, assimp-utils), or --blender PATH");

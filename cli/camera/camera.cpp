@@ -25,9 +25,10 @@ void camera(int argc, char** argv) {
   CameraSource source;
   CameraTarget target = CameraTarget::kNumbers;
   std::string output;
-  Options options("camera",
-                  "Exports a camera to another renderer. What that renderer cannot do is a comment in the result.",
-                  kExamples);
+  Options options(
+      "camera",
+      "Exports a camera to another renderer. A comment in the result says what that renderer does not support.",
+      kExamples);
   options.group("Output");
   options.choice("--for", target, ods::kCameraTargetTable,
                  "the target; untested in their programs: povray-fork, osl, ospray, arnold, mtoa, unity, unreal");

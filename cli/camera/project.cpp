@@ -49,7 +49,7 @@ void print_text(vec3 point, const std::vector<Found>& all) {
   for (const Found& f : all) {
     const std::string where = f.seen ? fmt::format("pixel {:.3f} {:.3f}  uv {:.7f} {:.7f}  depth {:.6g}", f.pixel.x,
                                                    f.pixel.y, f.uv.x, f.uv.y, f.depth)
-                                     : "not seen: no ray of this eye meets it, or the picture ends before";
+                                     : "not seen: no ray of this eye meets it, or it is outside the picture";
     fmt::print("{:.6g},{:.6g},{:.6g}  {:5}  {}\n", point.x, point.y, point.z, ods::eye_name(f.eye), where);
   }
 }
@@ -97,8 +97,10 @@ void project(int argc, char** argv) {
   std::vector<std::string> words;
   std::string pixel;
   bool json = false;
-  Options options("project", "Projects world points into each eye's picture. It does not know what hides them.",
-                  kExamples);
+  Options options(
+      "project",
+      "Projects world points into each eye's picture. It reads no scene, so it does not know what hides them.",
+      kExamples);
   options.arguments("X,Y,Z...", words, "points, in metres; without any, reads lines from stdin");
   options.text("--from-pixel", "EYE,X,Y,DEPTH", pixel, "unproject: the point at that depth along the pixel's ray");
   options.flag("--json", json, "print JSON, one object per line");

@@ -54,7 +54,8 @@ void print_table(std::span<const NamedSize> sizes) {
   }
   fmt::print(
       "\nH.264, HEVC, AV1, VP9: the smallest level that holds the file as a video, at {} pictures a second where fps\n"
-      "is empty; with none, players may refuse it. AA: antialiasing the source asks for, off or POV-Ray's threshold.\n",
+      "is empty; if there is none, players may refuse it. AA: the antialiasing of the source, off or POV-Ray's "
+      "threshold.\n",
       kStillFps);
 }
 

@@ -89,12 +89,12 @@ ods::TimeSpan parse_span(const std::string& text) {
 }
 
 void add_input_options(Options& options, ConvertJob& job, Wishes& wishes) {
-  options.group("Input, if neither the file nor its name tells");
+  options.group("Input, if it is not detected");
   options.custom(
       "--projection", "NAME", "",
       [&](const std::string& name) { job.known.projection = projection_by_name("--projection", name); },
       "its projection");
-  add_layout_option(options, job.known.layout, "its layout; separate: one eye");
+  add_layout_option(options, job.known.layout, "its layout (separate: one eye)");
   add_lens_options(options, job.known);
   options.custom(
       "--camera", ValueKind::input_file(), "",
@@ -168,7 +168,7 @@ void note_unmoved(const ConvertJob& job, StereoCamera wished) {
   const StereoCamera& own = job.picture.camera;
   wished.yaw = own.yaw, wished.pitch = own.pitch, wished.roll = own.roll;
   if (job.target.eyes[0] == ods::kMono && !ods::same_eyes(wished, own))
-    note("--ipd, --merge, --head-tilt-map and --eye-to-neck change nothing of one eye");
+    note("--ipd, --merge, --head-tilt-map and --eye-to-neck have no effect on one eye");
 }
 
 std::vector<int> wished_eyes(const ConvertJob& job, const Wishes& wishes, bool given) {
@@ -222,7 +222,7 @@ void check_kinds(const Options& options, const ConvertJob& job) {
   }
   if (options.given("--fps") && from_video) throw UsageError("--fps is for frames: a video keeps its own times");
   if (job.has_packing && !to_video)
-    throw UsageError(fmt::format("--codec and its like need video output, and '{}' is no video", job.output));
+    throw UsageError(fmt::format("--codec and similar options need video output, and '{}' is not a video", job.output));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ static ods::vec3 parse_gain(const std::string& text) {
 }
 
 void add_right_eye_options(Options& options, ods::EyeCorrection& right) {
-  options.group("Right eye, where it does not agree with the left one (ods lint measures it)");
+  options.group("Right eye, if it does not match the left one (ods lint measures it)");
   options.number("--right-yaw", right.yaw, -180.0f, 180.0f, "turn it to the right, degrees");
   options.number("--right-pitch", right.pitch, -90.0f, 90.0f, "tilt it up, degrees: what it shows moves down");
   options.number("--right-roll", right.roll, -180.0f, 180.0f, "roll it clockwise, degrees");

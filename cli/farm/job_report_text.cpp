@@ -38,7 +38,7 @@ std::string row_text(const JobReport& job, const GroupReport& group) {
 
 std::string notes_text(const JobReport& job) {
   if (!job.is_known()) {
-    return fmt::format("{}: what its tasks do only {} knows; the frames and parts in the folder were counted\n",
+    return fmt::format("{}: only {} knows the state of its tasks; the frames and parts in the folder were counted\n",
                        job.name, job.scheduler);
   }
   std::string text;

@@ -25,8 +25,9 @@ std::string halo_text(const SplitCommand& split, const ods::FarmPlan& plan) {
   const double cost = ods::halo_cost(split.halo, tasks, split.count);
   if (cost == 0.0) return "";
   const bool much = cost > ods::kMostHaloCost;
-  return fmt::format("; {:.0f} % more frames are rendered for the denoiser, which draws on those beside a task's own{}",
-                     100.0 * cost, much ? " (a larger --chunk needs fewer, --raw-first none)" : "");
+  return fmt::format(
+      "; {:.0f} % more frames are rendered, because the denoiser needs the neighbours of a task's frames{}",
+      100.0 * cost, much ? " (a larger --chunk needs fewer, --raw-first none)" : "");
 }
 
 std::string memory_text(const ods::FarmPlan& plan) {

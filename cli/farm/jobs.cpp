@@ -77,11 +77,11 @@ std::vector<JobReport> find_jobs(const JobsWishes& wishes) {
 void jobs(int argc, char** argv) {
   JobsWishes wishes;
   Options options("jobs",
-                  "Shows what is done, running, waiting and failed of the jobs that ods submit has sent to Slurm.",
+                  "Shows how much is done, running, waiting and failed of the jobs that ods submit sent to Slurm.",
                   kExamples);
   options.optional_argument("NAME", wishes.name, "a job, or its folder; by default all");
   options.flag("--follow", wishes.follow,
-               "show it again every five seconds until all is over; exit code 1 if not all is done");
+               "show it again every five seconds until the job has ended; exit code 1 if it is not complete");
   options.flag("--json", wishes.json, "print it as JSON");
   options.group("Console");
   add_console_options(options);
@@ -102,7 +102,7 @@ void jobs(int argc, char** argv) {
   if (!wishes.follow) return;
   for (const JobReport& job : found) {
     if (!job.is_done())
-      throw ods::Error(ods::ErrorKind::kCancelled, fmt::format("'{}' is over, and not all of it is done", job.name));
+      throw ods::Error(ods::ErrorKind::kCancelled, fmt::format("'{}' has ended, but it is not complete", job.name));
   }
 }
 

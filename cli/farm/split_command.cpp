@@ -333,7 +333,7 @@ Split split_other(const OtherCommand& command, const Words& words) {
 }  // namespace
 
 Split split_command(const Words& words) {
-  if (words.empty()) throw UsageError("the command stands behind two dashes: ods submit --to slurm -- video ...");
+  if (words.empty()) throw UsageError("no command: write it after --, as in: ods submit --to slurm -- video ...");
   for (const Splitter& each : kSplitters) {
     if (words.front() == each.name) return each.split(words);
   }

@@ -62,13 +62,13 @@ void check_idle(const ods::FarmPlan& plan) {
 void send(const ods::FarmPlan& plan) {
   const auto sent = run_program({"sh", plan.folder + "/submit.sh"}, ProgramErrors::kShown);
   if (!sent || sent->code != 0) {
-    throw ods::Error(ods::ErrorKind::kOutput, fmt::format("Slurm has not taken the job; what it said stands above. "
+    throw ods::Error(ods::ErrorKind::kOutput, fmt::format("Slurm did not accept the job; its message is above. "
                                                           "Try again: sh {}/submit.sh",
                                                           ods::shell_word(plan.folder)));
   }
   ods::write_file(plan.folder + "/jobs.txt", sent->out);
   if (!console.quiet) std::fputs(sent->out.c_str(), stdout);
-  note(fmt::format("ods jobs {} --follow shows how it goes on", ods::shell_word(plan.name)));
+  note(fmt::format("ods jobs {} --follow shows its progress", ods::shell_word(plan.name)));
 }
 
 void submit(int argc, char** argv) {
@@ -86,7 +86,7 @@ void submit(int argc, char** argv) {
   scheduler.write(plan, job.wishes);  // throws for what it cannot be told
   if (is_slurm && !job.dry) check_idle(plan);
   if (!job.dry && !split->restart && is_finished(plan, *split)) {
-    return note(fmt::format("'{}' is finished: nothing is to be done; remove it to make it again", split->output));
+    return note(fmt::format("'{}' is finished: there is nothing to do; remove it to make it again", split->output));
   }
   if (!job.dry) {
     copy_files(copies);

@@ -28,10 +28,10 @@ constexpr const char* kExamples =
     "  ods submit --to slurm --dry-run --chunk 10 -- video scene.glb -o scene_360_TB.mp4";
 
 constexpr const char* kSummary =
-    "Sends a command to a render farm, as on one machine and with the same bits: video, render, stitch, convert or\n"
-    "over in many tasks (frames in chunks, parts of a picture's samples, views of a rig), then what comes last, such\n"
-    "as the video or the merge; denoise, merge, encode, inject or lint in one. Writes a plan and what the scheduler\n"
-    "reads into a folder. Only Slurm is sent anything.";
+    "Sends a command to a render farm; the result has the same bits as on one machine. It splits video, render,\n"
+    "stitch, convert and over into many tasks (frames in chunks, parts of a picture's samples, views of a rig) and a\n"
+    "last one, such as the video or the merge; denoise, merge, encode, inject and lint are one task. It writes a\n"
+    "plan and the scheduler's files into a folder, and for Slurm also submits the job.";
 
 void check_line(const std::string& option, const std::string& value) {
   if (!ods::is_quotable(value))
@@ -41,21 +41,21 @@ void check_line(const std::string& option, const std::string& value) {
 void add_options(Options& options, SubmitJob& job) {
   options.choice("--to", job.to, ods::kSchedulerTable, "the scheduler");
   options.text("-o,--output", ValueKind::output_folder(), job.folder,
-               "folder for what is sent; by default NAME.farm beside what the command makes");
+               "folder for the plan and the scheduler's files; by default NAME.farm beside the command's output");
   options.flag("--dry-run", job.dry, "write nothing, send nothing: print what would be sent");
   options.group("Tasks");
   options.number("--chunk", job.chunk, 0, 1000000,
-                 "frames of a task; 0: as many as take ten minutes, by the time of the first one, which is made here");
+                 "frames per task; 0: as many as take ten minutes, judged by the first one, which is made here");
   options.flag("--raw-first", job.raw_first,
-               "videos that are denoised: render all frames first, each once, then denoise them; by default where that "
-               "is cheaper than rendering twice those beside a task's own");
-  options.text("--name", "NAME", job.name, "name of the job; by default of what the command makes");
-  options.number("--cpus", job.cpus, 0, 1024, "processors of a task, as --threads of the command; 0: a whole machine");
-  options.number("--memory", job.memory, 0.1f, 4096.0f, "GB that a task takes; by default an estimate");
+               "for videos that are denoised: render every frame once, then denoise them all; by default if that is "
+               "cheaper than rendering the neighbours of each task's frames twice");
+  options.text("--name", "NAME", job.name, "name of the job; by default that of the command's output");
+  options.number("--cpus", job.cpus, 0, 1024, "processors per task, like --threads of the command; 0: a whole machine");
+  options.number("--memory", job.memory, 0.1f, 4096.0f, "memory per task in GB; by default an estimate");
   options.text("--program", "PATH", job.program,
-               "ods as the machines of the farm call it; by default this one's path for slurm, else ods");
+               "the program ods on the farm's machines; by default this program's path for slurm, else ods");
   options.flag("--copy-scene", job.copies,
-               "copy the scene and all else that is read into the folder, for machines that do not see the originals");
+               "copy the scene and all other input into the folder, for machines that cannot read the originals");
   options.group("Schedulers");
   options.texts("--sbatch", "OPTION", job.wishes.extras, "slurm: an option of sbatch, '--partition=render'");
   options.text("--image", "NAME", job.wishes.image, "kubernetes: image of the containers");
@@ -74,11 +74,11 @@ bool read_submit_job(SubmitJob& job, int argc, char** argv) {
   Options options("submit", kSummary, kExamples);
   std::vector<std::string> extras;
   options.arguments("COMMAND", extras,
-                    "behind all options of ods submit, and two dashes: the command, without the word ods");
+                    "after all options of ods submit and --: the command, without the word ods");
   add_options(options, job);
   if (!options.parse(static_cast<int>(end - argv), argv)) return false;
   if (!extras.empty()) {
-    throw UsageError(fmt::format("'{}' stands before the two dashes: ods submit --to slurm -- video ...", extras[0]));
+    throw UsageError(fmt::format("'{}' belongs after --, as in: ods submit --to slurm -- video ...", extras[0]));
   }
   if (!job.to) {
     throw UsageError(fmt::format("no scheduler: add --to {}", fmt::join(ods::names_of(ods::kSchedulerTable), "|")));
@@ -128,7 +128,7 @@ static double time_first(const SplitCommand& split) {
   const ods::TaskGroup& group = split.groups.front();
   words.insert(words.end(), group.command.begin(), group.command.end());
   words.insert(words.end(), {group.option, fmt::format("{}", split.numbers.front()), "-q"});
-  note(fmt::format("making {} {} here, for its time; --chunk N goes without", split.noun, split.numbers.front()));
+  note(fmt::format("making {} {} here to measure its time; --chunk N does without", split.noun, split.numbers.front()));
   const auto start = std::chrono::steady_clock::now();
   const auto result = run_program(words, ProgramErrors::kShown);
   if (!result || result->code != 0) {
@@ -164,7 +164,7 @@ void count_tasks(const SubmitJob& job, const SplitCommand& split, ods::FarmPlan&
   }
   int chunk = job.chunk > 0 ? job.chunk : 10;
   bool raw_first = job.raw_first;
-  if (job.chunk == 0 && job.dry) note("--dry-run makes no first frame: tasks of ten are assumed (--chunk N)");
+  if (job.chunk == 0 && job.dry) note("--dry-run measures no first frame, and assumes tasks of ten (--chunk N)");
   if (job.chunk == 0 && !job.dry) {
     const double seconds = time_first(split);
     raw_first |= split.raw && has_room_for_raw(split) &&

@@ -211,7 +211,7 @@ int HttpExchange::receive(WebStream& stream, std::string& bytes, uint64_t length
 
 bool HttpExchange::answer(WebStream& stream, std::string_view head_text, std::string& bytes) {
   const std::optional<RequestHead> head = read_request_head(head_text);
-  if (!head) return refuse(stream, 400, "that is no request that this server knows");
+  if (!head) return refuse(stream, 400, "this server does not understand that request");
   if (opens(stream, *head)) {
     send_head({.stream = stream, .stays = false, .has_body = false}, 303, kText, 0,
               fmt::format("Location: /{}/\r\n", options_.secret));

@@ -109,7 +109,7 @@ void HttpServer::State::take(int socket, uint32_t address) {
   setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof(yes));
   if (!connections.add(socket, address)) {
     WebStream stream(socket, nullptr);
-    HttpExchange::refuse(stream, 503, "that are too many connections at once: try again");
+    HttpExchange::refuse(stream, 503, "too many connections at once: try again");
     close(socket);
     return;
   }
@@ -130,7 +130,7 @@ void HttpServer::State::take(int socket, uint32_t address) {
 }
 
 WebAnswer nothing_there() {
-  return {.status = 404, .body = "there is nothing of that name\n"};
+  return {.status = 404, .body = "there is nothing with that name\n"};
 }
 
 std::string value_of(const WebRequest& request, const std::string& name) {

@@ -56,8 +56,9 @@ WebKeys::WebKeys(const std::string& certificate, const std::string& key) {
     return;
   }
   SSL_CTX_free(context);
-  throw ods::Error(ods::ErrorKind::kInput,
-                   fmt::format("'{}' is no certificate for its key; delete it, and a new one is made", certificate));
+  throw ods::Error(
+      ods::ErrorKind::kInput,
+      fmt::format("'{}' is not a certificate for its key; delete it, and ods makes a new one", certificate));
 }
 
 WebKeys::~WebKeys() {

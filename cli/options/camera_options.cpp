@@ -89,10 +89,9 @@ static void take_camera_file(CameraOptions& camera, const std::string& path, con
 }
 
 static void add_view_options(Options& options, CameraOptions& camera) {
-  options.text(
-      "--camera", "NAME", camera.view_point,
-      "a camera in the file (ods info lists them), or none; by default the first, unless it sees all there is as "
-      "a speck");
+  options.text("--camera", "NAME", camera.view_point,
+               "a camera in the file (ods info lists them), or none; by default the first, unless the whole scene is a "
+               "speck in it");
   add_position_option(options, camera);
 }
 
@@ -107,7 +106,7 @@ void add_camera_options(Options& options, CameraOptions& camera, const BlenderOp
   options.custom(
       "--camera-from", ValueKind::input_file(), "",
       [&](const std::string& path) { take_camera_file(camera, path, blender); },
-      "take the camera, its place too, from a .blend, a .camera.json or a picture that carries it");
+      "take the camera, including its position, from a .blend, a .camera.json or a picture that carries it");
   add_view_options(options, camera);
   add_attitude_options(options, camera);
 }

@@ -202,7 +202,7 @@ void add_eye_options(Options& options, CameraOptions& camera) {
   options.custom(
       "--lens", "RADIUS,FOCUS", "", [&](const std::string& text) { parse_lens(text, stereo); },
       "depth of field: radius of the lens and focus distance, in metres");
-  options.flag("--left-handed", stereo.mirrored, "swap front and back, to show a left-handed world as it is");
+  options.flag("--left-handed", stereo.mirrored, "swap front and back, for a left-handed world that was not converted");
 }
 
 // value_of: a pixel's value in the map, 0..1, from its scene-linear light. NaN becomes `fallback`.

@@ -126,15 +126,13 @@ void add_light_options(Options& options, LightOptions& light) {
                "light gets suitable light");
   options.text("--lamp", "auto|none|X,Y,Z", light.lamp,
                "a soft lamp that shines down from there; by default (auto) only closed rooms without light get one");
-  options.choice(
-      "--light-unit", light.lamp_unit, ods::kLampUnitTable,
-      "the unit of the file's lamps. watt: they are divided by 683 lumens, which Blender multiplies lamps with, "
-      "and emission not. auto: candela, as glTF has it, unless Blender wrote lamps beside emission");
-  options.flag("--unlit", light.unlit, "show all colours as they are painted, without light and shadow");
-  options.text(
-      "--background", kind("--background", "env|PICTURE"), light.background,
-      "what the camera sees behind the scene, written as for --env; it lights nothing. By default env, the light "
-      "from all around; of a studio its walls, or black behind floating things");
+  options.choice("--light-unit", light.lamp_unit, ods::kLampUnitTable,
+                 "the unit of the file's lamps. watt: divide them by 683, by which Blender multiplies lamps but not "
+                 "emission. auto: candela, as in glTF, unless Blender wrote both lamps and emission");
+  options.flag("--unlit", light.unlit, "show the colours of all materials, without light and shadow");
+  options.text("--background", kind("--background", "env|PICTURE"), light.background,
+               "what the camera sees behind the scene; it lights nothing, and takes the values of --env. By default "
+               "env, the light from all around; in a studio the walls, or black behind floating things");
 }
 
 std::string environment_file(const std::string& option, const std::string& word) {

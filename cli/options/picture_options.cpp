@@ -57,7 +57,7 @@ void finish_picture_options(const Options& options, const ods::ProjectionSetting
 
 ods::FrameNames video_names(const std::string& output) {
   if (const auto names = ods::frame_names(output)) return *names;
-  throw UsageError("a video needs a place for the number of the frame in its files' names: -o shot.####.png");
+  throw UsageError("frames need a place for their number in the file name: -o shot.####.png");
 }
 
 void save_as_it_was(const ods::StoredPicture& picture, const ods::ProjectionSetting& projection,
@@ -87,7 +87,7 @@ void refuse_overwriting(const std::string& output, const std::string& input) {
       const std::string out = ods::names_eye(output) ? ods::path_for_eye(output, eye) : output;
       const std::string in = ods::names_eye(input) ? ods::path_for_eye(input, other) : input;
       if (!std::filesystem::equivalent(out, in, none)) continue;
-      throw UsageError(fmt::format("'{}' would be overwritten with what is made of it: choose another name", in));
+      throw UsageError(fmt::format("'{}' would be overwritten by its own output: choose another name", in));
     }
   }
 }

@@ -26,20 +26,18 @@ static void add_confine_option(Options& options, SceneSource& source) {
 }
 
 static void add_unit_option(Options& options, SceneSource& source) {
-  options.text(
-      "--unit", "auto|UNIT|METRES", source.unit,
-      "the unit of lengths in the file: m, cm, mm, in, ft, km, or how many metres it has. auto: metres, unless "
-      "nothing that people meet has that size");
+  options.text("--unit", "auto|UNIT|METRES", source.unit,
+               "the unit of lengths in the file: m, cm, mm, in, ft, km, or its length in metres. auto: metres, unless "
+               "that is implausible");
 }
 
 static void add_shape_options(Options& options, SceneSource& source) {
   add_unit_option(options, source);
-  options.choice("--as", source.taken_for, ods::kTakenForTable,
-                 "what the scene is: an object is looked at from outside, in a place the viewer stands. auto: found by "
-                 "rays");
   options.choice(
-      "--up", source.up, ods::kUpAxisTable,
-      "the axis of the file that points up. auto: y, as glTF has it, unless things stand on a floor along z");
+      "--as", source.taken_for, ods::kTakenForTable,
+      "what the scene is: an object, seen from outside, or a place, where the viewer stands. auto: rays decide");
+  options.choice("--up", source.up, ods::kUpAxisTable,
+                 "the axis of the file that points up. auto: y, as in glTF, unless things stand on a floor with z up");
 }
 
 // None: auto.
@@ -59,10 +57,11 @@ static ValueKind scene_kind() {
 
 static void add_blender_options(Options& options, SceneSource& source) {
   options.text("--blender", "PROGRAM", source.blender.program,
-               "the Blender that converts .blend files and those of other programs; by default as PATH finds it");
-  options.number("--bake", source.blender.bake, 0, 8192,
-                 "with these: make pictures, this many pixels wide, of what materials compute by nodes");
-  options.number("--blender-limit", source.blender.seconds, 0.1f, 1e6f, "seconds after which Blender must be done");
+               "the Blender that converts .blend files and files of other programs; by default the one on PATH");
+  options.number(
+      "--bake", source.blender.bake, 0, 8192,
+      "for these files: bake what nodes of materials compute into pictures this many pixels wide; 0: do not bake");
+  options.number("--blender-limit", source.blender.seconds, 0.1f, 1e6f, "the seconds that Blender may take");
 }
 
 void add_scene_argument(Options& options, SceneSource& source,
@@ -77,18 +76,19 @@ void add_scene_argument(Options& options, SceneSource& source,
         read_foreign(source);
         if (source.foreign && foreign) foreign(*source.foreign);
       },
-      "a .glb or .gltf file, a file of Blender (.blend) or one that it reads (.fbx, .obj, .usd, ...), or a built-in "
-      "scene (ods scenes lists them)");
+      "a .glb or .gltf file, a .blend file or another that Blender reads (.fbx, .obj, .usd, ...), or a built-in scene "
+      "(ods scenes lists them)");
   options.offer("SCENE", ods::names_of(ods::builtin_scenes()));
   options.number("--scene", source.scene, 0, 1000000,
                  "number of the scene in the file, counted from 0; by default the file's default scene");
-  options.text("--variant", "NAME", source.variant,
-               "which of the file's material variants to show (ods info lists them); by default its first choice");
+  options.text(
+      "--variant", "NAME", source.variant,
+      "which of the file's material variants to show (ods info lists them); by default each mesh's own material");
   options.flag("--solid-glass", source.solid_glass,
-               "make closed meshes of glass refract that have no volume in the file, as those of Blender");
+               "refract light in closed glass meshes that have no volume in the file, such as those of Blender");
   add_shape_options(options, source);
   options.flag("--portable", source.portable,
-               "trace rays alike on every processor: nearly the same bits on all of them, and slower");
+               "trace rays in the same way on every processor: nearly the same bits on all of them, but slower");
 }
 
 void add_scene_option(Options& options, SceneSource& source, const char* help) {
@@ -100,7 +100,7 @@ void add_scene_option(Options& options, SceneSource& source, const char* help) {
 // A name that may have been meant, or else the list of names.
 static std::string suggestion(const Scene& scene, const std::string& name) {
   const std::vector<std::string> names = ods::object_names(scene);
-  if (names.empty()) return "; it names no objects and materials";
+  if (names.empty()) return "; it names no objects or materials";
   const std::string near = ods::did_you_mean(name, names);
   if (!near.empty()) return near;
   const size_t kMax = 12;
@@ -138,7 +138,7 @@ static void set_lamp_unit(Scene& scene, const SceneSource& source) {
   ods::scale_lamps(scene, 1.0 / ods::kLumensPerWatt);
   if (guessed) {
     note(
-        "Blender writes lamps 683 times as bright as emission: they are divided by that (--light-unit watt; "
+        "Blender writes lamps 683 times as bright as emission: they are divided by 683 (--light-unit watt; "
         "--light-unit "
         "candela keeps them)");
   }
@@ -175,7 +175,7 @@ static Scene load_upright(const SceneSource& source) {
   Scene scene = ods::load_scene(file, options);
   const bool is_upright = ods::find_builtin(source.name) || (source.foreign && source.foreign->is_blender_file);
   if (source.up != ods::UpAxis::kAuto || is_upright || !ods::lies_on_its_back(scene)) return scene;
-  note("things in the file stand on a floor along its z axis: z is taken for up (--up z; --up y keeps it)");
+  note("things in the file stand on a floor with z up: z is taken as up (--up z; --up y turns this off)");
   options.z_up = true;
   return ods::load_scene(file, options);
 }
@@ -218,7 +218,7 @@ static void check_content(const Scene& scene, const std::string& name) {
                       fmt::format("'{}' has nothing to render: {} (ods info says what there is)", name, why));
   };
   if (scene.instances.empty()) throw nothing("no triangles are visible in the scene that is shown");
-  if (!is_ever_visible(scene)) throw nothing("everything in it is hidden, at every time");
+  if (!is_ever_visible(scene)) throw nothing("everything in it is always hidden");
   if (!is_anything_visible(scene)) {
     note("everything is hidden while the scene is at rest; --time or --frames shows it moving");
   }

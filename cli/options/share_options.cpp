@@ -7,8 +7,9 @@
 #include "ods/files/frames.h"
 
 void add_share_options(Options& options, FrameShare& share) {
-  options.text("--only", "LIST|I/N", share.only,
-               "of frames that become frames: only these, or the I-th of N shares, as one process of several");
+  options.text(
+      "--only", "LIST|I/N", share.only,
+      "if frames become frames: make only these, or the I-th of N shares of them, as one of several processes");
   options.flag("--skip-existing", share.skip_existing, "do not make frames whose files exist");
 }
 

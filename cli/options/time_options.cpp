@@ -49,15 +49,15 @@ void add_time_options(Options& options, TimeOptions& time) {
   options.number("--time", time.time, -1e6f, 1e6f,
                  "render the animation at this time, seconds; by default the scene is in its rest pose");
   options.text("--animation", "NAME", time.animation,
-               "name of the animation (ods info lists them); by default all that do not move the same objects");
+               "play only this animation (ods info lists them); by default all, but only the first of those that move "
+               "the same objects");
   options.text("--frames", "LIST|all", time.frames,
                "frames to render: 1-100, 1-100x2 (every other one), 1,5,10-20, or all. Frame N shows the scene at N / "
                "fps seconds. "
                "ods render writes a file per frame: -o shot.####.exr or shot.%04d.exr");
-  options.text(
-      "--only", "LIST|I/N", time.only,
-      "make only these of the frames, or the I-th of N shares of them, as one process of several; exposure and "
-      "denoising still look at all");
+  options.text("--only", "LIST|I/N", time.only,
+               "make only these frames, or the I-th of N shares of them, as one of several processes; exposure and "
+               "denoising still consider all frames");
   options.number("--fps", time.fps, 0.01f, 1000.0f, "frames per second");
   options.number("--duration", time.duration, 0.01f, 1e6f,
                  "length of the video and of camera moves, seconds; by default the animation's length, or 10");
@@ -74,10 +74,9 @@ void add_time_options(Options& options, TimeOptions& time) {
   options.number("--shutter", time.shutter, 0.0f, 360.0f,
                  "motion blur: shutter angle in degrees, centred on the frame's time; 360 is a whole frame, 180 is "
                  "usual, 0 is none");
-  options.choice(
-      "--grain", time.grain, kGrainTable,
-      "noise pattern: the same in every frame, or different in each; by default changing with --turntable or "
-      "--fly-to and where the file moves the camera, else fixed");
+  options.choice("--grain", time.grain, kGrainTable,
+                 "noise pattern: the same in every frame, or different in each; by default changing if --turntable, "
+                 "--fly-to or the file moves the camera, else fixed");
   options.flag("--skip-existing", time.skip_existing,
                "do not render files that exist; several processes with this option share the rest");
 }

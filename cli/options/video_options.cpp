@@ -83,7 +83,7 @@ void check_quality(const ods::EncodeOptions& options) {
     if (!options.encoder.empty() && options.encoder != facts.name) continue;
     const bool has_choice = packing.quality || options.bitrate || !options.preset.empty();
     if (facts.worst_quality == 0 && has_choice) {
-      throw UsageError(fmt::format("{} knows no --crf, --bitrate or --preset", codec));
+      throw UsageError(fmt::format("{} has no --crf, --bitrate or --preset", codec));
     }
     if (packing.quality && *packing.quality > facts.worst_quality) {
       throw UsageError(fmt::format("--crf of {} is from 0, the best, to {}", codec, facts.worst_quality));
@@ -111,7 +111,7 @@ void warn_of_names(const VideoWishes& wishes, const ods::VideoPlan& plan) {
   if (plan.eyes == 2) words += plan.metadata.stereo == ods::VideoStereo::kSideBySide ? "_LR" : "_TB";
   const std::string name = std::filesystem::path(ods::renamed(wishes.output, words)).filename().native();
   if (name == std::filesystem::path(wishes.output).filename().native()) return;
-  note(fmt::format("players that go by the name would know it as {}", name));
+  note(fmt::format("players that go by the name would recognise {}", name));
 }
 
 void warn_of_level(const ods::VideoPlan& plan, const ods::EncodeOptions& options) {
@@ -127,8 +127,8 @@ void warn_of_level(const ods::VideoPlan& plan, const ods::EncodeOptions& options
 void warn_of_hardware(const ods::Packing& packing) {
   if (packing.codec == VideoCodec::kProRes) return;
   if (packing.chroma != Chroma::k420 || (packing.codec == VideoCodec::kH264 && packing.bits > 8)) {
-    warn(fmt::format("few players take {} of {} bits and chroma {}", ods::video_codec_name(packing.codec), packing.bits,
-                     ods::chroma_name(packing.chroma)));
+    warn(fmt::format("few players accept {} of {} bits and chroma {}", ods::video_codec_name(packing.codec),
+                     packing.bits, ods::chroma_name(packing.chroma)));
   }
 }
 
@@ -137,7 +137,7 @@ void warn_of_hardware(const ods::Packing& packing) {
 Container container_for(const std::string& path) {
   if (path.empty()) throw UsageError("no output file: add -o video.mp4");
   if (const std::optional<Container> container = ods::container_of_path(path)) return *container;
-  throw UsageError(fmt::format("'{}' is no name of a video: it ends in .mp4, .mov, .mkv or .webm", path));
+  throw UsageError(fmt::format("'{}' is not the name of a video, which ends in .mp4, .mov, .mkv or .webm", path));
 }
 
 ods::FrameRate parse_rate(const std::string& text) {
@@ -223,8 +223,8 @@ ods::EncodeOptions encode_options(const VideoWishes& wishes, Extent size, int th
 ods::VideoPlan expect_video(Layout layout, size_t eyes, ods::Extent eye, const ods::ProjectionSetting& projection) {
   const ods::EyeArrangement shared = ods::arrangement_of(layout);
   if (eyes == 2 && (!shared.is_halves() || shared.right_first)) {
-    throw UsageError(
-        fmt::format("a video's layout is top-bottom or side-by-side, perhaps -half, not {}", ods::layout_name(layout)));
+    throw UsageError(fmt::format("a video's layout is top-bottom or side-by-side, possibly -half, not {}",
+                                 ods::layout_name(layout)));
   }
   const ods::VideoPlan plan =
       ods::plan_eyes(ods::squeezed_eye(layout, eye, static_cast<int>(eyes)), eyes, layout, projection);

@@ -17,23 +17,20 @@ constexpr const char* kExamples =
     "  ods denoise other_TB.exr -o clean_TB.exr --half-a halfA --half-b halfB";
 
 constexpr const char* kSummary =
-    "Removes the noise of a rendered picture by what the renderer knows about each pixel: its variance, or two "
-    "pictures "
-    "of\n"
-    "half of the samples each. Albedo, normals and depth help if the file has them. Both eyes are denoised as one. "
-    "What the\n"
-    "samples know for sure stays: the more samples, the less is changed.";
+    "Removes the noise of a rendered picture with the help of statistics: the variance of each pixel, or two pictures\n"
+    "of half of the samples each. Albedo, normals and depth help if the file has them. Both eyes are denoised\n"
+    "together. The more samples there are, the less is changed.";
 
 void add_input_options(Options& options, DenoiseJob& job, std::optional<ods::ProjectionSetting>& projection) {
   options.argument(ValueKind::input_file("IN"), job.input, "input file: .exr; %V in the name reads one file per eye");
-  options.group("Input, if the file does not tell");
+  options.group("Input, if it is not detected");
   options.text("--variance", "NAME", job.layers.variance, "layer with the variance of each pixel's mean");
   options.text("--half-a", "NAME", job.layers.half_a, "layer with the mean of half of the samples");
-  options.text("--half-b", "NAME", job.layers.half_b, "layer with that of the others");
+  options.text("--half-b", "NAME", job.layers.half_b, "layer with the mean of the other half");
   options.custom(
       "--projection", "NAME", "",
       [&](const std::string& name) { projection = projection_by_name("--projection", name); }, "its projection");
-  add_layout_option(options, job.known.layout, "its layout; separate: one eye");
+  add_layout_option(options, job.known.layout, "its layout (separate: one eye)");
 }
 
 void add_output_options(Options& options, DenoiseJob& job, std::optional<ods::Layout>& layout, bool& alone) {
@@ -43,7 +40,7 @@ void add_output_options(Options& options, DenoiseJob& job, std::optional<ods::La
       "output file: .exr keeps all layers, and the noisy colour as layer raw; also .png .jpg .tif .webp .hdr; %V "
       "in the name writes one file per eye");
   options.flag("--each-eye", alone, "denoise each eye alone");
-  options.flag("--oidn", job.oidn, "use Intel Open Image Denoise, where it is installed; needs no statistics");
+  options.flag("--oidn", job.oidn, "use Intel Open Image Denoise, if it is installed; it needs no statistics");
   add_layout_option(options, layout, "how both eyes share the new file; by default the input's", "--to-layout");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
                  "exposure in stops; .hdr and .exr stay scene-linear and ignore it");

@@ -49,15 +49,14 @@ struct LintJob {
 bool read_options(LintJob& job, int argc, char** argv) {
   Options options("lint", kSummary, kExamples);
   options.argument(ValueKind::input_file("FILE"), job.path, "a picture or a video; %V in the name: one file per eye");
-  add_layout_option(options, job.lint.layout,
-                    "layout, if neither the file nor its name (_TB, _LR, ...) tells; separate: one eye");
+  add_layout_option(options, job.lint.layout, "layout, if it is not detected (separate: one eye)");
   options.number("--min-certainty", job.min_certainty, 0.0f, 1.0f, "hide findings below this certainty");
   ods::FormatHint lenses;
   add_lens_options(options, lenses);
   add_projection_options(options, job.projection);
   options.group("Videos");
   options.number("--every", job.every, 0, 1 << 30,
-                 "judge each so many frames as a picture; 1: all; 0: about 24, and one of every shot");
+                 "judge every N-th frame as a picture; 1: all; 0: about 24, and one of every shot");
   options.group("Console");
   options.flag("--json", job.json, "print JSON");
   add_progress_options(options, job.progress);
@@ -85,7 +84,7 @@ void run(int argc, char** argv) {
   LintJob job;
   if (!read_options(job, argc, argv)) return;
   const bool is_film = !ods::names_eye(job.path) && std::filesystem::exists(job.path) && ods::is_video(job.path);
-  if (!is_film && job.every > 0) throw UsageError(fmt::format("--every is for videos, and '{}' is none", job.path));
+  if (!is_film && job.every > 0) throw UsageError(fmt::format("--every is for videos, and '{}' is not one", job.path));
   ods::LintReport report;
   run_long_job(job.progress, 0, [&](ProgressLines& lines) {
     report = is_film ? lint_with_progress(job, lines) : ods::lint(job.path, job.lint);

@@ -45,8 +45,8 @@ bool read_over_job(OverJob& job, int argc, char** argv) {
   options.custom(
       "--projection", "NAME", "",
       [&](const std::string& name) { job.known.projection = projection_by_name("--projection", name); },
-      "the background's projection, if neither the file nor its name tells");
-  add_layout_option(options, job.known.layout, "the background's layout, if neither the file nor its name tells");
+      "the background's projection, if it is not detected");
+  add_layout_option(options, job.known.layout, "the background's layout, if it is not detected");
   add_layout_option(options, job.layout, "layout of the output; by default the background's", "--to-layout");
   options.flag("--by-depth", job.over.by_depth,
                "hide foreground that is farther away than the background; both need depth");

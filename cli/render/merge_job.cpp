@@ -29,8 +29,8 @@ constexpr const char* kExamples =
     "  ods merge picture.png.unfinished -o so_far.png";
 
 constexpr const char* kSummary =
-    "Puts the parts of a picture together, which ods render --part has made on any machines: the same bits as one\n"
-    "rendering of all samples. Or makes a picture of what an interrupted rendering has kept.";
+    "Merges the parts of a picture that ods render --part made, on any machines: the result has the same bits as one\n"
+    "rendering of all samples. It also makes a picture of what an interrupted rendering left.";
 
 // The files that the words name; a pattern stands for those that exist.
 std::vector<std::string> files_of(const std::vector<std::string>& words) {

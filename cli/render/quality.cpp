@@ -59,24 +59,23 @@ void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
       "stop sampling parts of the picture below this noise, in Cycles' measure (its default is 0.01). none: every "
       "pixel "
       "gets all samples");
-  options.number("--samples", quality.samples, 1, ods::kMaxSamples, "the most samples of a pixel");
+  options.number("--samples", quality.samples, 1, ods::kMaxSamples, "the maximum number of samples per pixel");
   options.custom(
       "--time-limit", "TIME", "", [&](const std::string& word) { job.render.time_limit = parse_time_limit(word); },
-      "the best picture that takes no longer, for each frame of a video: 90s, 10m, 1.5h. It depends on the machine");
+      "make the best picture possible in this time, for each frame of a video: 90s, 10m, 1.5h. It depends on the "
+      "machine");
   options.choice("--denoise", job.denoise, ods::kDenoiserTable,
-                 "remove the noise that is left, both eyes as one; by default for all but .exr and .hdr. An .exr keeps "
-                 "the noisy picture as the layer raw. oidn: Intel Open Image Denoise, where it is installed");
+                 "remove the remaining noise, in both eyes together; by default for all but .exr and .hdr. An .exr "
+                 "keeps the noisy picture as the layer raw. oidn: Intel Open Image Denoise, if it is installed");
   options.number("--bounces", job.render.bounces, 0, 1024, "maximum number of light bounces");
-  options.choice(
-      "--indirect", quality.indirect, ods::kIndirectTable,
-      "how light finds its way over several surfaces: by whole paths, or by paths that end in a cache of it, "
-      "many times as fast in rooms. By default cache; path for --quality final, .exr and --part");
-  options.choice(
-      "--caustics", quality.caustics, ods::kCausticsTable,
-      "how light passes solid glass and liquids: refracted, found by chance, or straight as through a window. "
-      "By default straight; path for --quality final");
+  options.choice("--indirect", quality.indirect, ods::kIndirectTable,
+                 "how light over several surfaces is computed: with whole paths, or with paths that end in a light "
+                 "cache, many times as fast in rooms. By default cache; path for --quality final, .exr and --part");
+  options.choice("--caustics", quality.caustics, ods::kCausticsTable,
+                 "how light passes through solid glass and liquids: refracted, found by chance, or straight, as "
+                 "through a window. By default straight; path for --quality final");
   options.number("--clamp", job.render.clamp, 0.0f, 1e6f,
-                 "the most that one sample of indirect light brings, against bright specks: loses light; 0: no limit");
+                 "limit each sample of indirect light to this, against bright specks; this loses light; 0: no limit");
   options.choice("--filter", job.render.filter, ods::kPixelFilterTable, "pixel filter");
   options.number("--seed", job.render.seed, "random seed; the same seed gives the same picture");
   options.number("--threads", job.render.threads, 0, 1024, "number of threads; 0: all processors");

@@ -49,25 +49,25 @@ void add_picture_options(Options& options, RenderJob& job) {
       "--shadow-catcher", "NAME", job.scene.catchers,
       "make an object or material a shadow catcher: only the shadows on it are visible (needs --transparent)");
   add_exposure_option(options, job);
-  options.choice("--tone", job.save.tone, ods::kToneCurveTable, "tone curve; ignored as --exposure is");
+  options.choice("--tone", job.save.tone, ods::kToneCurveTable, "tone curve; .hdr and .exr ignore it");
 }
 
 void read_part(const std::string& word, RenderJob& job) {
   job.part = ods::parse_part(word);
-  if (!job.part) throw UsageError(fmt::format("--part is a part and their number, such as 3/8, not '{}'", word));
+  if (!job.part) throw UsageError(fmt::format("--part is a part and the number of parts, such as 3/8, not '{}'", word));
   job.render.part = *job.part;
 }
 
 void add_long_options(Options& options, RenderJob& job) {
   options.group("Long renders of one picture");
   options.flag("--resume", job.resume,
-               "go on where an interrupted run stopped; it leaves what it has in PICTURE.unfinished");
+               "continue where an interrupted run stopped, with what it left in PICTURE.unfinished");
   options.flag("--save-unfinished", job.save_unfinished, "when interrupted (Ctrl-C, kill), save the picture as it is");
   options.custom(
       "--part", "I/N", "", [&](const std::string& word) { read_part(word, job); },
       "render one of N parts of the samples as an .exr, for ods merge: 3/8; # in the file's name is the part");
   options.number("--parts", job.parts, 2, 4096, "with ods submit: render this many parts, merge and remove them");
-  options.flag("--keep-parts", job.keep_parts, "with --parts: leave the parts when they are merged");
+  options.flag("--keep-parts", job.keep_parts, "with --parts: keep the parts after they are merged");
 }
 
 // Parts are exact shares of a fixed number of samples.
@@ -76,7 +76,7 @@ void check_long_job(const Options& options, const RenderJob& job) {
   for (const char* own : {"--resume", "--save-unfinished", "--part", "--parts"}) {
     if (!options.given(own)) continue;
     if (asks_for_video(job.time)) {
-      throw UsageError(fmt::format("{} is for one picture; frames go on with --skip-existing", own));
+      throw UsageError(fmt::format("{} is for one picture; frames continue with --skip-existing", own));
     }
     if (!job.rig.empty()) throw UsageError(fmt::format("{} cannot be used with --rig", own));
   }
@@ -90,7 +90,8 @@ void check_long_job(const Options& options, const RenderJob& job) {
   }
   if (!ods::keeps_layers(job.output)) throw UsageError("--part needs an .exr, which ods merge reads");
   if (job.render.part.count > job.render.samples) {
-    throw UsageError(fmt::format("{} samples cannot be {} parts", job.render.samples, job.render.part.count));
+    throw UsageError(
+        fmt::format("{} samples cannot be split into {} parts", job.render.samples, job.render.part.count));
   }
 }
 
@@ -117,10 +118,10 @@ bool gives(const RenderJob& job, std::string_view option) {
 void add_exposure_option(Options& options, RenderJob& job) {
   options.custom(
       "--exposure", "auto|STOPS", "auto", [&](const std::string& word) { job.exposure = parse_exposure(word); },
-      "exposure in stops. auto: what suits the light, found by a first look, the same for both eyes and all frames; "
+      "exposure in stops. auto: suits the light in a first small picture; the same for both eyes and all frames; "
       ".hdr and .exr stay scene-linear and ignore it");
   options.number("--brighter", job.brighter, -ods::kMostStops, ods::kMostStops,
-                 "stops added to the exposure, also to that of auto: 1 is twice as bright, -1 half");
+                 "stops added to the exposure, given or auto: 1 is twice as bright, -1 half");
 }
 
 float brightened(float exposure, float brighter) {

@@ -30,7 +30,7 @@ bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   options.group("Picture");
   options.text("-o,--output", ValueKind::output_file(), job.output,
                "output file: .exr .png .jpg .tif .webp .hdr; .exr keeps layers and depth");
-  add_layout_option(options, job.layout, "how both eyes share the file; by default as ods rig was told");
+  add_layout_option(options, job.layout, "how both eyes share the file; by default as in the rig");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
                  "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
   options.choice("--tone", job.save.tone, ods::kToneCurveTable, "tone curve, for scene-linear views");
@@ -39,7 +39,7 @@ bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   options.text("--frames", "RANGE", job.frames,
                "frames to stitch; the views' folder has the frame's number: 'views/####/####.exr'");
   options.text("--only", "LIST|I/N", job.only,
-               "stitch only these of the frames, or the I-th of N shares of them, as one process of several");
+               "stitch only these frames, or the I-th of N shares of them, as one of several processes");
   options.flag("--skip-existing", job.skip_existing,
                "do not stitch frames whose files exist; several processes with this option share the rest");
   options.custom(
@@ -48,7 +48,7 @@ bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   options.flag("--by-columns", job.views.by_columns, "the sheet's views are ordered column by column");
   options.flag("--own-normals", job.views.own_normals,
                "the views' normals are in camera space; convert them to world space");
-  options.flag("--partial", job.partial, "stitch although views are missing; leave their parts black");
+  options.flag("--partial", job.partial, "stitch even if views are missing; their parts stay black");
   options.flag("--list-missing", job.list_missing, "only print which views to render again, as a frame range");
   options.text("--report", ValueKind::output_file(), job.report,
                "write a picture of the seams between slits, and print how visible they are");

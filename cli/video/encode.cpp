@@ -21,7 +21,7 @@ constexpr const char* kExamples =
     "  ods encode 'shot.%04d.jpg' -o shot_180_LR.webm --projection vr180 --codec av1 --bits 10";
 
 constexpr const char* kSummary =
-    "Encodes frames from any renderer as a video that players recognize as stereo 360: both eyes in a frame, the left\n"
+    "Encodes frames from any renderer as a video that players recognise as stereo 360: both eyes in a frame, the left\n"
     "one on top; BT.709; Spherical Video V1 and V2. #### in the name (or %04d, $F4) is the frame's number, %V the "
     "eye.\n"
     "Projection and layout are detected as in ods convert.";
@@ -54,9 +54,8 @@ bool read_options(EncodeJob& job, int argc, char** argv) {
   options.custom(
       "--projection", "NAME", "",
       [&](const std::string& name) { job.known.projection = projection_by_name("--projection", name); },
-      "the frames' projection, if neither the files nor their names tell");
-  add_layout_option(options, job.known.layout,
-                    "the frames' layout, if neither the files nor their names tell; separate: one eye");
+      "the frames' projection, if it is not detected");
+  add_layout_option(options, job.known.layout, "the frames' layout, if it is not detected (separate: one eye)");
   options.number("--exposure", job.display.exposure, -30.0f, 30.0f, "exposure in stops, for .hdr and .exr");
   options.choice("--tone", job.display.tone, ods::kToneCurveTable, "tone curve; ignored as --exposure is");
   add_video_options(options, job.video);

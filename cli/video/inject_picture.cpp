@@ -30,8 +30,9 @@ ods::FormatHint known_format(const InjectJob& job) {
 ods::FormatHint looked_at(const InjectJob& job, ods::FormatHint known) {
   const std::optional<Wordless> seen = look_at_pixels(known, job.file);
   if (seen && !seen->reading) {
-    throw ods::Error(ods::ErrorKind::kInput,
-                     fmt::format("cannot tag '{}': no word tells what it shows, and {}", job.file, seen->text));
+    throw ods::Error(
+        ods::ErrorKind::kInput,
+        fmt::format("cannot tag '{}': its metadata and name do not say what it shows, and {}", job.file, seen->text));
   }
   if (seen) known.seen = ods::SeenFormat{seen->reading->layout, seen->reading->projection, seen->text};
   return known;

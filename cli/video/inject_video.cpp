@@ -23,7 +23,7 @@ void parse_projection(const std::string& name, SphericalMetadata& metadata) {
     metadata.projection = name == "flat" ? VideoProjection::kFlat : VideoProjection::kCubemap;
   } else if (const ods::NamedProjection* named = ods::find_projection(name); named && name.starts_with("cube-3x2")) {
     throw UsageError(
-        "--projection cube-3x2 orders its faces unlike the cubemap of videos: right, left, up over down, "
+        "--projection cube-3x2 has another order of faces than the cubemap of videos: right, left, up over down, "
         "front, back");
   } else if (named) {
     set_projection(metadata, named->setting);
@@ -62,8 +62,9 @@ void take_what_frames_show(const InjectJob& job, const ods::VideoTrack& track, S
   if (!seen) return;
   guesses.push_back(seen->text);
   if (!seen->reading) {
-    throw ods::Error(ods::ErrorKind::kInput,
-                     fmt::format("cannot tag '{}': no word tells what it shows, and {}", job.file, seen->text));
+    throw ods::Error(
+        ods::ErrorKind::kInput,
+        fmt::format("cannot tag '{}': its metadata and name do not say what it shows, and {}", job.file, seen->text));
   }
   known.stereo = seen->reading->layout ? ods::video_stereo(*seen->reading->layout) : ods::VideoStereo::kOneView;
   set_projection(known, seen->reading->projection);

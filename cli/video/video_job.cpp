@@ -35,11 +35,10 @@ bool read_video_job(VideoJob& job, int argc, char** argv) {
                "stitch the views of this rig (made by ods rig); SCENE is then the views' file names");
   options.flag("--keep-frames", job.keep_frames, "keep VIDEO.frames, which ods encode can read");
   options.flag("--restart", job.restart, "discard frames rendered with other options and start over");
-  options.flag(
-      "--raw", render.raw,
-      "with --only: render frames and leave them noisy beside where they belong; the same command without --raw "
-      "denoises them");
-  options.flag("--force", render.force, "render the frames although the disk cannot hold them");
+  options.flag("--raw", render.raw,
+               "with --only: only render the frames, and keep them noisy beside the final ones; the same command "
+               "without --raw denoises them");
+  options.flag("--force", render.force, "render the frames even if the disk cannot hold them");
   add_wait_option(options, render.wait, "frames");
   options.group("Picture");
   add_picture_options(options, render.render, render.save);

@@ -18,7 +18,7 @@ std::optional<Wordless> judged(const std::optional<Identity>& identity, bool (*c
       fmt::format("it looks like {}: {} ({:.2f})", reading_text(best), identity->reason, best.certainty);
   if (can_say(best)) return Wordless{best, *identity, looks};
   return Wordless{
-      {}, *identity, looks + "; if that is so, there is nothing to tag; else say --layout and --projection"};
+      {}, *identity, looks + "; if that is right, there is nothing to tag; otherwise give --layout and --projection"};
 }
 
 bool video_can_say(const Reading& reading) {

@@ -39,7 +39,7 @@ std::unique_ptr<HttpServer> listen(WebOptions web, bool any_will_do, ViewSite& s
 void explain_network(const std::string& address, int port) {
   if (stderr_is_terminal() && !console.quiet) std::fputs(qr_code(address).c_str(), stderr);
   note(
-      "open that address in the headset's browser; it warns, as nobody vouches for this machine: choose Advanced, "
+      "open that address in the headset's browser; it warns, because ods made the certificate itself: choose Advanced, "
       "then Proceed. The page asks for a click to enter the headset");
   note(fmt::format(
       "everyone who has the address can see these files until you press Ctrl-C. By cable instead: end this, "
@@ -66,7 +66,7 @@ void serve(const ViewJob& job) {
   std::string shown_host = web.hosts[0];
   if (job.lan) {
     const std::vector<std::string> addresses = network_addresses();
-    if (addresses.empty()) throw ods::Error(ods::ErrorKind::kInput, "--lan: this machine is in no network");
+    if (addresses.empty()) throw ods::Error(ods::ErrorKind::kInput, "--lan: this machine is not on a network");
     if (folder.empty()) throw UsageError("--lan keeps its certificate in your home folder: set HOME");
     web.address = "0.0.0.0";
     web.hosts.insert(web.hosts.end(), addresses.begin(), addresses.end());

@@ -31,7 +31,7 @@ constexpr const char* kExamples =
 
 constexpr const char* kSummary =
     "Shows stereo 360 pictures and videos around you: in the browser, and with one click in the headset. --lan is for\n"
-    "headsets in the same network. --export writes the viewer as a folder for any web host. docs/view.md has the keys.";
+    "headsets on the same network. --export writes the viewer as a folder for any web host. docs/view.md has the keys.";
 
 constexpr size_t kMostItems = 2000;
 
@@ -81,18 +81,18 @@ bool read_view_job(ViewJob& job, int argc, char** argv) {
   Options options("view", kSummary, kExamples);
   options.arguments(ValueKind::input_file("FILE"), job.paths,
                     "pictures, videos, and folders of them (%V in a name: one file per eye), or a scene");
-  options.group("Input, if neither the file nor its name tells");
-  add_layout_option(options, job.known.layout, "how both eyes share the file; separate: one eye");
+  options.group("Input, if it is not detected");
+  add_layout_option(options, job.known.layout, "how both eyes share the file (separate: one eye)");
   options.custom(
       "--projection", "NAME", "",
       [&](const std::string& name) { job.known.projection = projection_by_name("--projection", name); },
       "its projection");
   add_lens_options(options, job.known);
   options.group("Page");
-  options.flag("--lan", job.lan, "let a headset or phone in the same network see it: https, with a QR code");
+  options.flag("--lan", job.lan, "let a headset or phone on the same network see it: https, with a QR code");
   options.flag("--keep-secret", job.keep_secret,
                "with --lan: the same address the next time; by default it is new each time");
-  options.number("--port", job.port, 1, 65535, "the port to serve at; by default 8360, or any if that is taken");
+  options.number("--port", job.port, 1, 65535, "port of the server; by default 8360, or any if that is taken");
   bool stay = false;
   options.flag("--no-browser", stay, "only print the address");
   options.text("--export", ValueKind::output_folder(), job.folder,

@@ -53,7 +53,7 @@ static void compare_eyes_of(const StereoCamera& front, const StereoCamera& back,
   }
   if (!same_merge(front.top, back.top) || !same_merge(front.bottom, back.bottom) ||
       !same_map(front.merge_map, back.merge_map)) {
-    warnings.push_back("the foreground has another pole merge: near the poles it does not stay on what it stands on");
+    warnings.push_back("the foreground has another pole merge: near the poles it moves away from what it stands on");
   }
   if (!same_map(front.head_tilt_map, back.head_tilt_map)) {
     warnings.push_back("the foreground has another `head-tilt-map`: its eyes differ in height from the background's");

@@ -28,7 +28,7 @@ void check_black(const Subject& subject, LintReport& report) {
   const char* what = black == subject.eyes.size() ? "the picture" : is_left ? "the left eye" : "the right eye";
   report.findings.push_back({Fault::kBlack, 1.0,
                              fmt::format("of {}, fewer than one pixel in a thousand is brighter than 8 of 255", what),
-                             "light the scene, expose more, or look whether the file is the right one"});
+                             "light the scene, increase the exposure, or check whether it is the right file"});
 }
 
 }  // namespace ods

@@ -144,7 +144,7 @@ void check_horizon(const Subject& subject, LintReport& report) {
   // Edges of all directions have this share of theirs within the peak.
   const double chance = kWidth * std::sqrt(0.5 * std::numbers::pi) / kNearly;
   const double peak = std::clamp((tilt.share - 2.0 * chance) / (1.5 * chance), 0.0, 1.0);
-  if (peak < 0.5) return skip(report, Check::kHorizon, "too few lines that are vertical for sure");
+  if (peak < 0.5) return skip(report, Check::kHorizon, "too few lines that are certainly vertical");
   judge(report, Check::kHorizon);
   const double level = share_of(edges, zenith(0.0, 0.0));
   const double better = std::clamp(3.5 * (tilt.share - level) / tilt.share, 0.0, 1.0);

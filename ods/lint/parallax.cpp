@@ -186,7 +186,8 @@ static bool check_twice(const Subject& subject, const std::vector<Matches>& scal
   if (detailed == 0) {
     skip(report, Check::kTwoEyes, "not enough detail");
   } else if (large < 0.5) {
-    skip(report, Check::kTwoEyes, fmt::format("at {:.0f} pixels around, what is far stands still too", width));
+    skip(report, Check::kTwoEyes,
+         fmt::format("at {:.0f} pixels around, distant things have no parallax either", width));
   } else {
     judge(report, Check::kTwoEyes);
   }
@@ -255,9 +256,10 @@ static void check_waves(const Subject& subject, const Parallaxes& parallaxes, do
                                cure});
   };
   add(Fault::kTwoCameras, one, std::max(two.share, explained_by_zoom(subject, parallaxes)), "theta",
-      "render again with a viewing circle (omni-directional stereo); what two fixed cameras saw cannot be mended");
+      "render again with a viewing circle (omni-directional stereo); pictures of two fixed cameras cannot be repaired");
   add(Fault::kMirroredCircle, two, one.share, "2 theta",
-      "the renderer turns its eyes against its rays: negate one coordinate of the eye's place there, and render again");
+      "the renderer turns its eyes and its rays in opposite directions: negate one coordinate of the eye's position "
+      "there, and render again");
 }
 
 void check_parallax(const Subject& subject, LintReport& report) {

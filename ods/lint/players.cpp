@@ -133,7 +133,7 @@ std::vector<std::string> video_warnings(const VideoFile& video, const VideoTrack
   const PlayerView v2 = v2_view(video, track), name = name_view(path);
   if (track.has_layers) {
     warnings.emplace_back(
-        "its eyes are layers of its stream (MV-HEVC): players that do not know that, and ods, see one");
+        "its eyes are layers of its stream (MV-HEVC): ods, and players that do not support this, see only one");
   }
   const std::string make_one = advice(video, track, path, "makes them one");
   if (track.v1 && track.v2 && !agree(shown_as(*track.v1), shown_as(*track.v2))) {

@@ -81,7 +81,7 @@ void check_poles(const Subject& subject, LintReport& report) {
         {Fault::kNoPoleMerge, certainty,
          fmt::format(
              "at the {} the eyes' pictures differ by {:.1f} degrees within 13 degrees of the pole, {:.1f} at 66 "
-             "degrees; more than {} strains the eyes of who looks there",
+             "degrees; more than {} strains the eyes of anyone who looks there",
              name, near.arc, off.arc, kTolerable),
          fmt::format("render with a pole merge, as `merge-{}` cosine,60,90", name)});
   }

@@ -279,7 +279,7 @@ void check_seam(const Subject& subject, LintReport& report) {
     return;
   }
   if (subject.bits_per_pixel.value_or(kFewBits) < kFewBits) {
-    skip(report, Check::kSeam, "a codec with so few bits for a pixel breaks it by itself");
+    skip(report, Check::kSeam, "with so few bits for a pixel, the codec itself breaks the seam");
     return;
   }
   std::vector<Image> eyes;
@@ -287,7 +287,7 @@ void check_seam(const Subject& subject, LintReport& report) {
   if (check_break(eyes, has_smoothed_blocks(subject), report)) {
     judge(report, Check::kSeam);
   } else {
-    skip(report, Check::kSeam, "nothing is there that could break");
+    skip(report, Check::kSeam, "there is nothing at the seam that could break");
   }
   check_doubled(eyes, report);
   check_overlap(eyes, report);

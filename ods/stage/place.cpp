@@ -80,7 +80,7 @@ static std::string speck_seen_by(const ViewPoint& camera, const Bounds& core) {
   const float distance = length(camera.position - 0.5f * (core.low + core.high));
   const float angle = glm::degrees(2.0f * std::atan2(0.5f * length(core.high - core.low), distance));
   if (angle >= kSpeck || !(angle > 0.0f)) return "";  // 0: nothing can be seen at all
-  return fmt::format("the file's camera '{}' sees all there is as a speck, {:.2g} degrees wide", camera.name, angle);
+  return fmt::format("the whole scene is a speck in the file's camera '{}', {:.2g} degrees wide", camera.name, angle);
 }
 
 // Whether the size of the scene is the viewer's own choice.

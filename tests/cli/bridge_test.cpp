@@ -143,7 +143,7 @@ TEST_F(Bridge, AFailingBlenderIsOneLine) {
 
 TEST_F(Bridge, AHangingBlenderIsEnded) {
   program("echo $$ >" + folder_ + "/process\nsleep 1000 &\necho $! >>" + folder_ + "/process\nwait");
-  expect_failure("Blender was not done after 0.5 seconds", {"--blender-limit", "0.5"});
+  expect_failure("Blender did not finish within 0.5 seconds", {"--blender-limit", "0.5"});
   std::ifstream processes(folder_ + "/process");
   for (int process = 0; processes >> process;) {
     for (int i = 0; i < 100 && ::kill(process, 0) == 0; i++) std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -182,7 +182,7 @@ TEST_F(Bridge, RefusesWhatIsNoBlenderFile) {
   write(scene_, "hello");
   Ods ods(info());
   EXPECT_EQ(ods.finish(), 3);
-  EXPECT_NE(ods.err.find("is no Blender file, or a damaged one"), std::string::npos) << ods.err;
+  EXPECT_NE(ods.err.find("is not a Blender file, or is damaged"), std::string::npos) << ods.err;
   EXPECT_EQ(runs(), 0u);
   EXPECT_EQ(Ods({"info", folder_ + "/none.blend"}).finish(), 3);
   Ods confined({"info", scene_, "--confine", folder_});

@@ -219,7 +219,7 @@ TEST_F(CliFrames, TheDurationMakesTheFrames) {
 
 TEST_F(CliFrames, MistakesAreExplained) {
   const std::pair<const char*, const char*> mistakes[] = {
-      {"--frames 1-2", "a place for the number"},
+      {"--frames 1-2", "a place for their number"},
       {"--time 1 --frames 2", "give one"},
       {"--time 1 --animation walk", "none called 'walk'"},
       {"--turntable 1,2", "TURNS,X,Y,Z"},

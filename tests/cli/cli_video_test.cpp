@@ -61,14 +61,14 @@ TEST_F(Video, ANameThatPlayersUnderstandIsProposed) {
   };
   for (const auto& [name, options, proposed] : kCases) {
     ASSERT_EQ(run(words(name, options)), 0) << err;
-    const size_t at = err.find("would know it as ");
+    const size_t at = err.find("would recognise ");
     if (!*proposed) {
       EXPECT_EQ(at, std::string::npos) << name << options << err;
       continue;
     }
     ASSERT_NE(at, std::string::npos) << name << options << err;
-    EXPECT_EQ(err.substr(at + 17, err.find('\n', at) - at - 17), proposed) << options;
-    EXPECT_EQ(err.find("would know it as ", at + 1), std::string::npos) << "once";
+    EXPECT_EQ(err.substr(at + 16, err.find('\n', at) - at - 16), proposed) << options;
+    EXPECT_EQ(err.find("would recognise ", at + 1), std::string::npos) << "once";
     EXPECT_EQ(err.find("players differ"), err.rfind("players differ")) << "once";
   }
 }

@@ -268,7 +268,7 @@ TEST_F(ConvertVideoCommand, RefusalsSayWhatToDo) {
       {video, "a.mp4", "--to-layout anaglyph", "a video's layout is"},
       {video, "a.mp4", "--mono --exposure 1", "scene-linear"},
       {video, "a.png", "", "has many pictures"},
-      {video, "a.#.png", "--crf 20", "is no video"},
+      {video, "a.#.png", "--crf 20", "is not a video"},
       {shots, "a.png", "", "has many pictures"},
       {shots, "a.mp4", "--trim 1-2", "--trim is for videos"},
       {shots, "a.mp4", "--stabilize " + path("none.keys"), "none.keys"},

@@ -185,11 +185,11 @@ TEST_F(EncodeCommand, SizesBeyondEveryLevelAreReportedWithTheLargest) {
 TEST_F(EncodeCommand, NamesThatPlayersGoByAreSuggested) {
   ods::made::write_frames(pattern(), {1});
   ASSERT_EQ(run("encode " + pattern() + " --codec h264 -o " + folder.path("video.mp4")), 0) << err;
-  EXPECT_NE(err.find("would know it as video_360_TB.mp4"), std::string::npos) << err;
+  EXPECT_NE(err.find("would recognise video_360_TB.mp4"), std::string::npos) << err;
   ASSERT_EQ(run("encode " + pattern() + " --codec h264 -o " + folder.path("video_360_LR.mp4")), 0) << err;
   EXPECT_NE(err.find("its name says side-by-side"), std::string::npos) << err;
   ASSERT_EQ(run("encode " + pattern() + " --codec h264 --bits 10 -o " + folder.path("video_360_TB.mp4")), 0) << err;
-  EXPECT_NE(err.find("few players take h264 of 10 bits"), std::string::npos) << err;
+  EXPECT_NE(err.find("few players accept h264 of 10 bits"), std::string::npos) << err;
   EXPECT_EQ(err.find("its name says"), std::string::npos) << err;
 }
 
@@ -209,7 +209,7 @@ TEST_F(EncodeCommand, ATitleGoesOverAVideo) {
   const std::pair<std::string, const char*> kWrong[] = {{made + " --frames 1-5x2", "must be consecutive"},
                                                         {made + " --frames 3-1", "ascending"},
                                                         {video, "overwritten"},
-                                                        {folder.path("x.png"), "place for the number"}};
+                                                        {folder.path("x.png"), "place for their number"}};
   for (const auto& [words, fault] : kWrong) {
     EXPECT_EQ(run(over + words), 2) << words;
     expect_one_line(fault);
@@ -224,7 +224,7 @@ TEST_F(EncodeCommand, TheTestCardIsAVideo) {
   EXPECT_EQ(run("testcard --video --layout anaglyph -o " + video), 2);
   expect_one_line("a video's layout must be");
   EXPECT_EQ(run("testcard --video -o " + folder.path("card.png")), 2);
-  expect_one_line("no name of a video");
+  expect_one_line("is not the name of a video");
 }
 
 }  // namespace

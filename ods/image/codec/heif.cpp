@@ -86,7 +86,7 @@ void HeifDecoder::check(const heif_error& error) const {
   }
   if (error.subcode == heif_suberror_Unsupported_codec || error.code == heif_error_Unsupported_filetype) {
     throw cannot_read(name_, fmt::format("this machine's libheif has no decoder for it ({}); the packages "
-                                         "libheif-plugin-libde265 (HEIC) and libheif-plugin-dav1d (AVIF) are some",
+                                         "libheif-plugin-libde265 (HEIC) and libheif-plugin-dav1d (AVIF) have them",
                                          error.message));
   }
   throw cannot_read(name_, fmt::format("the HEIF is damaged or unusual: {}", error.message));
