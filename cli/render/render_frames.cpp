@@ -76,11 +76,11 @@ std::vector<ods::SharedFrame> files_of(const std::vector<Frame>& frames) {
   return files;
 }
 
-// report: gets the frames' place in the order of work.
+// report: gets the frames' place in the order of work. The frames must outlive the result.
 ods::SequenceProgress progress_of(const std::vector<Frame>& all, const std::vector<size_t>& missing,
                                   const StepReport& report) {
   ods::SequenceProgress progress;
-  progress.report = [&](double done, size_t index) {
+  progress.report = [&all, &missing, report](double done, size_t index) {
     const auto place = std::ranges::find(missing, index) - missing.begin() + 1;
     report(done, {"render", static_cast<int>(place), static_cast<int>(missing.size()), all[index].path});
   };
