@@ -28,7 +28,8 @@ inline size_t blocks_along(int side) {
 void put_block(CodeImage& image, size_t x, size_t y, const TexelBlock& texels);
 
 // ETC1S in BasisLZ: the first of `image_count` pictures, in `level`. `global`: what KTX 2.0 calls the supercompression
-// global data. Alpha is the second slice's green, 255 without one. A picture that is a difference to another is refused.
+// global data. Alpha is the second slice's green, 255 without one. A picture that is a difference to another is
+// refused.
 void decode_basis_lz(std::span<const std::byte> global, size_t image_count, std::span<const std::byte> level,
                      CodeImage& image);
 

@@ -24,7 +24,7 @@ using Bytes = std::span<const std::byte>;
 constexpr unsigned char kMark[] = {0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb, '\r', '\n', 0x1a, '\n'};
 
 enum Packing : uint32_t { kUnpacked, kBasisLz, kZstandard };  // "supercompression"
-enum ColorModel : uint32_t { kEtc1s = 163, kUastc = 166 };     // of the data format
+enum ColorModel : uint32_t { kEtc1s = 163, kUastc = 166 };    // of the data format
 
 // Where the data format's descriptor says what the two channels of a file with two are.
 constexpr uint32_t kGreenInSecondSlice = 4, kGreenInAlpha = 5;
@@ -123,14 +123,15 @@ CodeImage decode(Bytes file) {
   check_picture(ktx, file.size());
   const uint32_t model = byte_at(ktx.descriptor, 12);
   const size_t channels = channels_of(ktx.vulkan_format);
-  const bool is_etc1s = ktx.packing == kBasisLz && model == kEtc1s;
+  const bool is_etc1s = ktx.packing == kBasisLz && model == kEtc1s && ktx.vulkan_format == 0;
   const bool may_be_packed = ktx.packing == kUnpacked || ktx.packing == kZstandard;
   const bool is_uastc = may_be_packed && model == kUastc && ktx.vulkan_format == 0;
   if (!is_etc1s && !is_uastc && !(may_be_packed && channels > 0)) {
-    throw MalformedFile(fmt::format(
-        "its format (Vulkan's number {}, colour model {}, packing {}) is not one of glTF: ETC1S or UASTC (LDR), or 8-bit "
-        "R, RG, RGB or RGBA",
-        ktx.vulkan_format, model, ktx.packing));
+    throw MalformedFile(
+        fmt::format("its format (Vulkan's number {}, colour model {}, packing {}) is not one of glTF: ETC1S or UASTC "
+                    "(LDR), or 8-bit "
+                    "R, RG, RGB or RGBA",
+                    ktx.vulkan_format, model, ktx.packing));
   }
   CodeImage image{ktx.width, ktx.height, {}, {}};
   image.pixels.resize(pixels_of(image));

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Source: R. Geldreich, "UASTC LDR 4x4 Texture Specification" (the wiki of Basis Universal), which builds upon ASTC as in
-// the Khronos Data Format Specification: quantised colours and weights, and where a block is divided. A block has one
-// to three subsets, each with two colours that its texels mix.
+// Source: R. Geldreich, "UASTC LDR 4x4 Texture Specification" (the wiki of Basis Universal), which builds upon ASTC as
+// in the Khronos Data Format Specification: quantised colours and weights, and where a block is divided. A block has
+// one to three subsets, each with two colours that its texels mix.
 #include <algorithm>
 
 #include "ods/base/bytes.h"
@@ -35,16 +35,14 @@ struct Mode {
 };
 
 // By their numbers. Mode 8 is one colour.
-constexpr Mode kModes[] = {{0x01, 4, 15, 3, 1, 1, 4, k192}, {0x35, 6, 15, 3, 1, 1, 2, k256},
-                           {0x1d, 5, 15, 3, 2, 1, 3, k16},  {0x03, 5, 15, 3, 3, 1, 2, k12},
-                           {0x13, 5, 15, 3, 2, 1, 2, k40},  {0x0b, 5, 15, 3, 1, 1, 3, k256},
-                           {0x1b, 5, 15, 3, 1, 2, 2, k160}, {0x07, 5, 15, 3, 2, 1, 2, k40},
-                           {0x17, 5, 0, 4, 0, 0, 0, k256},  {0x0f, 5, 23, 4, 2, 1, 2, k16},
-                           {0x02, 3, 17, 4, 1, 1, 4, k48},  {0x00, 2, 17, 4, 1, 2, 2, k48},
-                           {0x06, 3, 17, 4, 1, 1, 3, k192}, {0x1f, 5, 23, 4, 1, 2, 1, k256},
-                           {0x0d, 5, 23, 4, 1, 1, 2, k256}, {0x05, 7, 23, 2, 1, 1, 4, k256},
-                           {0x15, 6, 23, 2, 2, 1, 2, k256}, {0x25, 6, 23, 2, 1, 2, 2, k256},
-                           {0x09, 4, 15, 3, 1, 1, 5, k32}};
+constexpr Mode kModes[] = {
+    {0x01, 4, 15, 3, 1, 1, 4, k192}, {0x35, 6, 15, 3, 1, 1, 2, k256}, {0x1d, 5, 15, 3, 2, 1, 3, k16},
+    {0x03, 5, 15, 3, 3, 1, 2, k12},  {0x13, 5, 15, 3, 2, 1, 2, k40},  {0x0b, 5, 15, 3, 1, 1, 3, k256},
+    {0x1b, 5, 15, 3, 1, 2, 2, k160}, {0x07, 5, 15, 3, 2, 1, 2, k40},  {0x17, 5, 0, 4, 0, 0, 0, k256},
+    {0x0f, 5, 23, 4, 2, 1, 2, k16},  {0x02, 3, 17, 4, 1, 1, 4, k48},  {0x00, 2, 17, 4, 1, 2, 2, k48},
+    {0x06, 3, 17, 4, 1, 1, 3, k192}, {0x1f, 5, 23, 4, 1, 2, 1, k256}, {0x0d, 5, 23, 4, 1, 1, 2, k256},
+    {0x05, 7, 23, 2, 1, 1, 4, k256}, {0x15, 6, 23, 2, 2, 1, 2, k256}, {0x25, 6, 23, 2, 1, 2, 2, k256},
+    {0x09, 4, 15, 3, 1, 1, 5, k32}};
 constexpr size_t kThreeSubsets = 3, kOtherTwoSubsets = 7, kOneColor = 8, kGreyPlanes = 17;
 
 // Which texels are in subset 1, from the lowest bit: ASTC's partitions of small blocks, as of the seeds

@@ -41,7 +41,15 @@ TEST(BitReader, TheLowestBitsComeFirst) {
 // The example of RFC 1951, 3.2.2.
 TEST(PrefixCode, IsCanonical) {
   const PrefixCode code({3, 3, 3, 3, 3, 2, 4, 4});
-  const std::vector<std::byte> bytes = bytes_of("010" "011" "100" "101" "110" "00" "1110" "1111");
+  const std::vector<std::byte> bytes = bytes_of(
+      "010"
+      "011"
+      "100"
+      "101"
+      "110"
+      "00"
+      "1110"
+      "1111");
   BitReader bits(bytes);
   for (uint32_t symbol = 0; symbol < 8; symbol++) EXPECT_EQ(code.read(bits), symbol);
 }
@@ -82,11 +90,11 @@ TEST(PrefixCode, RunsOfLengths) {
 TEST(PrefixCode, DamagedTables) {
   const std::string two = "10", run = "11";
   const std::string tables[] = {
-      table(19, 4) + run + number(0, 2),             // repeats nothing
-      table(20, 9) + "0" + run + number(0, 7),       // repeats a gap
-      table(19, 3) + two + run + number(0, 2),       // one more than there are
-      table(19, 9) + two + run + number(3, 2) + two, // ends too early
-      number(1, 14) + number(31, 5),                 // more lengths than exist
+      table(19, 4) + run + number(0, 2),              // repeats nothing
+      table(20, 9) + "0" + run + number(0, 7),        // repeats a gap
+      table(19, 3) + two + run + number(0, 2),        // one more than there are
+      table(19, 9) + two + run + number(3, 2) + two,  // ends too early
+      number(1, 14) + number(31, 5),                  // more lengths than exist
   };
   for (const std::string& each : tables) {
     const std::vector<std::byte> bytes = bytes_of(each);

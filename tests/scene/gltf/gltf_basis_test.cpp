@@ -14,7 +14,7 @@ Binary small_ktx2() {
   return read_file(std::string(ODS_SOURCE_DIR) + "/tests/image/ktx2/etc1s.ktx2", 1 << 20);
 }
 
-constexpr size_t kTexels = 1;
+constexpr size_t kTexels = 61 * 61;
 
 // A triangle that shows the picture of texture 0.
 GltfBuilder make_textured(const Json& texture) {
