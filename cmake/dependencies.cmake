@@ -13,7 +13,7 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(OpenEXR REQUIRED IMPORTED_TARGET OpenEXR>=3.1)
 pkg_check_modules(Deflate REQUIRED IMPORTED_TARGET libdeflate)
 pkg_check_modules(Formats REQUIRED IMPORTED_TARGET lcms2 libheif libjpeg libpng libtiff-4>=4.5 libwebp libwebpdemux
-  libzip>=1.7)
+  libzip>=1.7 libzstd)
 pkg_check_modules(FFmpeg REQUIRED IMPORTED_TARGET libavcodec>=59.37 libavformat libavutil libswresample)
 pkg_check_modules(Pango REQUIRED IMPORTED_TARGET pangoft2>=1.50)
 set(ods_libraries embree TBB::tbb PkgConfig::Deflate PkgConfig::FFmpeg PkgConfig::OpenEXR PkgConfig::Pango PkgConfig::Formats

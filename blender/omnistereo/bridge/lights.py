@@ -137,6 +137,7 @@ def add_light(glb, key, name, light, matrix, report):
 
 def name_oddities(lights, report):
     """lights: datablocks."""
-    shadowless = [l.name for l in lights if not getattr(getattr(l, "cycles", None), "cast_shadow", True)]
+    # Blender 4.2 has one switch for all renderers.
+    shadowless = [l.name for l in lights if not getattr(getattr(l, "cycles", None), "cast_shadow", l.use_shadow)]
     if shadowless:
         report.warn(f"{some(shadowless)} cast shadows: lights without them do not come across")

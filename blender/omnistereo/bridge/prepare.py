@@ -74,8 +74,7 @@ def _modify_as_rendered(scene):
                 modifier.levels = modifier.render_levels
     for settings in bpy.data.particles:
         settings.display_percentage = 100
-        if hasattr(settings, "rendered_child_count"):
-            settings.child_nbr = settings.rendered_child_count
+        setattr(settings, "child_percent" if bpy.app.version >= (4, 0, 0) else "child_nbr", settings.rendered_child_count)
 
 
 def _name_lost(shown, report):

@@ -68,7 +68,7 @@ static constexpr Extension kExtensions[] = {
     {"KHR_node_visibility", kRendered, "hidden nodes, also animated"},
     {"KHR_physics_rigid_bodies", kNoEffect, "physics"},
     {"KHR_techniques_webgl", kFallback, "shaders"},
-    {"KHR_texture_basisu", kFallback, "KTX2 pictures compressed with Basis Universal"},
+    {"KHR_texture_basisu", kRendered, "KTX2 pictures compressed with Basis Universal"},
     {"KHR_texture_transform", kRendered, "moved, scaled and rotated textures"},
     {"KHR_xmp", kNoEffect, "metadata"},
     {"KHR_xmp_json_ld", kNoEffect, "metadata"},
@@ -111,8 +111,7 @@ bool is_supported(ExtensionState state) {
 
 bool is_read(std::string_view name) {
   const ExtensionState state = find_extension(name).state;
-  // A texture that has nothing else is named.
-  return state == kRendered || state == kApproximated || name == "KHR_texture_basisu";
+  return state == kRendered || state == kApproximated;
 }
 
 }  // namespace ods

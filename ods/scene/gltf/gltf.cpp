@@ -60,11 +60,6 @@ static void check_extensions(const GltfFile& file, Scene& scene) {
   for (const std::string& name : required) {
     const Extension row = find_extension(name);
     if (is_supported(row.state)) continue;
-    if (name == kBasis) {
-      fail(file,
-           fmt::format("its textures are in the KTX2 format ({}), which ods does not read; convert them first: {}",
-                       kBasis, kBasisCure));
-    }
     fail(file, fmt::format("needs the extension {} ({}), which ods does not read; export it again without it",
                            printable(name), row.how));
   }

@@ -37,8 +37,7 @@ struct ImageSource {
   std::string uri;   // empty if the picture is in the buffer view
   std::string name;  // the file that it means: resolve_uri()
   int view = -1;
-  bool is_ktx2 = false;  // by its name or declared type; ods does not decode it
-  size_t first = 0;      // the first image with the same source, the only one read
+  size_t first = 0;  // the first image with the same source, the only one read
 };
 
 // One animation channel of the file.
@@ -119,11 +118,6 @@ void decode_meshes(GltfFile& file, Scene& scene);
 void decode_mesh(GltfFile& file, int mesh);
 
 // --- material.cpp
-// Textures that ods does not decode (no package of the supported systems does), and what converts them.
-inline constexpr const char* kBasis = "KHR_texture_basisu";
-inline constexpr const char* kBasisCure =
-    "gltf-transform ktxdecompress in.glb out.glb (from npm, it needs the command ktx of Khronos' KTX-Software)";
-
 // The scene's materials are the file's in order, then one more for primitives without a material.
 // Sets file.moving_layers.
 void read_materials(GltfFile& file, Scene& scene);

@@ -136,8 +136,7 @@ static void take_images(GltfFile& file) {
   std::map<std::pair<std::string, int>, size_t> first;
   for (const JsonValue* image : records(file, file.json.root(), "images")) {
     const std::string& uri = *(*image)["uri"].text;
-    const bool is_ktx2 = *(*image)["mimeType"].text == "image/ktx2" || small_letters(uri).ends_with(".ktx2");
-    ImageSource source{uri, "", index_in(file, *image, "bufferView"), is_ktx2, file.images.size()};
+    ImageSource source{uri, "", index_in(file, *image, "bufferView"), file.images.size()};
     if (!source.uri.empty()) source.name = resolve_uri(file, source.uri);
     source.first = first.emplace(std::pair(source.name, source.view), source.first).first->second;
     file.images.push_back(source);

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "ods/image/image_file.h"
+#include "ods/image/ktx2/ktx2.h"
 #include "ods/kernel/texture.h"
 #include "ods/scene/gltf/parts.h"
 
@@ -29,10 +30,11 @@ static int wrap_of(int mode) {
   return mode == kMirroredRepeat ? kWrapMirror : kWrapRepeat;
 }
 
-// The image of a texture; -1: none that can be read.
+// The image of a texture; -1: none that can be read. What has been compressed for graphics cards is the last choice.
 int TextureTable::image_of(const JsonValue& texture) const {
   const int plain = index_in(file_, texture, "source");
-  return integer(file_, extension(texture, "EXT_texture_webp"), "source", plain);
+  const int compressed = index_in(file_, extension(texture, "KHR_texture_basisu"), "source");
+  return integer(file_, extension(texture, "EXT_texture_webp"), "source", plain == -1 ? compressed : plain);
 }
 
 TextureSlot TextureTable::slot(const JsonValue& parent, const char* key, bool srgb) {
@@ -71,12 +73,6 @@ int TextureTable::texture(int index, const Use& use) {
   if (found != made_.end()) return found->second;
   const JsonValue& source = record(file_, file_.textures, index, "texture");
   const int image = image_of(source);
-  const bool is_ktx2 =
-      image == -1 ? !extension(source, kBasis).is_null() : element(file_, file_.images, image, "image").is_ktx2;
-  if (is_ktx2) {
-    warn(scene_, fmt::format("textures in the KTX2 format ({}) are white; convert them first: {}", kBasis, kBasisCure));
-    return made_[{index, use}] = -1;
-  }
   if (image == -1) {
     warn(scene_, fmt::format("texture {} has no picture that ods can read; using white", index));
     return made_[{index, use}] = -1;
@@ -119,7 +115,9 @@ static Texels decode_picture(const GltfFile& file, const TexelSource& source) {
   const std::vector<unsigned char> bytes = image_bytes(file, file.images[source.image]);
   if (bytes.empty()) fail(file, fmt::format("image {} is empty", source.image));
   const std::string name = fmt::format("{}: image {}", file.path, source.image);
-  CodeImage image = decode_image(std::as_bytes(Bytes(bytes)), name, source.form == TexelForm::kNormal);
+  const std::span<const std::byte> picture = std::as_bytes(Bytes(bytes));
+  CodeImage image =
+      is_ktx2(picture) ? decode_ktx2(picture, name) : decode_image(picture, name, source.form == TexelForm::kNormal);
   if (!image.deep.empty()) return {image.width, image.height, kTexelNormal, pack_normals(image.deep)};
   if (source.form == TexelForm::kGlossiness) store_glossiness(image.pixels, source.glossiness);
   return {image.width, image.height, kTexelBytes, std::move(image.pixels)};

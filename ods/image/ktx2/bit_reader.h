@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Bits of a stream, the lowest of each byte first, and the prefix codes in them.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace ods {
+
+class BitReader {
+ public:
+  explicit BitReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+  // The next `count` bits as a number, up to 16. Throws MalformedFile if there are fewer.
+  uint32_t read(size_t count);
+
+ private:
+  std::span<const std::byte> bytes_;
+  size_t at_ = 0;  // in bits
+};
+
+// A canonical prefix code: RFC 1951, section 3.2.2, with codes of up to 16 bits.
+class PrefixCode {
+ public:
+  PrefixCode() = default;  // of no symbol
+
+  // The length of each symbol's code; 0: it has none. Throws MalformedFile if more codes are asked for than there are.
+  explicit PrefixCode(const std::vector<uint8_t>& lengths);
+
+  // Throws MalformedFile if the bits are no code.
+  uint32_t read(BitReader& bits) const;
+
+ private:
+  static constexpr size_t kLongest = 16;
+
+  std::array<uint32_t, kLongest + 1> counts_{};  // of the codes of each length
+  std::vector<uint16_t> symbols_;                // in the order of their codes
+};
+
+// A code in the stream: the lengths of its codes, in a prefix code. KTX 2.0, "Compressed Huffman Tables".
+PrefixCode read_prefix_code(BitReader& bits);
+
+}  // namespace ods
