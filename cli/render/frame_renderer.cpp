@@ -14,6 +14,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/camera_options.h"
+#include "cli/options/eye_options.h"
 #include "cli/options/picture_options.h"
 #include "cli/render/finish_picture.h"
 #include "ods/kernel/random.h"
@@ -214,15 +215,7 @@ ods::Image FrameRenderer::find_merge(const std::vector<Frame>& frames) {
     ods::take_least(shares, ods::shares_seen(*renderer_, cameras[cameras.size() / 2], *job_.camera.merge_limit));
   }
   ods::Image map = ods::merge_map_of(std::move(shares));
-  const auto full = [&](int from, int step) {
-    int row = from;
-    while (row > 0 && row + 1 < map.height && map.at(0, row)[0] == 1.0f) row += step;
-    return std::abs(90 - row);
-  };
-  note(fmt::format(
-      "merge by depth: full stereo up to {} degrees up and {} down, {:.0f} % straight up, {:.0f} % straight "
-      "down",
-      full(89, -1), full(90, 1), 100.0f * map.at(0, 0)[0], 100.0f * map.at(0, map.height - 1)[0]));
+  note(merge_by_depth_text(map));
   return map;
 }
 
