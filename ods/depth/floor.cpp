@@ -126,7 +126,8 @@ bool looks_inverted(const Image& nearness, const Camera& camera, int eye) {
       (lower.nearness < upper.nearness ? behind : ahead)++;
     }
   }
-  return below < 0.9f * level && (above < 0.0f || above > below) && behind > 2 * ahead;
+  const bool has_far_sky = above >= 0.0f && above < 0.5f * std::min(below, level);
+  return below < 0.9f * level && !has_far_sky && behind > 2 * ahead;
 }
 
 }  // namespace ods

@@ -15,9 +15,9 @@ namespace ods {
 // it. nearness: 1 / unit, 1 channel; eye: as in camera_ray().
 std::optional<double> floor_below(const Image& nearness, const Camera& camera, int eye);
 
-// Whether depth is probably near where it says far. Two signs must agree: what is straight below is farther away than
-// the horizon, and above or below it; and at edges of depth the lower side is mostly the farther one, while things
-// stand in front of what is above them.
+// Whether depth is probably near where it says far. All signs must agree: what is below is farther away than what is
+// level, what is above is no sky farther than both, and at edges of depth the lower side is mostly the farther one,
+// while things that stand on a floor are in front of what shows above them.
 bool looks_inverted(const Image& nearness, const Camera& camera, int eye);
 
 }  // namespace ods

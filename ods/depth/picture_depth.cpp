@@ -187,6 +187,12 @@ static void look_at_whole(const Image& nearness, const StoredPicture& picture, c
                   double{*options.eye_height} / report.scale, report.scale, *options.eye_height));
 }
 
+// Half of the width of the widest soft edges: those of a map that is smaller than its picture, or blurred by a 200th of
+// the picture's width. Where a picture is too small for that, everything would be an edge.
+static int ramp_of(Extent size, float ratio) {
+  return std::max({static_cast<int>(std::ceil(1.5f * ratio - 1.5f)), size.width / 400, std::min(4, size.width / 128)});
+}
+
 static Nearness along_rays(const DepthNumbers& depth, const StoredPicture& picture, const DepthOptions& options) {
   check_shape(depth, picture.size);
   DepthFormat format = options.format;
@@ -216,8 +222,8 @@ DepthReport add_depth(StoredPicture& picture, const std::vector<DepthNumbers>& d
     if (i == 0) look_at_whole(nearness.values, picture, depth[0], options, report);
     const float ratio = static_cast<float>(picture.size.width) / static_cast<float>(nearness.values.width);
     Image fitted = resized(nearness.values, picture.size, wraps, !sharpens || ratio < 1.0f);
-    if (sharpens) {
-      const int radius = std::max({4, static_cast<int>(std::ceil(1.5f * ratio)), picture.size.width / 400});
+    const int radius = ramp_of(picture.size, ratio);
+    if (sharpens && radius > 0) {
       sharpened += sharpen_edges(fitted, guide_of(picture, i), radius, wraps);
     }
     all += static_cast<int64_t>(fitted.pixels.size());

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 namespace ods {
 
@@ -15,8 +16,9 @@ namespace {
 
 constexpr float kStep = 0.15f;        // of the nearer side: what lies between it and the farther one is no edge
 constexpr float kOwn = 0.12f;         // of the step: so near to a side, a pixel belongs to it
-constexpr float kSteep = 0.015f;      // of the step: from a pixel of a ramp to the next
-constexpr float kStraight = 1.4f;     // a slope goes on beyond the window; a ramp ends in it
+constexpr float kFlat = 0.12f;        // of a ramp's largest rise from pixel to pixel: less than that, and it has ended
+constexpr float kJump = 0.6f;         // of the step: a larger rise is an edge that is sharp already
+constexpr float kLoneJump = 0.75f;    // the same where one pixel is between the sides
 constexpr float kUndecided = 400.0f;  // of the squared distance of colours (0..255): where the ramp's middle decides
 constexpr int kLooks = 4;             // pixels that are looked at, from a pixel to the window's edge
 
@@ -69,18 +71,24 @@ class Sharpener {
   Sharpener(const Image& old, const GuideImage& guide, int radius, bool wraps)
       : old_(old), guide_(guide), radius_(radius), wraps_(wraps) {}
 
-  // Between a step's sides, and changing steadily: its neighbours to both sides differ by a part of the step.
-  bool is_on_ramp(int x, int y, const Span& span) const {
-    const float own = value(x, y), step = span.step();
-    if (own < span.low + kSteep * step || own > span.high - kSteep * step) return false;
-    const auto climbs = [&](float before, float after) {
-      const float first = own - before, second = after - own;
-      return first * second > 0.0f && std::min(std::abs(first), std::abs(second)) > kSteep * step;
-    };
-    return climbs(value(x - 1, y), value(x + 1, y)) || climbs(value(x, y - 1), value(x, y + 1));
+  // The sides of the ramp on which a pixel is: it rises steadily to both, and ends at both. Floors and walls that run
+  // into the distance do not end.
+  std::optional<Span> ramp_at(int x, int y) const {
+    const float across = value(x + 1, y) - value(x - 1, y), down = value(x, y + 1) - value(x, y - 1);
+    const bool is_across = std::abs(across) >= std::abs(down);
+    const int sign = (is_across ? across : down) < 0.0f ? -1 : 1, dx = is_across ? sign : 0, dy = is_across ? 0 : sign;
+    const float own = value(x, y), above = value(x + dx, y + dy) - own, below = own - value(x - dx, y - dy);
+    Climb climb{std::max(above, below), 0};
+    if (!(std::min(above, below) > kFlat * climb.largest)) return std::nullopt;
+    Span span;
+    if (!end_of(x, y, dx, dy, climb, span.high) || !end_of(x, y, -dx, -dy, climb, span.low)) return std::nullopt;
+    const float step = span.step();
+    const float jump = climb.count > 2 ? kJump : kLoneJump;
+    if (step < kStep * span.high || climb.largest > jump * step) return std::nullopt;
+    return span;
   }
 
-  // The side of the step to which a pixel belongs.
+  // The side of a ramp to which a pixel belongs.
   float side_of(int x, int y, const Span& span) const {
     Side near, far;
     const int hop = std::max(radius_ / kLooks, 1), reach = kLooks * hop;
@@ -88,22 +96,21 @@ class Sharpener {
       for (int i = -reach; i <= reach; i += hop) {
         const float there = value(x + i, y + j);
         const float weight = 1.0f / static_cast<float>(i * i + j * j + hop * hop);
-        if (there > span.high - kOwn * span.step()) near.add(weight, there, color(x + i, y + j));
-        if (there < span.low + kOwn * span.step()) far.add(weight, there, color(x + i, y + j));
+        if (std::abs(there - span.high) < kOwn * span.step()) near.add(weight, color(x + i, y + j));
+        if (std::abs(there - span.low) < kOwn * span.step()) far.add(weight, color(x + i, y + j));
       }
     }
-    const float own = value(x, y);
-    if (near.weight == 0.0f || far.weight == 0.0f) return own;
-    const float share = (own - span.low) / span.step() - 0.5f;
+    const float share = (value(x, y) - span.low) / span.step() - 0.5f;
+    if (near.weight == 0.0f || far.weight == 0.0f) return share > 0.0f ? span.high : span.low;
     const float sooner = far.distance(color(x, y)) - near.distance(color(x, y)) + 2.0f * share * kUndecided;
-    return sooner > 0.0f ? near.depth / near.weight : far.depth / far.weight;
+    return sooner > 0.0f ? span.high : span.low;
   }
 
  private:
   struct Side {
-    float weight = 0.0f, depth = 0.0f, color[3] = {};
-    void add(float share, float value, const uint8_t* rgb) {
-      weight += share, depth += share * value;
+    float weight = 0.0f, color[3] = {};
+    void add(float share, const uint8_t* rgb) {
+      weight += share;
       for (int c = 0; c < 3; c++) color[c] += share * static_cast<float>(rgb[c]);
     }
     float distance(const uint8_t* rgb) const {
@@ -115,6 +122,24 @@ class Sharpener {
       return sum;
     }
   };
+
+  struct Climb {
+    float largest;  // rise from pixel to pixel
+    int count;      // of rises
+  };
+
+  // Goes on while the ramp does. False: it goes on too far.
+  bool end_of(int x, int y, int dx, int dy, Climb& climb, float& end) const {
+    const float sign = value(x + dx, y + dy) < value(x, y) ? -1.0f : 1.0f;
+    end = value(x, y);
+    for (int i = 1; i <= 2 * radius_; i++) {
+      const float next = value(x + i * dx, y + i * dy), rise = sign * (next - end);
+      if (rise < kFlat * climb.largest) return true;
+      climb.largest = std::max(climb.largest, rise), climb.count++;
+      end = next;
+    }
+    return false;
+  }
 
   int column(int x) const { return wraps_ ? (x + old_.width) % old_.width : std::clamp(x, 0, old_.width - 1); }
   int row(int y) const { return std::clamp(y, 0, old_.height - 1); }
@@ -137,13 +162,14 @@ int64_t sharpen_edges(Image& nearness, const GuideImage& guide, int radius, bool
   std::atomic<int64_t> changed = 0;
   tbb::parallel_for(0, old.height, [&](int y) {
     int64_t count = 0;
-    Span close, wide;
+    Span around;
     for (int x = 0; x < old.width; x++) {
-      if (x % radius == 0) close = tiles.around(x, y, 1), wide = tiles.around(x, y, 2);
-      if (close.step() < kStep * close.high || wide.step() > kStraight * close.step()) continue;
-      if (!sharpener.is_on_ramp(x, y, close)) continue;
+      if (x % radius == 0) around = tiles.around(x, y, 1);
+      if (around.step() < kStep * around.high) continue;
+      const std::optional<Span> ramp = sharpener.ramp_at(x, y);
+      if (!ramp) continue;
       float& value = *nearness.at(x, y);
-      const float side = sharpener.side_of(x, y, close);
+      const float side = sharpener.side_of(x, y, *ramp);
       count += side != value;
       value = side;
     }
