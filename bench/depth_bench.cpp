@@ -7,7 +7,8 @@
 // picture by a third of a pixel, which only resamples. CPU seconds, so that other work on the machine does not count.
 //
 // Quality: the albedo of what is seen first, which has no noise, of scenes rendered from the middle and from both eyes.
-// Depth is exact, of 8 bits by 1 / metres, or of 8 bits and blurred over 9 pixels. PSNR of display-encoded colours, for
+// Depth is exact, of 8 bits by 1 / metres, or of 8 bits and blurred over 9 pixels, whose edges are sharpened or used as
+// they are. PSNR of display-encoded colours, for
 // what the middle sees, too, and for what it does not.
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
@@ -91,7 +92,7 @@ void speed(benchmark::State& state) {
 
 // --- quality ---------------------------------------------------------------------------------------------------------
 
-enum class DepthCase { kExact, kCodes, kBlurred };
+enum class DepthCase { kExact, kCodes, kBlurred, kBlurredAsIs };
 
 struct Views {
   MadePicture middle;  // with exact depth
@@ -136,7 +137,7 @@ void spoil(MadePicture& made, DepthCase how) {
   for (int i = 0; i < 1024 * 512; i++) {
     depth.numbers.pixels[static_cast<size_t>(i)] = nearest / depth_of(made.picture, i % 1024, i / 1024);
   }
-  const int reach = how == DepthCase::kBlurred ? 4 : 0;
+  const int reach = how == DepthCase::kCodes ? 0 : 4;
   for (const int down : {0, 1}) {
     const Image from = depth.numbers;
     for (int i = 0; i < 1024 * 512; i++) {
@@ -151,6 +152,7 @@ void spoil(MadePicture& made, DepthCase how) {
   for (float& value : depth.numbers.pixels) value = std::round(255.0f * value) / 255.0f;
   DepthOptions options;
   options.format.kind = DepthKind::kDisparity, options.format.nearest = nearest;
+  if (how == DepthCase::kBlurredAsIs) options.edges = DepthEdges::kSoft;
   add_depth(made.picture, {depth}, options);
 }
 
@@ -206,8 +208,10 @@ void quality(benchmark::State& state, const std::string& scene, DepthCase how) {
 
 int main(int argc, char** argv) {
   benchmark::RegisterBenchmark("speed", speed)->Iterations(1)->Unit(benchmark::kSecond);
-  const std::pair<const char*, DepthCase> kCases[] = {
-      {"exact", DepthCase::kExact}, {"8_bits", DepthCase::kCodes}, {"8_bits_blurred", DepthCase::kBlurred}};
+  const std::pair<const char*, DepthCase> kCases[] = {{"exact", DepthCase::kExact},
+                                                      {"8_bits", DepthCase::kCodes},
+                                                      {"8_bits_blurred", DepthCase::kBlurred},
+                                                      {"8_bits_blurred_as_is", DepthCase::kBlurredAsIs}};
   for (const std::string scene : {"room", "toys", SHARED_SCENES "/atrium.glb"}) {
     for (const auto& [name, how] : kCases) {
       const std::string shown = std::filesystem::path(scene).stem().native();

@@ -232,10 +232,17 @@ March march_along(const Reprojection& reprojection, const Curve& curve) {
   return march;
 }
 
+// Straight above and below, where eyes on a circle do not look: what is seen in that direction.
+SurfaceHit fill_blind(const Reprojection& reprojection, const Curve& curve) {
+  if (!curve.at_far.place.seen) return {};
+  const float nearness = nearness_of(reprojection, curve.at_far.place);
+  return {curve.at_far.place, nearness > kMinInverseDepth ? 1.0f / nearness : kFarDepth, true};
+}
+
 // What a thing hides, as if the surface beside it went on, mirrored at the edge.
 SurfaceHit fill_behind(const Reprojection& reprojection, const Curve& curve, const March& march) {
   constexpr float kClear = 1.5f;  // texels from the edge, whose own colours are mixed
-  if (!march.edge) return {};
+  if (!march.edge) return fill_blind(reprojection, curve);
   const Extent size = reprojection.source->picture->size;
   const vec2 whole(static_cast<float>(size.width), static_cast<float>(size.height));
   const float depth = march.hidden > kMinInverseDepth ? 1.0f / march.hidden : kFarDepth;

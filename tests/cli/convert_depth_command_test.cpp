@@ -62,9 +62,10 @@ TEST_F(ConvertDepth, MergesByDepth) {
     EXPECT_EQ(made.camera.merge_map->pixels[made.camera.merge_map->pixels.size() / 2], 1.0f);
   }
   // A stereo picture that exists.
-  run_well("render room -q --width 64 --samples 1 --merge none --ipd 0.6 -o @stereo.exr");
+  run_well("render room -q --width 64 --samples 1 --merge none --ipd 0.2 -o @stereo.exr");
   run_well("convert @stereo.exr --merge auto -o @calm.exr");
   EXPECT_NE(err.find("filled from what is beside it"), std::string::npos) << err;
+  EXPECT_EQ(err.find("empty: "), std::string::npos) << err;
   EXPECT_EQ(run(in_folder("convert @panorama.png --merge auto -o @no.png")), 0) << err;
   EXPECT_NE(err.find("change nothing of one eye"), std::string::npos) << err;
   EXPECT_EQ(run(in_folder("convert @panorama.png --eyes both --merge auto -o @no.png")), 2);
