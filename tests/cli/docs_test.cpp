@@ -315,7 +315,10 @@ class Pages : public ::testing::Test {
     if (has(name, "_LR")) words += " --projection vr180";
     if (has(name, "noisy")) words += " --statistics --samples 2";
     if (has(name, "other")) return provide_halves(name);
-    if (has(name, "panorama") || has(name, "left.") || has(name, "sky")) words += " --eyes mono";
+    static const std::set<std::string> kMono = {"panorama", "left.", "sky", "depth."};
+    if (std::any_of(kMono.begin(), kMono.end(), [&](const auto& each) { return has(name, each); })) {
+      words += " --eyes mono";
+    }
     if (has(name, "#") || has(name, "%0")) words += " --frames 1-4";
     const bool of_lenses = has(name, "camera.");  // large enough to be recognised
     if (of_lenses) words += " --projection fisheye --layout side-by-side";
