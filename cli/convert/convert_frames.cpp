@@ -23,9 +23,10 @@ namespace {
 struct Work {
   size_t index = 0;
   std::optional<StoredPicture> picture;
+  ods::DepthFootage::Give give;  // its depth; may be none
   ods::ViewAngles turned{0.0f, 0.0f, 0.0f};
   std::vector<std::string> files;
-  double empty = 0.0;  // share of the pixels
+  double empty = 0.0, filled = 0.0;  // shares of the pixels
 };
 
 class Frames {
@@ -39,10 +40,16 @@ class Frames {
 
   bool take(Work& work) {
     work.index = next_;
-    if (job_.kind == FootageKind::kFrames) return next_++ < job_.files.frames.size();
+    if (job_.kind == FootageKind::kFrames) {
+      if (next_ == job_.files.frames.size()) return false;
+      if (job_.depth_frames) work.give = job_.depth_frames->next(job_.files.frames[next_]);
+      next_++;
+      return true;
+    }
     const std::optional<ods::DecodedFrame> frame = job_.footage->next();
     if (!frame) return false;
     work.picture = picture_of(job_.footage->video(), job_.footage->stream(), *frame);
+    if (job_.depth_frames) work.give = job_.depth_frames->next({});
     if (!job_.turns.empty()) work.turned = turned_at(job_.turns, job_.footage->seconds_of(*frame));
     next_++;
     return true;
@@ -53,13 +60,18 @@ class Frames {
     target.turned = work.turned;
     if (!work.picture) {
       work.picture = open_frame(job_.files, work.index, job_.picture);
-      refuse_impossible(job_, *work.picture);
     }
+    if (work.give) {
+      const ods::DepthReport report = work.give(*work.picture);
+      if (work.index == 0) say_of_depth(report);
+    }
+    if (job_.kind == FootageKind::kFrames) refuse_impossible(job_, *work.picture);
     ods::Conversion conversion = ods::convert(*work.picture, target);
     const ods::PictureRows& rows = conversion.rows;
     work.files = save_picture(rows, &target.camera, job_.save, output_of(work.index));
     const double pixels = 1.0 * rows.eye.width * rows.eye.height * static_cast<double>(rows.eyes.size());
     work.empty = static_cast<double>(*conversion.empty) / pixels;
+    work.filled = static_cast<double>(*conversion.filled) / pixels;
     work.picture.reset();
   }
 
@@ -89,14 +101,16 @@ void convert_to_frames(ConvertJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
   const bool from_video = job.kind == FootageKind::kVideo;
   if (from_video) refuse_other_colors(job.footage->stream(), job.input);
+  open_depth(job);
+  find_merge(job);
   Frames frames(job);
   note_guesses(job.input, job.picture);
   const size_t expected = from_video ? static_cast<size_t>(job.footage->expected_count()) : job.files.frames.size();
   size_t done = 0;
-  double empty = 0.0;
+  double empty = 0.0, filled = 0.0;
   const auto report = [&](const Work& work) {
     for (const std::string& file : work.files) announce_file(file);
-    empty += work.empty;
+    empty += work.empty, filled += work.filled;
     done++;
     const size_t all = std::max(expected, done);
     lines.report(static_cast<double>(done) / static_cast<double>(all), seconds_since(start),
@@ -108,5 +122,6 @@ void convert_to_frames(ConvertJob& job, ProgressLines& lines) {
   lines.clear();
   if (done == 0 && from_video) throw UsageError(fmt::format("there is no picture in that part of '{}'", job.input));
   say_what_is_missing(empty / static_cast<double>(std::max<size_t>(done, 1)), false);
+  say_what_is_filled(filled / static_cast<double>(std::max<size_t>(done, 1)));
   note(fmt::format("{}: {} frames, in {}", job.output, done, duration_text(seconds_since(start))));
 }

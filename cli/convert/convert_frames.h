@@ -13,3 +13,5 @@ void convert_to_video(ConvertJob& job, ProgressLines& lines);
 
 // Says how much of the pictures is empty: `share`, 0..1.
 void say_what_is_missing(double share, bool sees_around);
+// Says how much shows what was hidden.
+void say_what_is_filled(double share);

@@ -12,6 +12,7 @@
 #include "cli/options/picture_options.h"
 #include "cli/options/projection_options.h"
 #include "cli/options/time_options.h"
+#include "ods/comfort/merge_from_depth.h"
 #include "ods/files/atomic_file.h"
 #include "ods/identify/identify.h"
 #include "ods/picture/metadata/sidecar.h"
@@ -25,13 +26,16 @@ constexpr const char* kExamples =
     "  ods convert picture_TB.jpg -o headset.jpg --to vr180 --width 4096\n"
     "  ods convert picture.exr -o window.png --mono --to perspective --fov 70 --yaw 30 --pitch -10\n"
     "  ods convert picture.exr -o closer.exr --ipd 0.055 --merge cosine,60,90\n"
+    "  ods convert panorama.jpg --depth depth.npy --depth-kind inverse --near 0.7 --far 30 -o stereo_360_TB.png\n"
     "  ods convert video_360_TB.mp4 -o headset_180_LR.mp4 --to vr180 --trim 0:10-0:20\n"
     "  ods convert 'shot_360_TB.####.png' -o 'cubes.####.png' --to cube-3x2";
 
 constexpr const char* kSummary =
     "Converts a stereo 360 picture, frames or a video to another projection, layout, size or convergence, or to\n"
-    "single eyes. Pictures with depth (.exr of ods render) can also get another eye distance or pole merge. What is\n"
-    "not given stays as it is; a video keeps its codec, times, sound, colours and metadata.";
+    "single eyes. Pictures with depth (.exr of ods render, or --depth) can also get another eye distance or pole "
+    "merge,\n"
+    "or two eyes from one. What is not given stays as it is; a video keeps its codec, times, sound, colours and "
+    "metadata.";
 
 // What the command line asks for.
 struct Wishes {
@@ -73,6 +77,10 @@ void open_header(const std::string& path, ConvertJob& job, Wishes& wishes) {
       break;
   }
   wishes.camera.stereo = job.picture.camera;
+  if (job.depth.path.empty()) return;
+  ods::promise_depth(job.picture);
+  const bool is_mono = job.picture.eyes.size() == 1, has_merge = job.picture.has_ipd;
+  if (is_mono && !has_merge) wishes.camera.stereo.top = wishes.camera.stereo.bottom = ods::kUsualMerge;
 }
 
 // "0:10-0:20", "10-", "-20.5".
@@ -109,6 +117,7 @@ void add_input_options(Options& options, ConvertJob& job, Wishes& wishes) {
   options.custom(
       "--frames", "RANGE", "", [&](const std::string& text) { wishes.frames = ods::parse_frames(text); },
       "frames to convert, if the input is frames: 1-100, 1-100x2 or 1,5,10-20; by default all");
+  add_depth_options(options, job.depth);
   options.argument(
       ValueKind::input_file("IN"), [&](const std::string& path) { open_header(path, job, wishes); },
       "a picture (.png .jpg .tif .webp .hdr .exr .heic .avif), frames (#### in the name is the number) or a video "
@@ -145,6 +154,7 @@ void add_camera(Options& options, CameraOptions& camera) {
   add_field_option(options, "--yaw", camera.yaw, CameraField::kYaw, "turn to the right, degrees");
   add_field_option(options, "--pitch", camera.pitch, CameraField::kPitch, "tilt up, degrees; mono pictures only");
   add_field_option(options, "--roll", camera.roll, CameraField::kRoll, "roll clockwise, degrees; mono pictures only");
+  camera.may_follow_depth = true;
   add_circle_options(options, camera);
 }
 
@@ -171,15 +181,26 @@ void note_unmoved(const ConvertJob& job, StereoCamera wished) {
     note("--ipd, --merge, --head-tilt-map and --eye-to-neck have no effect on one eye");
 }
 
+// Some merge, by which it is judged before the depth is there whether the conversion is possible.
+void promise_merge(StereoCamera& camera) {
+  auto half = std::make_shared<ods::Image>(1, 1, 1);
+  half->pixels[0] = 0.5f;
+  camera.merge_map = half;
+  camera.top.mode = camera.bottom.mode = ods::kMergeMap;
+}
+
 std::vector<int> wished_eyes(const ConvertJob& job, const Wishes& wishes, bool given) {
   if (wishes.mono || wishes.size.eyes == Eyes::kMonoEye) return {ods::kMono};
   if (given) return ods::eye_list(wishes.size.eyes);
-  return same_format(job.picture).eyes;
+  const bool makes_two = !job.depth.path.empty() && job.picture.eyes.size() == 1;
+  return makes_two ? std::vector<int>{ods::kLeft, ods::kRight} : same_format(job.picture).eyes;
 }
 
 void set_target(const Options& options, Wishes& wishes, ConvertJob& job) {
   finish_eye_options(wishes.camera);
   StereoCamera& stereo = job.target.camera = wishes.camera.stereo;
+  job.merge_limit = wishes.camera.merge_limit;
+  if (job.merge_limit) promise_merge(stereo);
   const CameraOptions& by = wishes.camera;
   turn(stereo, by.yaw.value_or(0.0f), by.pitch.value_or(0.0f), by.roll.value_or(0.0f));
   job.target.eyes = wished_eyes(job, wishes, options.given("--eyes") || options.given("--size"));
@@ -237,10 +258,13 @@ bool read_convert_job(ConvertJob& job, int argc, char** argv) {
   Options options("convert", kSummary, kExamples);
   Wishes wishes;
   wishes.size.width = 0;
+  job.target.holes = ods::Holes::kFilled;
   Layout layout_of_size = Layout::kTopBottom;
   add_input_options(options, job, wishes);
   add_output_options(options, job, wishes, layout_of_size);
   add_camera(options, wishes.camera);
+  options.choice("--holes", job.target.holes, ods::kHolesTable,
+                 "where eyes that are moved see what none of the picture does: filled from what is behind, or empty");
   add_video(options, job);
   add_right_eye_options(options, job.target.right);
   options.group("Console");
@@ -257,6 +281,7 @@ bool read_convert_job(ConvertJob& job, int argc, char** argv) {
     job.has_packing = job.has_packing || options.given(name);
   }
   check_kinds(options, job);
+  check_depth_options(options, job.depth);
   check_share(job.share, job.input, job.output);
   job.files.frames = own_frames(job.share.only, job.files.frames);  // the first frame of all says what they are
   refuse_overwriting(job.output, job.input);
@@ -271,5 +296,36 @@ void open_input(ConvertJob& job) {
   job.picture = job.reader->read(ods::existing_folder_of(job.output));
   job.reader.reset();  // it may hold a decoder's memory
   note_guesses(job.input, job.picture);
+  if (!job.depth.path.empty()) give_depth(job.depth, job.picture);
   refuse_impossible(job, job.picture);
+  StereoCamera& camera = job.target.camera;
+  if (job.merge_limit) use_shares(shares_of_depth(job.picture, *job.merge_limit, camera), camera);
+}
+
+void open_depth(ConvertJob& job) {
+  if (job.depth.path.empty()) return;
+  job.depth_frames.emplace(job.depth.path, job.picture, job.depth.options, job.trim);
+}
+
+void find_merge(ConvertJob& job) {
+  constexpr size_t kLooks = 16;  // as many as of a scene's video
+  if (!job.merge_limit) return;
+  if (job.kind == FootageKind::kVideo) {
+    throw UsageError("--merge auto is for pictures and frames: of a video it would have to be decoded twice");
+  }
+  const size_t count = job.files.frames.size(), looks = std::min(count, kLooks);
+  std::optional<ods::DepthFootage> depth;
+  if (!job.depth.path.empty()) depth.emplace(job.depth.path, job.picture, job.depth.options);
+  std::vector<float> shares(ods::kMergeRows, 1.0f);
+  for (size_t i = 0, look = 0; i < count; i++) {
+    ods::DepthFootage::Give give;
+    if (depth) give = depth->next(job.files.frames[i]);
+    if (look >= looks || i != look * (count - 1) / std::max<size_t>(looks - 1, 1)) continue;
+    look++;
+    ods::StoredPicture picture = ods::open_frame(job.files, i, job.picture);
+    if (give) give(picture);
+    refuse_impossible(job, picture);
+    ods::take_least(shares, shares_of_depth(picture, *job.merge_limit, job.target.camera));
+  }
+  use_shares(std::move(shares), job.target.camera);
 }

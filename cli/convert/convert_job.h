@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/console/progress.h"
+#include "cli/convert/depth_input.h"
 #include "cli/options/camera_options.h"
 #include "cli/options/share_options.h"
 #include "cli/options/video_options.h"
@@ -20,12 +21,15 @@ struct ConvertJob {
   std::string input;
   std::string output;
   ods::FormatHint known;  // of the input
+  DepthInput depth;
+  std::optional<ods::DepthFootage> depth_frames;  // of frames and videos, after open_depth()
   ods::FootageKind kind = ods::FootageKind::kPicture;
   ods::FrameFiles files;                     // of frames
   std::optional<ods::Footage> footage;       // of a video
   std::optional<ods::PictureReader> reader;  // of a picture, until open_input()
   ods::StoredPicture picture;                // only its header until open_input(); of a video or of the first frame
   ods::ConvertTarget target;
+  std::optional<float> merge_limit;  // --merge auto: the target's merge is found when the depth is there
   ods::SaveOptions save;
   bool has_exposure = false, has_tone = false, has_layout = false;
 
@@ -46,6 +50,12 @@ bool read_convert_job(ConvertJob& job, int argc, char** argv);
 
 // Reads the input's pixels, if it is one picture. Throws UsageError and ods::Error.
 void open_input(ConvertJob& job);
+
+// Opens the depth of frames and videos, if they have any beside them. Throws ods::Error.
+void open_depth(ConvertJob& job);
+
+// The merge of --merge auto, of frames. Throws UsageError and ods::Error.
+void find_merge(ConvertJob& job);
 
 // Asked of the header, so that nobody waits for pixels in vain, and of the pixels: reading them may leave out a layer
 // of depth that the header promised. Throws UsageError.

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "ods/base/text.h"
+#include "ods/files/frames.h"
 #include "ods/files/read_file.h"
 #include "ods/picture/metadata/sidecar.h"
 
@@ -28,6 +29,9 @@ ods::Settings resume_settings(const ConvertJob& job) {
   std::set<std::string> files(job.arguments.begin(), job.arguments.end());
   for (size_t i = 0; i < job.files.frames.size(); i++) {
     for (const int eye : {ods::kLeft, ods::kRight}) files.insert(ods::path_for_eye(job.files.path(i), eye));
+  }
+  if (const auto depth = ods::frame_names(job.depth.path)) {
+    for (const int frame : ods::frames_on_disk(*depth)) files.insert(depth->path(frame));
   }
   for (const std::string& file : files) {
     if (file == job.output) continue;

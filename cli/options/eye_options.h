@@ -11,5 +11,8 @@ void add_camera_preset_option(Options& options, CameraOptions& camera);
 void add_circle_options(Options& options, CameraOptions& camera);
 void add_eye_options(Options& options, CameraOptions& camera);
 
+// What a merge that follows from depth allows, for a note.
+std::string merge_by_depth_text(const ods::Image& merge_map);
+
 // Reads the pictures that --merge-map and --head-tilt-map name. Throws UsageError and ods::Error.
 void finish_eye_options(CameraOptions& camera);

@@ -4,9 +4,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "cli/console/console.h"
+#include "cli/options/eye_options.h"
 #include "cli/options/picture_options.h"
 #include "ods/comfort/merge_from_depth.h"
 #include "ods/scene/builtin/builtin.h"
@@ -102,14 +101,6 @@ Exposures choose_exposure(const RenderJob& job, const ods::Scene& scene, ods::Fr
 void settle_merge(RenderJob& job, ods::FrameRenderer& renderer, const std::vector<ods::SequenceFrame>& all) {
   if (!job.camera.merge_limit) return;
   ods::Image map = ods::comfortable_merge(renderer, all, *job.camera.merge_limit);
-  const auto full = [&](int from, int step) {
-    int row = from;
-    while (row > 0 && row + 1 < map.height && map.at(0, row)[0] == 1.0f) row += step;
-    return std::abs(90 - row);
-  };
-  note(fmt::format(
-      "merge by depth: full stereo up to {} degrees up and {} down, {:.0f} % straight up, {:.0f} % straight "
-      "down",
-      full(89, -1), full(90, 1), 100.0f * map.at(0, 0)[0], 100.0f * map.at(0, map.height - 1)[0]));
+  note(merge_by_depth_text(map));
   ods::use_merge_map(job.camera.stereo, std::move(map));
 }

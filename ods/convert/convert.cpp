@@ -59,8 +59,12 @@ std::string conversion_fault(const StoredPicture& picture, const ConvertTarget& 
            "lines of sight that nobody has seen; a mono one can be tilted";
   }
   if (!sees_around(picture, target) || depth_layer(picture)) return correction_fault(picture, target);
-  if (from_mono) return "the picture is of one eye in the middle, and has no depth from which two could be made";
-  return "eyes at other places see around things otherwise, which needs depth: render to .exr, which keeps it";
+  if (from_mono)
+    return "the picture is of one eye in the middle, and has no depth from which two could be made: give it by --depth "
+           "FILE";
+  return "eyes at other places see around things otherwise, which needs depth: render to .exr, which keeps it, or give "
+         "it by "
+         "--depth FILE";
 }
 
 bool is_same_picture(const StoredPicture& picture, const ConvertTarget& target) {
@@ -105,6 +109,10 @@ static bool sees_more(const Mapping& mapping) {
   return false;
 }
 
+static bool is_whole(const ProjectionSetting& projection) {
+  return is_full_lat_long(projection) || is_cube(projection.kind);
+}
+
 Conversion convert(const StoredPicture& picture, const ConvertTarget& target) {
   assert(conversion_fault(picture, target).empty());
   Conversion conversion;
@@ -114,18 +122,21 @@ Conversion convert(const StoredPicture& picture, const ConvertTarget& target) {
   std::vector<std::string>& colour = conversion.rows.layers[0].channels;
   conversion.sees_around = sees_around(picture, target);
   const auto plan = std::make_shared<const ConversionPlan>(make_plan(picture, target));
-  const bool adds_alpha =
-      colour.back() != "A" && !plan->is_same && (conversion.sees_around || sees_more(plan->mapping));
+  const bool has_holes =
+      conversion.sees_around && (target.holes == Holes::kEmpty || !is_whole(picture.camera.projection));
+  const bool adds_alpha = colour.back() != "A" && !plan->is_same && (has_holes || sees_more(plan->mapping));
   if (adds_alpha) colour.push_back("A");
   const auto converter =
-      std::make_shared<const Converter>(*plan, plan->mapping.source, conversion.sees_around, adds_alpha);
+      std::make_shared<const Converter>(*plan, plan->mapping.source, conversion.sees_around, adds_alpha, target.holes);
   conversion.no_depth = converter->no_depth();
   std::vector<bool> corrected;
   for (int i = 0; i < static_cast<int>(target.eyes.size()); i++)
     corrected.push_back(corrects_colors(picture, target, i));
   conversion.rows.fill = [plan, converter, corrected, right = target.right, empty = conversion.empty,
+                          filled = conversion.filled,
                           channels = count_channels(conversion.rows.layers)](int index, int y, std::span<float> row) {
-    *empty += converter->fill(index, y, row);
+    const RowHoles holes = converter->fill(index, y, row);
+    *empty += holes.empty, *filled += holes.filled;
     if (corrected[static_cast<size_t>(index)]) correct_colors(right, channels, row);
   };
   if (picture.memory) conversion.rows.band_done = [memory = picture.memory] { memory->release(); };

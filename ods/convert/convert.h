@@ -17,11 +17,19 @@
 #include <string>
 #include <vector>
 
+#include "ods/base/names.h"
 #include "ods/camera/eye_correction.h"
 #include "ods/picture/save.h"
 #include "ods/picture/stored_picture.h"
 
 namespace ods {
+
+// What becomes of pixels that show what no eye of the picture sees, where eyes are moved.
+enum class Holes { kEmpty, kFilled };
+inline constexpr NameRow<Holes> kHolesTable[] = {
+    {Holes::kEmpty, "empty"}, {Holes::kFilled, "filled"},  // from what is behind, never from what is before it
+};
+static_assert(has_every_member(kHolesTable));
 
 struct ConvertTarget {
   StereoCamera camera;
@@ -29,6 +37,7 @@ struct ConvertTarget {
   std::vector<int> eyes{kLeft, kRight};  // as in EyeImage
   int mono_from = kLeft;                 // the eye of a stereo picture from which a mono one is made
   EyeCorrection right{};                 // of the picture's right eye
+  Holes holes = Holes::kEmpty;
   // How the picture's camera was turned when the picture was taken, beyond what `camera` of the picture says: degrees,
   // in the camera's own frame. Each eye's picture is turned back as a whole, which is exact for what is far away.
   ViewAngles turned{0.0f, 0.0f, 0.0f};
@@ -51,6 +60,7 @@ struct Conversion {
   // Target pixels filled so far for which the picture has nothing. All their channels are 0, except depth,
   // which is kFarDepth.
   std::shared_ptr<std::atomic<int64_t>> empty = std::make_shared<std::atomic<int64_t>>(0);
+  std::shared_ptr<std::atomic<int64_t>> filled = std::make_shared<std::atomic<int64_t>>(0);  // Holes::kFilled
 };
 
 // Why a picture cannot be converted, in words for a message; empty: it can.

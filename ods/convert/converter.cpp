@@ -25,9 +25,16 @@ void remember_rows(ConversionPlan& plan) {
 
 // --- rows ------------------------------------------------------------------------------------------------------------
 
-Converter::Converter(const ConversionPlan& plan, const Source& source, bool moves_eyes, bool adds_alpha)
-    : plan_(plan), mapping_(plan.mapping), resampler_(source, adds_alpha), channels_(resampler_.channels()) {
-  if (moves_eyes) reprojection_ = make_reprojection(source);
+Converter::Converter(const ConversionPlan& plan, const Source& source, bool moves_eyes, bool adds_alpha, Holes holes)
+    : plan_(plan),
+      mapping_(plan.mapping),
+      resampler_(source, adds_alpha),
+      holes_(holes),
+      channels_(resampler_.channels()) {
+  if (moves_eyes) {
+    reprojection_ = make_reprojection(source);
+    warp_ = RowWarp::make(mapping_, *reprojection_);
+  }
   const StoredPicture& picture = *source.picture;
   if (const std::optional<size_t> layer = depth_layer(picture)) {
     depth_channel_ = adds_alpha ? 1 : 0;
@@ -174,14 +181,14 @@ void Converter::fill_band(int index, int y, int count, std::span<float> rows) co
 SurfaceHit Converter::meet(int index, vec2 home, vec2 uv) const {
   const Ray ray = mapping_.ray_of(index, home, uv);
   if (ray.direction == vec3(0.0f)) return {};
-  return meet_surface(*reprojection_, mapping_.from[static_cast<size_t>(index)], ray);
+  return meet_surface(*reprojection_, mapping_.from[static_cast<size_t>(index)], ray, holes_ == Holes::kFilled);
 }
 
 // The footprint is that of the line of sight alone: parallax changes it little, except at depth edges.
-bool Converter::fill_moved_pixel(const Row& row, int x) const {
+SurfaceHit Converter::fill_moved_pixel(const Row& row, int x) const {
   const vec2 home = mapping_.home_of(x, row.y), size = mapping_.uv_of(1.0f, 1.0f);
   const SurfaceHit met = meet(row.index, home, home);
-  if (!met.place.seen) return false;
+  if (!met.place.seen) return {};
   const Place unmoved = mapping_.find(row.index, home, home);
   std::vector<FilterPoint> points;
   filter_points(unmoved.seen ? find_footprint(mapping_, row.index, x, row.y, unmoved) : Footprint(), points);
@@ -193,25 +200,67 @@ bool Converter::fill_moved_pixel(const Row& row, int x) const {
     resampler_.add(there.place, mapping_.source_cell(there.place), point.weight, pixel);
     weight += point.weight;
   }
-  if (weight <= 0.0f) return false;
+  if (weight <= 0.0f) return {};
   for (int c = 0; c < channels_; c++) pixel[c] /= weight;
   resampler_.finish(met.place, pixel);
   pixel[depth_channel_] = met.depth;
-  return true;
+  return met;
 }
 
-int Converter::fill_moved(const Row& row) const {
-  int empty = 0;
-  for (int x = 0; x < mapping_.size.width; x++) {
-    if (mapping_.wants(x, row.y) && !fill_moved_pixel(row, x)) empty++;
+// Adjacent pixels, which one eye of the picture shows.
+void Converter::fill_hits(PixelRun& run, const Row& row, int x, std::span<const SurfaceHit> hits) const {
+  vec2 places[kMaxAlike];
+  for (size_t i = 0; i < hits.size(); i++) places[i] = hits[i].place.at;
+  const bool together = run.add(TexelTents(), {places, hits.size()}, pixel_of(row, x));
+  for (size_t i = 0; i < hits.size(); i++) {
+    float* pixel = pixel_of(row, x + static_cast<int>(i));
+    const Place& place = hits[i].place;
+    if (!together) resampler_.add(place, mapping_.source_cell(place), 1.0f, pixel);
+    resampler_.finish(place, pixel);
+    pixel[depth_channel_] = hits[i].depth;
   }
-  return empty;
 }
 
-int Converter::fill(int index, int y, std::span<float> row) const {
+RowHoles Converter::fill_warped(const Row& row, const std::vector<SurfaceHit>& hits) const {
+  const Extent size = mapping_.source.picture->size;
+  RowHoles holes;
+  for (size_t x = 0; x < hits.size();) {
+    const Place& first = hits[x].place;
+    if (!first.seen) {
+      holes.empty++, x++;
+      continue;
+    }
+    PixelRun run(resampler_, first.source_eye, {0, 0, size.width, size.height});
+    while (x < hits.size() && hits[x].place.seen && hits[x].place.source_eye == first.source_eye) {
+      size_t end = x;
+      while (end < std::min(hits.size(), x + kMaxAlike) && hits[end].place.seen &&
+             hits[end].place.source_eye == first.source_eye) {
+        holes.filled += hits[end++].is_filled;
+      }
+      fill_hits(run, row, static_cast<int>(x), {&hits[x], end - x});
+      x = end;
+    }
+    run.fill();
+  }
+  return holes;
+}
+
+RowHoles Converter::fill_moved(const Row& row) const {
+  thread_local std::vector<SurfaceHit> hits;
+  if (warp_ && warp_->warp(row.index, row.y, holes_ == Holes::kFilled, hits)) return fill_warped(row, hits);
+  RowHoles holes;
+  for (int x = 0; x < mapping_.size.width; x++) {
+    if (!mapping_.wants(x, row.y)) continue;
+    const SurfaceHit met = fill_moved_pixel(row, x);
+    holes.empty += !met.place.seen, holes.filled += met.is_filled;
+  }
+  return holes;
+}
+
+RowHoles Converter::fill(int index, int y, std::span<float> row) const {
   if (plan_.is_same) {
     resampler_.copy(mapping_.from[static_cast<size_t>(index)], y, row);
-    return 0;
+    return {};
   }
   std::fill(row.begin(), row.end(), 0.0f);
   const size_t first = static_cast<size_t>(depth_channel_), step = static_cast<size_t>(channels_);
@@ -220,11 +269,11 @@ int Converter::fill(int index, int y, std::span<float> row) const {
   if (plan_.rows.empty()) {
     const RowPlan plan = plan_row(mapping_, index, y);
     fill_planned({index, y, row}, plan);
-    return plan.empty;
+    return {plan.empty, 0};
   }
   const RowPlan& plan = plan_.rows[static_cast<size_t>(index * mapping_.size.height + y)];
   fill_planned({index, y, row}, plan);
-  return plan.empty;
+  return {plan.empty, 0};
 }
 
 }  // namespace ods

@@ -11,6 +11,7 @@
 #include "ods/convert/reproject.h"
 #include "ods/convert/resample.h"
 #include "ods/convert/row_plan.h"
+#include "ods/convert/row_warp.h"
 
 namespace ods {
 
@@ -28,10 +29,16 @@ ConversionPlan make_plan(const StoredPicture& format, const ConvertTarget& targe
 // seen at a slant.
 void remember_rows(ConversionPlan& plan);
 
+// Pixels that the picture has nothing for.
+struct RowHoles {
+  int empty = 0;
+  int filled = 0;  // from what is behind
+};
+
 class Converter {
  public:
   // moves_eyes: the target's eyes are in other places than the picture's. Both must outlive the converter.
-  Converter(const ConversionPlan& plan, const Source& source, bool moves_eyes, bool adds_alpha);
+  Converter(const ConversionPlan& plan, const Source& source, bool moves_eyes, bool adds_alpha, Holes holes);
   // Of a picture that is made when it is read; the plan's eyes do not move.
   Converter(const ConversionPlan& plan, const TexelReader& reader);
   Converter(const Converter&) = delete;
@@ -39,8 +46,7 @@ class Converter {
 
   int64_t no_depth() const { return reprojection_ ? reprojection_->no_depth : 0; }
 
-  // Returns the number of empty pixels.
-  int fill(int index, int y, std::span<float> row) const;
+  RowHoles fill(int index, int y, std::span<float> row) const;
 
   // Fills rows y, y + 1, ... with the same numbers, but reads the texels that they share once. Preconditions: made with
   // a TexelReader; the plan has rows.
@@ -58,8 +64,10 @@ class Converter {
   void fill_stretch(const Row& row, const Stretch& stretch, const TexelBlock* block) const;
   void fill_alone(PixelRun& run, const Row& row, const Stretch& stretch, int i) const;
   void fill_single(const Row& row, const RowPlan& plan, const SinglePixel& single) const;
-  int fill_moved(const Row& row) const;
-  bool fill_moved_pixel(const Row& row, int x) const;
+  RowHoles fill_moved(const Row& row) const;
+  RowHoles fill_warped(const Row& row, const std::vector<SurfaceHit>& hits) const;
+  void fill_hits(PixelRun& run, const Row& row, int x, std::span<const SurfaceHit> hits) const;
+  SurfaceHit fill_moved_pixel(const Row& row, int x) const;
   SurfaceHit meet(int index, vec2 home, vec2 uv) const;
   float* pixel_of(const Row& row, int x) const {
     return row.pixels.data() + static_cast<size_t>(x) * static_cast<size_t>(channels_);
@@ -69,6 +77,8 @@ class Converter {
   const Mapping& mapping_;
   Resampler resampler_;
   std::optional<Reprojection> reprojection_;
+  std::optional<RowWarp> warp_;  // of reprojection_
+  Holes holes_ = Holes::kEmpty;
   int channels_;
   int depth_channel_ = -1;  // in a pixel of a row; below 0: there is no depth
 };

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/convert/reproject.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 #include <cstring>
@@ -49,19 +52,41 @@ Image depth_of_eye(const StoredPicture& picture, size_t eye) {
   return depth;
 }
 
+void read_nearness(const Reprojection& reprojection, int source_eye, int y, float* out) {
+  const StoredPicture& picture = *reprojection.source->picture;
+  const LayerPixels& layer = picture.eyes[static_cast<size_t>(source_eye)].layers[reprojection.layer];
+  if (layer.sample == SampleType::kFloat && layer.pixel_stride == sizeof(float)) {
+    std::memcpy(out, layer.first + y * layer.row_stride, static_cast<size_t>(picture.size.width) * sizeof(float));
+  } else {
+    for (int x = 0; x < picture.size.width; x++) out[x] = depth_at(layer, x, y);
+  }
+  for (int x = 0; x < picture.size.width; x++) out[x] = is_surface(out[x]) ? 1.0f / out[x] : 0.0f;
+}
+
 Reprojection make_reprojection(const Source& source) {
   assert(depth_layer(*source.picture));
-  Reprojection reprojection{&source, *depth_layer(*source.picture)};
-  const Extent size = source.picture->size;
+  const StoredPicture& picture = *source.picture;
+  Reprojection reprojection;
+  reprojection.source = &source, reprojection.layer = *depth_layer(picture);
+  std::atomic<int64_t> no_depth = 0;
   float largest = 1e-6f;
-  for (int source_eye = 0; source_eye < static_cast<int>(source.picture->eyes.size()); source_eye++) {
-    for (int y = 0; y < size.height; y++) {
-      for (int x = 0; x < size.width; x++) {
-        largest = std::max(largest, nearness_at(reprojection, {source_eye, x, y}));
-        if (!(depth_at(reprojection, {source_eye, x, y}) > 0.0f)) reprojection.no_depth++;
+  for (int source_eye = 0; source_eye < static_cast<int>(picture.eyes.size()); source_eye++) {
+    std::vector<float>& most = reprojection.row_most.emplace_back(picture.size.height);
+    tbb::parallel_for(0, picture.size.height, [&](int y) {
+      const LayerPixels& layer = picture.eyes[static_cast<size_t>(source_eye)].layers[reprojection.layer];
+      float nearest = 0.0f;
+      int64_t invalid = 0;
+      for (int x = 0; x < picture.size.width; x++) {
+        const float depth = depth_at(layer, x, y);
+        nearest = std::max(nearest, is_surface(depth) ? 1.0f / depth : 0.0f);
+        invalid += !(depth > 0.0f);
       }
-    }
+      most[static_cast<size_t>(y)] = nearest;
+      no_depth += invalid;
+    });
+    largest = std::max(largest, *std::max_element(most.begin(), most.end()));
   }
+  reprojection.no_depth = no_depth;
   reprojection.nearest = std::max(1.0f / largest, 0.01f);
   return reprojection;
 }
@@ -138,53 +163,117 @@ Curve make_curve(const Source& source, int source_eye, const Ray& ray, float mos
   return curve;
 }
 
-// The first crossing from in front of the surface to behind it, from near to far, in steps of about a texel.
-std::optional<SurfaceHit> first_meeting(const Reprojection& reprojection, const Curve& curve) {
+// What a march along a curve has found.
+struct March {
+  std::optional<SurfaceHit> met;
+  // Where the curve goes behind a thing, or comes out from behind it, the surface on the other side of that edge. The
+  // farthest of them is what the thing hides.
+  std::optional<Place> edge;
+  float hidden = 0.0f;  // its 1 / metres
+};
+
+void take_farther(March& march, const Place& edge, float surface) {
+  if (march.edge && march.hidden <= surface) return;
+  march.edge = edge, march.hidden = surface;
+}
+
+int steps_of(const Curve& curve) {
   const float length_of_curve = length(curve.at_near.place.at - curve.at_middle.place.at) +
                                 length(curve.at_middle.place.at - curve.at_far.place.at);
-  const int steps = curve.is_parabola ? 1 + static_cast<int>(std::min(length_of_curve, 4000.0f)) : 64;
-  bool before = false;
-  float last_nearness = 0.0f, last_surface = 0.0f, last_ahead = 0.0f;
-  for (int i = 0; i <= steps; i++) {
-    const float inverse_depth = curve.most * static_cast<float>(steps - i) / static_cast<float>(steps);
-    const Shown shown = curve.at(inverse_depth);
-    if (!shown.place.seen) {
-      before = false;
-      continue;
-    }
-    const float surface = nearness_of(reprojection, shown.place);
-    const float ahead = (i == steps ? 0.0f : shown.inverse_depth) - surface;  // above 0: in front of the surface
-    if (ahead <= 0.0f && before && is_one_surface(surface, last_surface)) {
-      float low = inverse_depth, high = last_nearness, below = ahead, above = last_ahead;
-      for (int round = 0; round < 4; round++) {
-        const float middle = low + (high - low) * (-below / std::max(above - below, 1e-20f));
-        const Shown there = curve.at(middle);
-        const float off = (middle > 0.0f ? there.inverse_depth : 0.0f) - nearness_of(reprojection, there.place);
-        (off > 0.0f ? high : low) = middle;
-        (off > 0.0f ? above : below) = off;
-      }
-      const float met = low + (high - low) * (-below / std::max(above - below, 1e-20f));
-      return SurfaceHit{curve.at(met).place, met > kMinInverseDepth ? 1.0f / met : kFarDepth};
-    }
-    before = ahead > 0.0f;
-    last_nearness = inverse_depth, last_surface = surface, last_ahead = ahead;
+  return curve.is_parabola ? 1 + static_cast<int>(std::min(length_of_curve, 4000.0f)) : 64;
+}
+
+// A sample of the curve: 1 / distance, the stored surface there, and how far in front of it the point is, as 1 /
+// metres.
+struct Sample {
+  float inverse_depth = 0.0f, surface = 0.0f, ahead = 0.0f;
+};
+
+SurfaceHit crossing(const Reprojection& reprojection, const Curve& curve, const Sample& before, const Sample& after) {
+  float low = after.inverse_depth, high = before.inverse_depth, below = after.ahead, above = before.ahead;
+  for (int round = 0; round < 4; round++) {
+    const float middle = low + (high - low) * (-below / std::max(above - below, 1e-20f));
+    const Shown there = curve.at(middle);
+    const float off = (middle > 0.0f ? there.inverse_depth : 0.0f) - nearness_of(reprojection, there.place);
+    (off > 0.0f ? high : low) = middle;
+    (off > 0.0f ? above : below) = off;
   }
-  return {};
+  const float met = low + (high - low) * (-below / std::max(above - below, 1e-20f));
+  return {curve.at(met).place, met > kMinInverseDepth ? 1.0f / met : kFarDepth};
+}
+
+// The first crossing from in front of the surface to behind it, from near to far, in steps of about a texel.
+March march_along(const Reprojection& reprojection, const Curve& curve) {
+  const int steps = steps_of(curve);
+  const float step = curve.most / static_cast<float>(steps);
+  March march;
+  bool was_seen = false;
+  Sample last;
+  Place last_place;
+  for (int i = 0; i <= steps; i++) {
+    const float inverse_depth = step * static_cast<float>(steps - i);
+    const Shown shown = curve.at(inverse_depth);
+    const bool had_seen = was_seen;
+    was_seen = shown.place.seen;
+    if (!was_seen) continue;
+    const float surface = nearness_of(reprojection, shown.place);
+    const Sample sample{inverse_depth, surface, (i == steps ? 0.0f : shown.inverse_depth) - surface};
+    if (had_seen && sample.ahead <= 0.0f) {
+      const bool is_one = is_one_surface(surface, last.surface);
+      if (last.ahead > 0.0f && is_one) {
+        march.met = crossing(reprojection, curve, last, sample);
+        return march;
+      }
+      if (last.ahead > 0.0f) take_farther(march, last_place, last.surface);
+      if (last.ahead <= 0.0f && !is_one && surface < last.surface) take_farther(march, shown.place, surface);
+    }
+    last = sample, last_place = shown.place;
+  }
+  return march;
+}
+
+// Straight above and below, where eyes on a circle do not look: what is seen in that direction.
+SurfaceHit fill_blind(const Reprojection& reprojection, const Curve& curve) {
+  if (!curve.at_far.place.seen) return {};
+  const float nearness = nearness_of(reprojection, curve.at_far.place);
+  return {curve.at_far.place, nearness > kMinInverseDepth ? 1.0f / nearness : kFarDepth, true};
+}
+
+// What a thing hides, as if the surface beside it went on, mirrored at the edge.
+SurfaceHit fill_behind(const Reprojection& reprojection, const Curve& curve, const March& march) {
+  constexpr float kClear = 1.5f;  // texels from the edge, whose own colours are mixed
+  if (!march.edge) return fill_blind(reprojection, curve);
+  const Extent size = reprojection.source->picture->size;
+  const vec2 whole(static_cast<float>(size.width), static_cast<float>(size.height));
+  const float depth = march.hidden > kMinInverseDepth ? 1.0f / march.hidden : kFarDepth;
+  const vec2 away = march.edge->at - curve.at(march.hidden).place.at;  // from under the thing to the edge
+  Place clear = *march.edge;
+  if (length(away) > 1e-6f) clear.at = clear.at + normalize(away) * kClear;
+  Place mirrored = clear;
+  mirrored.at = mirrored.at + away;
+  for (const Place& each : {mirrored, clear}) {
+    if (!inside_picture(each.at / whole)) continue;
+    if (is_one_surface(nearness_of(reprojection, each), march.hidden)) return {each, depth, true};
+  }
+  return {*march.edge, depth, true};
 }
 
 }  // namespace
 
-SurfaceHit meet_surface(const Reprojection& reprojection, int source_eye, const Ray& ray) {
+SurfaceHit meet_surface(const Reprojection& reprojection, int source_eye, const Ray& ray, bool fills) {
   const Source& source = *reprojection.source;
   // The ray may start nearer to objects than the picture's own rays.
   const float away = length(ray.origin) + length(vec2(0.5f * source.camera.ipd, source.camera.neck));
   const float most = 1.0f / std::max(reprojection.nearest - away, 0.25f * reprojection.nearest);
   const int count = static_cast<int>(source.picture->eyes.size());
+  SurfaceHit behind;
   for (int i = 0; i < count; i++) {
-    if (const auto met = first_meeting(reprojection, make_curve(source, (source_eye + i) % count, ray, most)))
-      return *met;
+    const Curve curve = make_curve(source, (source_eye + i) % count, ray, most);
+    const March march = march_along(reprojection, curve);
+    if (march.met) return *march.met;
+    if (fills && !behind.place.seen) behind = fill_behind(reprojection, curve, march);
   }
-  return {};
+  return behind;
 }
 
 }  // namespace ods

@@ -256,6 +256,7 @@ class Pages : public ::testing::Test {
     const std::string kind = fs::path(name).extension().native();
     if (kind.empty() || name.starts_with("-") || fs::exists(folder.path(name)) || !made_.insert(name).second) return;
     fs::create_directories(fs::path(folder.path(name)).parent_path());
+    if (kind == ".npy" || name == "depth.png") return folder.write(name, depth());
     if (kind == ".glb") return folder.write(name, scene());
     if (kind == ".blend") return folder.write(name, "BLENDER-v304");
     if (kind == ".zip") return provide_archive(name);
@@ -266,10 +267,23 @@ class Pages : public ::testing::Test {
     if (kind == ".json") return make("ods camera --for json --width 4096 -o " + name);
     if (kind == ".mp4" || kind == ".mov" || kind == ".mkv" || kind == ".webm") {
       provide_file("sound.wav");
-      return make("ods video furnace --width 96 --samples 1 --duration 0.1 --audio sound.wav -o " + name);
+      const std::string eyes = has(name, "panorama") ? " --eyes mono" : "";
+      return make("ods video furnace --width 96 --samples 1 --duration 0.1 --audio sound.wav -o " + name + eyes);
     }
     static const std::set<std::string> pictures = {".png", ".jpg", ".exr", ".tif", ".hdr", ".webp"};
     if (pictures.contains(kind)) provide_picture(name);
+  }
+
+  // Of a level floor under the sky: NumPy's floats, in proportion to 1 / metres.
+  static std::string depth() {
+    std::string words = "{'descr': '<f4', 'fortran_order': False, 'shape': (48, 96), }";
+    words.resize(118, ' ');
+    std::string bytes = std::string("\x93NUMPY\x01\x00\x76\x00", 10) + words;
+    for (int i = 0; i < 96 * 48; i++) {
+      const float nearness = std::max(0.0f, -std::cos(3.14159265f * (static_cast<float>(i / 96) + 0.5f) / 48.0f));
+      bytes.append(reinterpret_cast<const char*>(&nearness), sizeof nearness);
+    }
+    return bytes;
   }
 
   void provide_archive(const std::string& name) {
@@ -301,7 +315,10 @@ class Pages : public ::testing::Test {
     if (has(name, "_LR")) words += " --projection vr180";
     if (has(name, "noisy")) words += " --statistics --samples 2";
     if (has(name, "other")) return provide_halves(name);
-    if (has(name, "panorama") || has(name, "left.") || has(name, "sky")) words += " --eyes mono";
+    static const std::set<std::string> kMono = {"panorama", "left.", "sky", "depth."};
+    if (std::any_of(kMono.begin(), kMono.end(), [&](const auto& each) { return has(name, each); })) {
+      words += " --eyes mono";
+    }
     if (has(name, "#") || has(name, "%0")) words += " --frames 1-4";
     const bool of_lenses = has(name, "camera.");  // large enough to be recognised
     if (of_lenses) words += " --projection fisheye --layout side-by-side";

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <utility>
 
 #include "ods/base/error.h"
 #include "ods/video/video_clock.h"
@@ -31,6 +32,26 @@ static SoundTurn sound_turn(const Footage& footage, const VideoConversion& conve
   };
 }
 
+// The depth of the next picture; tells of the first one.
+static DepthFootage::Give next_depth(DepthFootage& depth, std::optional<int> number, bool is_first,
+                                     const std::function<void(const DepthReport&)>& tell) {
+  if (!is_first || !tell) return depth.next(number);
+  return [give = depth.next(number), tell](StoredPicture& picture) {
+    const DepthReport report = give(picture);
+    tell(report);
+    return report;
+  };
+}
+
+// A frame whose eyes are moved by its depth.
+static std::shared_ptr<VideoFrame> convert_with_depth(const Footage& footage, const DecodedFrame& frame,
+                                                      const DepthFootage::Give& give, const ConvertTarget& target,
+                                                      const FrameFormat& format) {
+  StoredPicture picture = picture_of(footage.video(), footage.stream(), frame);
+  give(picture);
+  return frame_of(convert(picture, target).rows, format, {});
+}
+
 int convert_video(Footage& footage, const VideoConversion& conversion, EncodeOptions options, const std::string& path,
                   const Progress& progress) {
   assert(footage.kind() == FootageKind::kVideo);
@@ -46,13 +67,28 @@ int convert_video(Footage& footage, const VideoConversion& conversion, EncodeOpt
   clock.set(options);
 
   const FrameFormat format{conversion.layout, options.packing, options.color};
-  const FrameConverter converter(footage.video(), stream, conversion.target, format, !conversion.turns.empty());
+  std::optional<FrameConverter> converter;
+  if (conversion.depth) {
+    refuse_other_colors(stream, footage.path());
+  } else {
+    converter.emplace(footage.video(), stream, conversion.target, format, !conversion.turns.empty());
+  }
+  bool is_first = true;
   const auto pending = [&]() -> std::optional<PendingFrame> {
     if (!frame) return std::nullopt;
     ViewAngles turned{0.0f, 0.0f, 0.0f};
     if (!conversion.turns.empty()) turned = turned_at(conversion.turns, footage.seconds_of(*frame));
-    PendingFrame result{clock(frame->time),
-                        [&converter, turned, old = *frame] { return converter.convert(old, turned); }};
+    PendingFrame result{clock(frame->time), {}};
+    if (conversion.depth) {
+      ConvertTarget target = conversion.target;
+      target.turned = turned;
+      const auto give = next_depth(*conversion.depth, {}, std::exchange(is_first, false), conversion.tell);
+      result.make = [&footage, target, give, format, old = *frame] {
+        return convert_with_depth(footage, old, give, target, format);
+      };
+    } else {
+      result.make = [&converter, turned, old = *frame] { return converter->convert(old, turned); };
+    }
     frame = footage.next();
     return result;
   };
@@ -81,8 +117,9 @@ StoredPicture open_frame(const FrameFiles& files, size_t index, const StoredPict
 }
 
 static std::shared_ptr<VideoFrame> convert_file(const FramesConversion& conversion, size_t index,
-                                                const FrameFormat& format) {
-  const StoredPicture picture = open_frame(conversion.files, index, conversion.first);
+                                                const DepthFootage::Give& give, const FrameFormat& format) {
+  StoredPicture picture = open_frame(conversion.files, index, conversion.first);
+  if (give) give(picture);
   const std::string fault = conversion_fault(picture, conversion.target);
   if (!fault.empty()) throw Error(ErrorKind::kUsage, fmt::format("'{}': {}", conversion.files.path(index), fault));
   std::optional<DisplayTransform> display;
@@ -98,8 +135,10 @@ int convert_frames(const FramesConversion& conversion, const EncodeOptions& opti
   const auto pending = [&]() -> std::optional<PendingFrame> {
     if (next == frames.size()) return std::nullopt;
     const size_t index = next++;
+    DepthFootage::Give give;
+    if (conversion.depth) give = next_depth(*conversion.depth, frames[index], index == 0, conversion.tell);
     return PendingFrame{{static_cast<int64_t>(index), 1},
-                        [&, index] { return convert_file(conversion, index, format); }};
+                        [&, index, give] { return convert_file(conversion, index, give, format); }};
   };
   const Extent old = conversion.first.size;
   const int eyes = static_cast<int>(conversion.target.eyes.size());

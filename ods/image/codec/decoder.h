@@ -51,7 +51,9 @@ class Decoder {
   std::map<size_t, unsigned> beyond_floats;  // by channel: an integer above 2^24 that read() met
 };
 
-// Throw Error(kInput): the file is damaged or cannot be decoded. Their sizes are within image_limits.h.
+// Throw Error(kInput): the file is damaged or cannot be decoded. Their sizes are within image_limits.h. The first one
+// finds the format by the file's first bytes.
+std::unique_ptr<Decoder> open_decoder(const PictureBytes& file);
 std::unique_ptr<Decoder> open_png(const PictureBytes& file);
 std::unique_ptr<Decoder> open_jpeg(const PictureBytes& file);
 std::unique_ptr<Decoder> open_tiff(const PictureBytes& file);

@@ -91,6 +91,10 @@ static std::unique_ptr<Decoder> open_decoder(const PictureBytes& file, FileForma
   return open_exr(file);
 }
 
+std::unique_ptr<Decoder> open_decoder(const PictureBytes& file) {
+  return open_decoder(file, format_of(file));
+}
+
 namespace {
 
 struct Opened {
@@ -185,7 +189,7 @@ static uint32_t code_of(SampleType sample, const std::byte* at) {
 
 CodeImage decode_image(std::span<const std::byte> file, const std::string& name, bool keep_depth) {
   const PictureBytes bytes = picture_in_memory(file, name);
-  const std::unique_ptr<Decoder> decoder = open_decoder(bytes, format_of(bytes));
+  const std::unique_ptr<Decoder> decoder = open_decoder(bytes);
   const FileInfo& info = decoder->info;
   const size_t count = std::min<size_t>(info.channels.size(), 4);
   const bool grey = count < 3, has_alpha = count == 2 || count == 4;

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Depth that lies beside what ods convert reads.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "cli/console/options.h"
+#include "ods/depth/picture_depth.h"
+
+struct DepthInput {
+  std::string path;  // empty: there is none
+  ods::DepthOptions options;
+};
+
+void add_depth_options(Options& options, DepthInput& depth);
+
+// Throws UsageError: an option of depth without --depth.
+void check_depth_options(const Options& options, const DepthInput& depth);
+
+// Adds the depth to a picture, and says what there is to say. Throws as ods::add_depth().
+void give_depth(const DepthInput& depth, ods::StoredPicture& picture);
+void say_of_depth(const ods::DepthReport& report);
+
+// How much of the eye distance the depth of a picture allows at each elevation (ods/comfort/merge_from_depth.h), for
+// eyes as the camera has them. Precondition: the picture has depth.
+std::vector<float> shares_of_depth(const ods::StoredPicture& picture, float limit, const ods::StereoCamera& camera);
+// Merges the poles by them, and says how.
+void use_shares(std::vector<float> shares, ods::StereoCamera& camera);

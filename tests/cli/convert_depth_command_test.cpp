@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods convert with depth beside the input, as its user meets it.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "ods/picture/stored_picture.h"
+#include "tests/support/cli_runner.h"
+
+namespace {
+
+class ConvertDepth : public Cli {
+ protected:
+  void run_well(const std::string& words) { ASSERT_EQ(run(in_folder(words)), 0) << words << "\n" << err; }
+
+  std::string in_folder(std::string words) const {
+    for (size_t at = 0; (at = words.find('@', at)) != std::string::npos;) words.replace(at, 1, folder.path(""));
+    return words;
+  }
+
+  ods::StoredPicture open(const std::string& name) { return ods::open_picture(folder.path(name)); }
+
+  // A mono panorama without depth, and its depth.
+  void make_panorama() {
+    run_well("render room -q --eyes mono --width 64 --samples 1 --threads 2 -o @depth.exr");
+    run_well("convert @depth.exr -q -o @panorama.png");
+  }
+};
+
+TEST_F(ConvertDepth, MakesTwoEyesOfOne) {
+  make_panorama();
+  run_well("convert @panorama.png --depth @depth.exr -q -o @stereo_360_TB.exr");
+  const ods::StoredPicture made = open("stereo_360_TB.exr");
+  EXPECT_EQ(made.eyes.size(), 2u);
+  EXPECT_EQ(made.size.width, 64);
+  EXPECT_EQ(made.layout, ods::Layout::kTopBottom);
+  EXPECT_EQ(made.eyes[0].layers[0].channels.size(), 3u);  // no alpha: there are no holes
+  EXPECT_EQ(made.camera.top, ods::kUsualMerge);
+  EXPECT_FLOAT_EQ(made.camera.ipd, 0.065f);
+  run_well("convert @panorama.png --depth @depth.exr --ipd 0.6 -o @wide.exr");
+  EXPECT_NE(err.find("filled from what is beside it"), std::string::npos) << err;
+  run_well("convert @panorama.png --depth @depth.exr --holes empty --ipd 0.2 --merge none -q -o @holes.exr");
+  EXPECT_EQ(open("holes.exr").eyes[0].layers[0].channels.size(), 4u);
+  EXPECT_FLOAT_EQ(open("holes.exr").camera.ipd, 0.2f);
+  // Of the same depth, the same as from the layer of the file itself.
+  run_well("convert @depth.exr --eyes both --merge none -q -o @by_layer.png");
+  run_well("convert @panorama.png --depth @depth.exr --merge none -q -o @by_file.png");
+  EXPECT_EQ(run(in_folder("compare @by_layer.png @by_file.png --min-psnr 24")), 0) << out << err;
+}
+
+TEST_F(ConvertDepth, MergesByDepth) {
+  make_panorama();
+  for (const char* words : {"@panorama.png --depth @depth.exr", "@depth.exr --eyes both"}) {
+    run_well(std::string("convert ") + words + " --merge auto,20 --sidecar -o @auto.exr");
+    EXPECT_NE(err.find("merge by depth: full stereo up to "), std::string::npos) << err;
+    const ods::StoredPicture made = open("auto.exr");
+    EXPECT_EQ(made.camera.top.mode, ods::kMergeMap);
+    ASSERT_TRUE(made.camera.merge_map);
+    EXPECT_LT(made.camera.merge_map->pixels.front(), 0.5f);  // the ceiling is low
+    EXPECT_EQ(made.camera.merge_map->pixels[made.camera.merge_map->pixels.size() / 2], 1.0f);
+  }
+  // A stereo picture that exists.
+  run_well("render room -q --width 64 --samples 1 --merge none --ipd 0.2 -o @stereo.exr");
+  run_well("convert @stereo.exr --merge auto -o @calm.exr");
+  EXPECT_NE(err.find("filled from what is beside it"), std::string::npos) << err;
+  EXPECT_EQ(err.find("empty: "), std::string::npos) << err;
+  EXPECT_EQ(run(in_folder("convert @panorama.png --merge auto -o @no.png")), 0) << err;
+  EXPECT_NE(err.find("change nothing of one eye"), std::string::npos) << err;
+  EXPECT_EQ(run(in_folder("convert @panorama.png --eyes both --merge auto -o @no.png")), 2);
+}
+
+TEST_F(ConvertDepth, MistakesHaveTheirExitCodes) {
+  make_panorama();
+  folder.write("zero.pfm", "Pf\n4 2\n-1\n" + std::string(32, '\0'));
+  folder.write("square.pfm", "Pf\n2 2\n-1\n" + std::string(16, 'A'));
+  folder.write("broken.npy", "\x93NUMPY");
+  const std::tuple<const char*, int, const char*> kFaults[] = {
+      {"@panorama.png --eyes both", 2, "--depth FILE"},
+      {"@panorama.png --ipd 0.06 --eyes both", 2, "--depth FILE"},
+      {"@panorama.png --near 1", 2, "--near goes with --depth"},
+      {"@panorama.png --depth @absent.png", 3, "absent.png"},
+      {"@panorama.png --depth @zero.pfm", 3, "0 everywhere"},
+      {"@panorama.png --depth @square.pfm", 3, "another shape"},
+      {"@panorama.png --depth @broken.npy", 3, "broken.npy"},
+      {"@panorama.png --depth @panorama.png", 3, "colours"},
+      {"@panorama.png --depth @depth.exr --depth-kind relative", 2, "both ends"},
+      {"@panorama.png --depth @depth.exr --depth-along axis", 2, "no axis"},
+      {"@panorama.png --depth @depth.exr --depth-kind feet", 2, "--depth-kind"}};
+  for (const auto& [words, code, says] : kFaults) {
+    EXPECT_EQ(run(in_folder(std::string("convert ") + words + " -o @no.png")), code) << words << "\n" << err;
+    const size_t start = err.rfind("ods: error: ");
+    ASSERT_NE(start, std::string::npos) << words << "\n" << err;
+    EXPECT_EQ(err.find('\n', start), err.size() - 1) << err;
+    EXPECT_NE(err.find(says, start), std::string::npos) << words << "\n" << err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path("no.png"))) << words;
+  }
+}
+
+TEST_F(ConvertDepth, FramesAndVideos) {
+  make_panorama();
+  for (const char* number : {"1", "2", "3"}) {
+    for (const char* name : {"panorama", "depth"}) {
+      const std::string kind = name == std::string("depth") ? ".exr" : ".png";
+      std::filesystem::copy(folder.path(name + kind), folder.path(std::string(name) + "." + number + kind));
+    }
+  }
+  run_well("convert @panorama.#.png --depth @depth.#.exr -q -o @stereo_360_TB.#.exr");
+  EXPECT_EQ(open("stereo_360_TB.2.exr").eyes.size(), 2u);
+  run_well("convert @panorama.#.png --depth @depth.exr --merge auto --sidecar -o @merged_360_TB.#.exr");
+  EXPECT_EQ(open("merged_360_TB.3.exr").camera.top.mode, ods::kMergeMap);
+  run_well("convert @panorama.#.png --depth @depth.#.exr -q -o @stereo_360_TB.mp4");
+  // A video with frames of depth, and with a video of depth: near is white.
+  run_well("encode -q --projection lat-long --layout separate @panorama.#.png -o @mono_360.mp4");
+  run_well("convert @mono_360.mp4 --depth @depth.#.exr -q -o @a_360_TB.mp4");
+  run_well(
+      "convert @mono_360.mp4 --depth @mono_360.mp4 --depth-kind inverse --near 1 --far 9 -q -o @b_360_TB.####.png");
+  EXPECT_EQ(open("b_360_TB.0002.png").eyes.size(), 2u);
+  std::filesystem::remove(folder.path("depth.3.exr"));
+  EXPECT_EQ(run(in_folder("convert @mono_360.mp4 --depth @depth.#.exr -q -o @c_360_TB.mp4")), 3) << err;
+  EXPECT_NE(err.find("ends before"), std::string::npos) << err;
+}
+
+}  // namespace
