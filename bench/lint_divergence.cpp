@@ -7,7 +7,6 @@
 
 #include "bench/lint_pictures.h"
 #include "ods/disparity/match.h"
-#include "ods/picture/load_eyes.h"
 
 using namespace ods;
 
@@ -18,26 +17,46 @@ void become_vr180(Made& made) {
   made.suffix = "_180_LR";
 }
 
-// The parallax that a quarter of the places in a pair is below, degrees.
-static double far_parallax(const Pair& pair) {
+// The luminance of both eyes in the form that they are going to have, but for faults.
+static std::vector<Image> eyes_of(const Made& made) {
+  const Conversion conversion = convert(made.pair->picture, made.target);
+  const PictureRows& rows = conversion.rows;
+  const size_t channels = count_channels(rows.layers);
+  std::vector<Image> eyes(2, Image(rows.eye.width, rows.eye.height, 1));
+  std::vector<float> row(static_cast<size_t>(rows.eye.width) * channels);
+  for (int i = 0; i < 2; i++) {
+    for (int y = 0; y < rows.eye.height; y++) {
+      rows.fill(i, y, row);
+      for (int x = 0; x < rows.eye.width; x++) {
+        const float* light = &row[static_cast<size_t>(x) * channels];
+        *eyes[static_cast<size_t>(i)].at(x, y) = 0.2126f * light[0] + 0.7152f * light[1] + 0.0722f * light[2];
+      }
+    }
+  }
+  return eyes;
+}
+
+// The parallax that a quarter of the places is below, degrees: of the half that vr180 shows, or of the whole.
+static double far_parallax(const Made& made) {
   static std::mutex mutex;
-  static std::map<const Pair*, double> known;
+  static std::map<std::pair<const Pair*, std::string>, double> known;
+  const std::pair key(made.pair, made.suffix);
   const std::lock_guard<std::mutex> lock(mutex);
-  const auto found = known.find(&pair);
+  const auto found = known.find(key);
   if (found != known.end()) return found->second;
-  const std::vector<GrayView> views = make_gray_views(grey_eyes(pair.picture), ProjectionSetting(), false, 1024);
+  const std::vector<GrayView> views = make_gray_views(eyes_of(made), made.target.camera.projection, false, 1024);
   std::vector<double> angles;
   for (const Match& match : match_tiles(views[0], views[1], {}).found) {
     if (std::abs(match.phi) < 0.85f) angles.push_back(glm::degrees(static_cast<double>(match.around)));
   }
   std::sort(angles.begin(), angles.end());
-  return known[&pair] = angles.empty() ? 0.0 : angles[angles.size() / 4];
+  return known[key] = angles.empty() ? 0.0 : angles[angles.size() / 4];
 }
 
 void add_divergence(std::vector<PicturePlant>& plants) {
-  const std::vector<double> angles{0.3, 0.7, 1.0, 2.0, 3.5};
+  const std::vector<double> angles{0.3, 0.7, 1.0, 2.0, 3.4};
   const auto turn = [](Made& made, double s) {
-    made.target.right.yaw = -static_cast<float>(s + far_parallax(*made.pair));
+    made.target.right.yaw = -static_cast<float>(s + far_parallax(made));
   };
   plants.push_back({"divergence", {Fault::kEyesDiverge}, Check::kConvergence, "degrees", angles, turn});
   plants.push_back(

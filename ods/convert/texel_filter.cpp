@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "ods/base/wide.h"
+
 namespace ods {
 
 // --- tents ----------------------------------------------------------------------------------------------------------
@@ -177,7 +179,7 @@ struct Axis {
 }  // namespace
 
 // The loops here and below always run over all kMaxAlike places: compilers turn them into a few instructions.
-static void interpolate(const Axis& axis) {
+ODS_WIDE static void interpolate(const Axis& axis) {
   Position positions[kMaxAlike];
   for (size_t i = 0; i < kMaxAlike; i++) positions[i] = split(axis.places[i]);
   for (size_t i = 0; i < axis.filters.size(); i++) {
@@ -189,7 +191,7 @@ static void interpolate(const Axis& axis) {
   }
 }
 
-static void look_up_weights(const TentTable::Row& row, const Axis& axis) {
+ODS_WIDE static void look_up_weights(const TentTable::Row& row, const Axis& axis) {
   Position positions[kMaxAlike];
   for (size_t i = 0; i < kMaxAlike; i++) positions[i] = split_exactly(axis.places[i]);
   for (size_t i = 0; i < axis.filters.size(); i++) {

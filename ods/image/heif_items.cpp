@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "ods/image/format/boxes.h"
@@ -27,6 +28,42 @@ static std::vector<uint32_t> read_pair(Box& meta) {
     return {static_cast<uint32_t>(get_number(group.body, 12, 4)), static_cast<uint32_t>(get_number(group.body, 16, 4))};
   }
   return {};
+}
+
+// Pictures that are made of others: grids of tiles, overlays.
+using Parts = std::map<uint32_t, std::vector<uint32_t>>;
+
+static Parts read_parts(Box& meta) {
+  Box* references = find_child(meta, box_type("iref"));
+  if (references == nullptr) return {};
+  open_box(*references, 4);
+  const size_t bytes = get_number(references->body, 0, 1) == 0 ? 2 : 4;
+  Parts parts;
+  for (const Box& each : references->children) {
+    if (each.type != box_type("dimg")) continue;
+    std::vector<uint32_t>& to = parts[static_cast<uint32_t>(get_number(each.body, 0, bytes))];
+    const uint64_t count = get_number(each.body, bytes, 2);
+    for (uint64_t i = 0; i < count; i++) {
+      to.push_back(static_cast<uint32_t>(get_number(each.body, bytes + 2 + i * bytes, bytes)));
+    }
+  }
+  return parts;
+}
+
+// A few hundred bytes can ask for billions of tiles, or for a grid of itself, and decoders follow.
+static void count_parts(const Parts& parts, uint32_t item, int depth, int& count) {
+  constexpr int kDeepest = 4, kMost = 1 << 18;
+  if (depth > kDeepest) throw MalformedFile("its pictures are made of each other, again and again");
+  if (++count > kMost) throw MalformedFile("its pictures are made of too many others");
+  const auto found = parts.find(item);
+  if (found == parts.end()) return;
+  for (const uint32_t part : found->second) count_parts(parts, part, depth + 1, count);
+}
+
+static void check_parts(Box& meta) {
+  const Parts parts = read_parts(meta);
+  int count = 0;
+  for (const auto& [item, of] : parts) count_parts(parts, item, 0, count);
 }
 
 // The numbers of an item's properties, from 1.
@@ -100,6 +137,7 @@ HeifItems read_heif_items(const FileInput& file) {
   items.primary = read_primary(meta);
   items.pair = read_pair(meta);
   if (!items.pair.empty()) items.primary = items.pair[0];
+  check_parts(meta);
   read_properties(meta, items);
   return items;
 }

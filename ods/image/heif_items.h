@@ -23,7 +23,7 @@ struct HeifItems {
   float fov = 0.0f;  // degrees across, of its camera (cmin); 0: unknown
 };
 
-// Throws MalformedFile; Error(kInput).
+// Throws MalformedFile, also for pictures that are made of each other or of more than decoders stand; Error(kInput).
 HeifItems read_heif_items(const FileInput& file);
 
 }  // namespace ods

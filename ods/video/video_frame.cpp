@@ -6,8 +6,11 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <mutex>
 #include <new>
 #include <vector>
+
+#include "ods/base/wide.h"
 
 namespace ods {
 
@@ -34,6 +37,35 @@ VideoFrame::VideoFrame(Extent size, const Packing& packing) : size_(size) {
   bytes_ += align;  // encoders may read past the last pixel
   memory_.reset(new (kAlign) std::byte[bytes_]());
   for (size_t i = 0; i < 3; i++) planes_.first[i] = memory_.get() + starts[i];
+}
+
+struct FramePool::Shelf {
+  Extent size;
+  Packing packing;
+  std::mutex mutex;
+  std::vector<std::unique_ptr<VideoFrame>> free;
+
+  std::unique_ptr<VideoFrame> take() {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (free.empty()) return nullptr;
+    std::unique_ptr<VideoFrame> frame = std::move(free.back());
+    free.pop_back();
+    return frame;
+  }
+  void put(std::unique_ptr<VideoFrame> frame) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    free.push_back(std::move(frame));
+  }
+};
+
+FramePool::FramePool(Extent size, const Packing& packing) : shelf_(std::make_shared<Shelf>()) {
+  shelf_->size = size, shelf_->packing = packing;
+}
+
+std::shared_ptr<VideoFrame> FramePool::take() const {
+  std::unique_ptr<VideoFrame> frame = shelf_->take();
+  if (!frame) frame = std::make_unique<VideoFrame>(shelf_->size, shelf_->packing);
+  return {frame.release(), [shelf = shelf_](VideoFrame* old) { shelf->put(std::unique_ptr<VideoFrame>(old)); }};
 }
 
 // --- colours ---------------------------------------------------------------------------------------------------------
@@ -78,7 +110,7 @@ float video_code(float linear) {
   return srgb_table()(linear);
 }
 
-void video_codes(std::span<const float> light, float* codes) {
+ODS_WIDE void video_codes(std::span<const float> light, float* codes) {
   const SrgbTable& table = srgb_table();
   for (size_t i = 0; i < light.size(); i++) codes[i] = table(light[i]);
 }
@@ -115,7 +147,7 @@ float video_light(float code) {
   return light_table()(code);
 }
 
-void video_lights(std::span<const float> row, float* pixels) {
+ODS_WIDE void video_lights(std::span<const float> row, float* pixels) {
   const LightTable& table = light_table();
   const size_t width = row.size() / 3;
   const float *red = row.data(), *green = red + width, *blue = green + width;

@@ -32,6 +32,19 @@ class VideoFrame {
   std::unique_ptr<std::byte[], Free> memory_;
 };
 
+// Frames of one form that are used again when nobody holds them any more: fresh memory costs a video as much time as
+// its filter, because the kernel clears every page. Frames may outlive the pool.
+class FramePool {
+ public:
+  FramePool(Extent size, const Packing& packing);  // as for VideoFrame
+  // A new frame, or an old one with its old pixels. May be called concurrently.
+  std::shared_ptr<VideoFrame> take() const;
+
+ private:
+  struct Shelf;
+  std::shared_ptr<Shelf> shelf_;
+};
+
 // How scene-linear light is displayed. Only float pictures need it; others are display-referred already.
 struct DisplayTransform {
   float exposure = 0.0f;  // EV

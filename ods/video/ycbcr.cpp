@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "ods/base/wide.h"
+
 namespace ods {
 
 Extent chroma_block(Chroma chroma) {
@@ -68,7 +70,7 @@ static Scale scale_of(int bits, bool has_full_range) {
 }
 
 template <typename T>
-static void put_row(std::span<const float> row, const Weights& weights, const Scale& scale, T* out, Color& color,
+ODS_WIDE static void put_row(std::span<const float> row, const Weights& weights, const Scale& scale, T* out, Color& color,
                     float share) {
   const size_t width = row.size() / 3;
   const float *red = row.data(), *green = red + width, *blue = green + width;
@@ -82,7 +84,7 @@ static void put_row(std::span<const float> row, const Weights& weights, const Sc
 }
 
 template <typename T>
-static void put_color(const std::vector<float>& color, const Scale& scale, int step, T* out) {
+ODS_WIDE static void put_color(const std::vector<float>& color, const Scale& scale, int step, T* out) {
   const auto code = [&](float value) {
     const float number = (scale.chroma_zero + scale.chroma * value) * scale.unit + 0.5f;
     return static_cast<T>(std::clamp(number, 0.0f, scale.most));
@@ -127,7 +129,7 @@ static void put_blocks(const CodeBands& bands, Extent size, const Planes& planes
 
 // One chroma plane at row y, columns first, first + 1, ..., as raw numbers.
 template <typename T>
-static void get_color(const Planes& planes, Extent size, size_t plane, int y, int first, std::span<float> out) {
+ODS_WIDE static void get_color(const Planes& planes, Extent size, size_t plane, int y, int first, std::span<float> out) {
   const Extent block = chroma_block(planes.chroma);
   const Extent whole{size.width / block.width, size.height / block.height};
   const auto row_of = [&](int row) {
@@ -164,7 +166,7 @@ static void get_color(const Planes& planes, Extent size, size_t plane, int y, in
 }
 
 template <typename T>
-static void get_row(const Planes& planes, Extent size, const ColorCode& color, int y, int first, std::span<float> row) {
+ODS_WIDE static void get_row(const Planes& planes, Extent size, const ColorCode& color, int y, int first, std::span<float> row) {
   const size_t width = row.size() / 3;
   const std::span<float> red = row.first(width), green = row.subspan(width, width), blue = row.subspan(2 * width);
   get_color<T>(planes, size, 1, y, first, blue);

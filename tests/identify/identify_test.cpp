@@ -146,6 +146,21 @@ TEST_F(Unknown, PhotosOfTwoLensesAreRecognised) {
   }
 }
 
+// Every tile of a test room matches many others, and every wall all others.
+TEST_F(Unknown, ARoomOfTilesIsNotReadWrongly) {
+  const Layout beside = Layout::kSideBySide, stacked = Layout::kTopBottom;
+  for (const Truth& truth :
+       {Truth{std::nullopt, named("lat-long")}, Truth{stacked, named("lat-long")}, Truth{beside, named("lat-long")},
+        Truth{beside, named("vr180")}, Truth{beside, named("fisheye")}, Truth{std::nullopt, named("cube-3x2")},
+        Truth{stacked, named("cube-3x2")}, Truth{stacked, named("eac")}, Truth{std::nullopt, named("perspective")}}) {
+    const Identity identity = identity_of(World::kTiles, truth);
+    const Verdict verdict = verdict_on(identity, truth);
+    EXPECT_TRUE(verdict != Verdict::kWrong && verdict != Verdict::kSureAndWrong)
+        << truth_text(truth) << ", but "
+        << (identity.readings.empty() ? "nothing" : reading_text(identity.best())) << " " << identity.reason;
+  }
+}
+
 // What pixels do not tell is not said surely.
 TEST_F(Unknown, ALensIsNotSure) {
   const Identity identity = identity_of(World::kCave, {std::nullopt, named("fisheye-equisolid")});

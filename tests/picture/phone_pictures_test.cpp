@@ -6,19 +6,20 @@
 
 #include <cmath>
 
-#include "ods/base/bytes.h"
 #include "ods/base/error.h"
-#include "ods/image/format/boxes.h"
 #include "ods/image/heif_items.h"
 #include "ods/image/image_file.h"
 #include "ods/image/orientation.h"
 #include "ods/picture/stored_picture.h"
 #include "ods/video/container/video_file.h"
+#include "tests/support/heif_boxes.h"
 #include "tests/support/programs.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods {
 namespace {
+
+using made::box, made::number;
 
 class Heif : public testing::Test {
  protected:
@@ -98,73 +99,6 @@ TEST_F(Heif, TenBitsStayTenBits) {
   EXPECT_LT(difference(read_image(folder.path("ten.heic")), read_image(folder.path("a.png"))), 0.02);
 }
 
-// --- boxes, as phones write them -------------------------------------------------------------------------------------
-
-std::string number(uint64_t value, int bytes) {
-  std::string text;
-  append_number(text, value, static_cast<size_t>(bytes));
-  return text;
-}
-
-// Adds boxes to `meta`, and moves what follows: the places of the pixels are absolute (iloc).
-std::string with_meta(const std::string& file, const std::string& added, const std::string& property = "") {
-  std::string tail, result = file;
-  size_t at = 0;
-  while (file.substr(at + 4, 4) != "meta") at += get_number(file, at, 4);
-  Box meta = std::move(parse_boxes(std::string_view(file).substr(at, get_number(file, at, 4)), tail)[0]);
-  open_box(meta, 4);
-  size_t grown = added.size();
-  if (!property.empty()) {
-    Box& properties = open_child(meta, box_type("iprp"));
-    Box& all = open_child(properties, box_type("ipco"));
-    Box box;
-    all.children.push_back(parse_boxes(property, tail)[0]);
-    const size_t index = all.children.size();
-    Box& associations = *find_child(properties, box_type("ipma"));
-    std::string& body = associations.body;  // of version 0 and small numbers, as heif-enc writes it
-    size_t entry = 8;
-    for (uint64_t i = 0; i < get_number(body, 4, 4); i++) {
-      const uint64_t count = get_number(body, entry + 2, 1);
-      set_number(body, entry + 2, count + 1, 1);
-      body.insert(entry + 3 + count, 1, static_cast<char>(index));
-      entry += 4 + count;
-      grown++;
-    }
-    grown += property.size();
-  }
-  Box* places = find_child(meta, box_type("iloc"));
-  std::string& iloc = places->body;
-  const uint64_t version = get_number(iloc, 0, 1);
-  EXPECT_LE(version, 1u);
-  const uint64_t sizes = get_number(iloc, 4, 2), offset_size = sizes >> 12, length_size = sizes >> 8 & 15,
-                 base_size = sizes >> 4 & 15;
-  size_t item = 8;
-  for (uint64_t i = 0; i < get_number(iloc, 6, 2); i++) {
-    item += version == 1 ? 4 : 2;
-    item += 2;
-    if (base_size > 0)
-      set_number(iloc, item, get_number(iloc, item, base_size) + (get_number(iloc, item, base_size) > 0 ? grown : 0),
-                 base_size);
-    const bool has_base = base_size > 0 && get_number(iloc, item, base_size) > 0;
-    item += base_size;
-    const uint64_t extents = get_number(iloc, item, 2);
-    item += 2;
-    for (uint64_t k = 0; k < extents; k++) {
-      if (!has_base) set_number(iloc, item, get_number(iloc, item, offset_size) + grown, offset_size);
-      item += offset_size + length_size;
-    }
-  }
-  std::string bytes;
-  write_box(meta, bytes);
-  bytes += added;
-  set_number(bytes, 0, bytes.size(), 4);
-  return result.replace(at, get_number(file, at, 4), bytes);
-}
-
-std::string box(const std::string& type, const std::string& body) {
-  return number(body.size() + 8, 4) + type + body;
-}
-
 // Two pictures in one file: heif-enc takes several.
 TEST_F(Heif, APhonesPairHasBothEyes) {
   write_png("left.png", {128, 96}, 0.1f), write_png("right.png", {128, 96}, 0.8f);
@@ -219,13 +153,40 @@ TEST_F(Heif, DamagedOnesAreOneLine) {
     folder.write("damaged.heic", bytes);
     error("damaged.heic");
   }
-  // A picture of a billion pixels in a file of a thousand bytes.
-  std::string bomb = whole;
-  for (size_t at = bomb.find("ispe"); at != std::string::npos; at = bomb.find("ispe", at + 1)) {
-    bomb.replace(at + 8, 8, number(32768, 4) + number(32768, 4));
+}
+
+// Files of some hundred bytes that ask for gigabytes or years: each is refused in one line.
+TEST_F(Heif, BombsAreRefused) {
+  write_png("a.png", {64, 64});
+  if (encode("-q 90", "a.png", "a.heic").code != 0) GTEST_SKIP() << "skipped: no encoder";
+  const std::string whole = folder.read("a.heic");
+  for (const uint64_t side : {30000u, 60000u, 0x7fffffffu, 0xffffffffu}) {
+    std::string bomb = whole;
+    for (size_t at = bomb.find("ispe"); at != std::string::npos; at = bomb.find("ispe", at + 1)) {
+      bomb.replace(at + 8, 8, number(side, 4) + number(side, 4));
+    }
+    folder.write("bomb.heic", bomb);
+    EXPECT_NE(error("bomb.heic"), "") << side;
+    EXPECT_EQ(error("bomb.heic").find('\n'), std::string::npos);
   }
-  folder.write("bomb.heic", bomb);
-  EXPECT_NE(error("bomb.heic"), "");
+  // Pictures 1, 2, ... each made of four of the next one; and one that is made of itself.
+  const auto made_of = [&](uint64_t item, uint64_t part) {
+    return box("dimg", number(item, 2) + number(4, 2) + number(part, 2) + number(part, 2) + number(part, 2) + number(part, 2));
+  };
+  std::string nested = number(0, 4);
+  for (uint64_t item = 1; item < 30; item++) nested += made_of(item, item + 1);
+  std::string wide = number(0, 4);  // three levels of a thousand
+  for (uint64_t item = 1; item < 4; item++) {
+    std::string parts;
+    for (int i = 0; i < 1000; i++) parts += number(item + 1, 2);
+    wide += box("dimg", number(item, 2) + number(1000, 2) + parts);
+  }
+  for (const std::string& references : {nested, number(0, 4) + made_of(1, 1), wide}) {
+    folder.write("bomb.heic", with_meta(whole, box("iref", references)));
+    EXPECT_NE(error("bomb.heic").find("its pictures are made of"), std::string::npos) << error("bomb.heic");
+  }
+  folder.write("tiles.heic", with_meta(whole, box("iref", number(0, 4) + made_of(9, 1))));
+  EXPECT_EQ(error("tiles.heic"), "") << "which nothing shows";
 }
 
 TEST(HeifNames, OtherFilesThatBeginAlikeAreCalledByTheirNames) {

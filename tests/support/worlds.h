@@ -19,10 +19,11 @@
 
 namespace ods {
 
-enum class World { kHall, kField, kCave };
-inline constexpr std::array kWorlds = {World::kHall, World::kField, World::kCave};
+enum class World { kHall, kField, kCave, kTiles };
+inline constexpr std::array kWorlds = {World::kHall, World::kField, World::kCave};  // as pictures are
 inline std::string world_name(World world) {
-  return world == World::kHall ? "hall" : world == World::kField ? "field" : "cave";
+  constexpr std::array kNames = {"hall", "field", "cave", "tiles"};
+  return kNames[static_cast<size_t>(world)];
 }
 
 // Smooth noise of the octaves from `size` metres down, 0..1.
@@ -104,12 +105,29 @@ inline vec3 cave_at(vec3 origin, vec3 direction) {
   return light * vec3(0.2f + noise_at(p, 0.9f, 71), 0.2f + noise_at(p, 0.8f, 72), 0.2f + noise_at(p, 1.0f, 73));
 }
 
+// A test room: checks of half a metre on all six sides, and its four walls are alike.
+inline vec3 tiles_at(vec3 origin, vec3 direction) {
+  const vec3 low(-2.5f, -1.5f, -2.5f), high(2.5f, 1.5f, 2.5f);
+  float t = std::numeric_limits<float>::max();
+  int wall = 0;
+  for (int i = 0; i < 3; i++) {
+    const float d = direction[i], edge = d > 0.0f ? high[i] : low[i];
+    if (d != 0.0f && (edge - origin[i]) / d < t) t = (edge - origin[i]) / d, wall = i;
+  }
+  const vec3 p = (origin + t * direction) * 2.0f;
+  int sum = 0;
+  for (int i = 0; i < 3; i++) sum += i == wall ? 0 : static_cast<int>(std::floor(p[i]));
+  return vec3(sum % 2 == 0 ? 0.6f : 0.15f) * (wall == 1 ? 0.8f : 1.0f);
+}
+
 inline vec3 world_at(World world, vec3 origin, vec3 direction) {
   switch (world) {
     case World::kHall:
       return hall_at(origin, direction);
     case World::kField:
       return field_at(origin, direction);
+    case World::kTiles:
+      return tiles_at(origin, direction);
     case World::kCave:
       break;
   }

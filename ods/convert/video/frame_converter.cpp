@@ -96,13 +96,18 @@ struct FrameConverter::State {
   FrameFormat format;
   std::optional<ConversionPlan> plan;             // the same for all frames; none: each is turned by angles of its own
   std::optional<std::vector<PixelShift>> shifts;  // frames are copied
+  FramePool frames;
 
   std::shared_ptr<VideoFrame> copy(const DecodedFrame& frame) const;
 };
 
+static Extent size_of(const ConvertTarget& target, const FrameFormat& format) {
+  return packed_size(format.layout, target.eye, static_cast<int>(target.eyes.size()));
+}
+
 FrameConverter::FrameConverter(const VideoInput& video, const VideoStream& stream, const ConvertTarget& target,
                                const FrameFormat& format, bool has_turns)
-    : state_(new State{video, stream, target, format, {}, {}}) {
+    : state_(new State{video, stream, target, format, {}, {}, {size_of(target, format), format.packing}}) {
   if (has_turns) return;
   state_->plan = make_plan(video.prototype, target);
   const bool same_numbers = format.packing.bits == stream.bits && format.packing.chroma == stream.chroma &&
@@ -120,7 +125,7 @@ std::shared_ptr<VideoFrame> FrameConverter::State::copy(const DecodedFrame& fram
   const StoredPicture& old = video.prototype;
   const Extent size = target.eye;
   const int eyes = static_cast<int>(target.eyes.size());
-  auto result = std::make_shared<VideoFrame>(packed_size(format.layout, size, eyes), format.packing);
+  std::shared_ptr<VideoFrame> result = frames.take();
   for (int i = 0; i < eyes; i++) {
     const PixelShift& shift = (*shifts)[static_cast<size_t>(i)];
     copy_shifted(planes_of(frame.planes, old.layout, old.size, old.eyes.size(), shift.source_eye), old.size, shift,
@@ -146,7 +151,7 @@ std::shared_ptr<VideoFrame> FrameConverter::convert(const DecodedFrame& frame, c
   const Extent eye = state.target.eye;
   const int eyes = static_cast<int>(state.target.eyes.size());
   const size_t width = static_cast<size_t>(eye.width);
-  auto result = std::make_shared<VideoFrame>(packed_size(state.format.layout, eye, eyes), state.format.packing);
+  std::shared_ptr<VideoFrame> result = state.frames.take();
   for (int i = 0; i < eyes; i++) {
     const auto codes = [&](int y, int count, std::span<float> out) {
       thread_local std::vector<float> pixels;

@@ -10,6 +10,8 @@
 #include <new>
 
 #include "ods/base/bytes.h"
+#include "ods/base/text.h"
+#include "ods/files/memory_file.h"
 #include "ods/image/codec/decoder.h"
 #include "ods/image/format/image_limits.h"
 #include "ods/image/heif_items.h"
@@ -47,17 +49,21 @@ class HeifDecoder final : public Decoder {
   int bits_ = 8;
 };
 
-HeifItems items_of(const PictureBytes& file) {
+// Of a picture inside another file only that it asks for nothing impossible.
+HeifItems items_of(const PictureBytes& file, const std::vector<uint8_t>& bytes) {
   try {
-    return file.on_disk ? read_heif_items(FileInput(file.name)) : HeifItems();
+    if (file.on_disk) return read_heif_items(FileInput(file.name));
+    const MemoryFile memory({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    read_heif_items(FileInput(memory.path()));
+    return {};
   } catch (const MalformedFile& fault) {
     throw cannot_read(file.name, fault.what());
   }
 }
 
 HeifDecoder::HeifDecoder(const PictureBytes& file, int view) : name_(file.name), file_(file.size) {
-  const HeifItems items = items_of(file);
   if (!file.read(0, file_.data(), file_.size())) throw cannot_read(name_, "reading stopped halfway");
+  const HeifItems items = items_of(file, file_);
   context_.reset(heif_context_alloc());
   if (!context_) throw std::bad_alloc();
   heif_context_set_maximum_image_size_limit(context_.get(), kMaxSide);
@@ -89,7 +95,7 @@ void HeifDecoder::check(const heif_error& error) const {
                                          "libheif-plugin-libde265 (HEIC) and libheif-plugin-dav1d (AVIF) have them",
                                          error.message));
   }
-  throw cannot_read(name_, fmt::format("the HEIF is damaged or unusual: {}", error.message));
+  throw cannot_read(name_, "the HEIF is damaged or unusual: " + one_line(error.message));
 }
 
 void HeifDecoder::decode() {

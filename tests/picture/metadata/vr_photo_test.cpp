@@ -22,6 +22,7 @@
 #include "ods/picture/metadata/metadata.h"
 #include "ods/picture/metadata/tag_picture.h"
 #include "ods/picture/save.h"
+#include "tests/support/camera_photos.h"
 #include "tests/support/decoded_video.h"
 #include "tests/support/temporary_folder.h"
 
@@ -282,49 +283,6 @@ TEST_F(Photo, AWrongMd5IsAWarning) {
   EXPECT_EQ(right_eye(), right);
 }
 
-// How an XMP of elements, with one quote and one description for each namespace, describes a photo of square eyes.
-std::string elements(const std::string& gpano, const std::string& id) {
-  const auto description = [](const std::string& name, const std::string& space, const std::string& inside) {
-    return "<rdf:Description rdf:about='' xmlns:" + name + "='" + space + "'>\n" + inside + "\n</rdf:Description>\n";
-  };
-  return "<?xpacket begin='' id='W5M0MpCehiHzreSzNTczkc9d'?>\n<x:xmpmeta xmlns:x='adobe:ns:meta/'>\n"
-         "<rdf:RDF xmlns:rdf='http://www.w3.org/1999/02/22-rdf-syntax-ns#'>\n" +
-         description("xmpNote", "http://ns.adobe.com/xmp/note/",
-                     "<xmpNote:HasExtendedXMP>" + id + "</xmpNote:HasExtendedXMP>") +
-         description("GImage", "http://ns.google.com/photos/1.0/image/", "<GImage:Mime>image/jpeg</GImage:Mime>") +
-         description("GPano", "http://ns.google.com/photos/1.0/panorama/", gpano) +
-         "</rdf:RDF>\n</x:xmpmeta>\n<?xpacket end='w'?>";
-}
-
-std::string crop(const std::string& image, const std::string& whole, const std::string& left, const std::string& top) {
-  std::string text;
-  const auto add = [&](const std::string& name, const std::string& value) {
-    text += "<GPano:" + name + ">" + value + "</GPano:" + name + ">\n";
-  };
-  add("CroppedAreaImageHeightPixels", image), add("CroppedAreaImageWidthPixels", image);
-  add("CroppedAreaLeftPixels", left), add("CroppedAreaTopPixels", top);
-  add("FullPanoHeightPixels", whole), add("FullPanoWidthPixels", std::to_string(2 * std::stoi(whole)));
-  return text;
-}
-
-// A photo with this in its standard and in its extended XMP.
-std::string photo_of(const std::string& left, const std::string& gpano, const std::string& data) {
-  const auto number = [](size_t value) {
-    std::string bytes;
-    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
-    return bytes;
-  };
-  const std::string body = "<x:xmpmeta xmlns:x='adobe:ns:meta/'><rdf:RDF><rdf:Description>" + data +
-                           "</rdf:Description></rdf:RDF></x:xmpmeta>";
-  const std::string id = md5(body);
-  std::string photo = left.substr(0, 2) + jpeg_segment(kJpegApp1, std::string(kJpegXmp) + elements(gpano, id));
-  for (size_t at = 0; at < body.size(); at += 3000) {
-    const std::string head = std::string(kJpegExtendedXmp) + id + number(body.size()) + number(at);
-    photo += jpeg_segment(kJpegApp1, head + body.substr(at, 3000));
-  }
-  return photo + left.substr(2);
-}
-
 // VR180 cameras and Google's own writer for them.
 struct Camera {
   const char* what;
@@ -352,10 +310,7 @@ class Vr180 : public Photo, public testing::WithParamInterface<int> {
     const TemporaryFolder eyes;
     save_picture(two_eyes({64, 64}), {}, eyes.path("%V.jpg"));
     const std::string left = eyes.read("left.jpg"), right = eyes.read("right.jpg");
-    std::string letters = encode_base64(right);
-    for (size_t at = 76; at < letters.size(); at += 77) letters.insert(at, "\n");
-    const std::string data = "<GImage:Data>\n" + letters + "\n</GImage:Data>";
-    folder.write("a.vr.jpg", photo_of(left, camera().gpano, data));
+    folder.write("a.vr.jpg", photo_of(left, camera().gpano, in_lines(right)));
     right_ = right;
   }
 
