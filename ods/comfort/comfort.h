@@ -50,11 +50,13 @@ struct StrainedPlace {
   double distance = 0.0;   // metres from the circle's centre
   double share = 0.0;      // of what the picture shows, by solid angle: where this thing is not ok
   double enough = 0.0;     // the distance, in the same direction, from which on it is no more than a caution
+  float ipd = 0.0f;        // the largest of the picture with which it is no more than a caution, at its distance
 };
 
 struct ComfortReport {
-  std::array<double, 4> share{};      // of what the picture shows, by solid angle, at each ComfortLevel
-  std::array<double, 4> most{};       // of each Strain
+  std::array<double, 4> share{};      // of what the picture shows and is known, by solid angle, at each ComfortLevel
+  std::array<double, 4> looked{};     // likewise, weighted by where people look: looked_at()
+  std::array<double, std::size(kStrains)> most{};  // of each Strain
   std::vector<StrainedPlace> places;  // worst first
   double nearest = 0.0;               // metres; infinite if there is nothing
   double unknown = 0.0;               // share of pixels without a depth
