@@ -59,14 +59,7 @@ Json place_json(const StrainedPlace& place) {
 }  // namespace
 
 std::string direction_text(const StrainedPlace& place) {
-  const auto around = std::lround(std::abs(place.azimuth)), above = std::lround(std::abs(place.elevation));
-  std::string text = around == 0     ? "ahead"
-                     : around == 180 ? "behind"
-                                     : fmt::format("{} degrees {}", around, place.azimuth < 0.0 ? "left" : "right");
-  if (above > 0)
-    text += fmt::format(", {}{} {}", above, around == 0 || around == 180 ? " degrees" : "",
-                        place.elevation < 0.0 ? "down" : "up");
-  return text;
+  return ods::direction_text(place.azimuth, place.elevation);
 }
 
 std::string thing_text(const StrainedPlace& place) {

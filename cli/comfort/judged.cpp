@@ -6,14 +6,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numbers>
 #include <set>
 #include <utility>
 
+#include "cli/comfort/first_look.h"
 #include "cli/console/console.h"
 #include "ods/convert/reproject.h"
 #include "ods/convert/unwrap.h"
 #include "ods/identify/identify.h"
 #include "ods/image/tone.h"
+#include "ods/picture/cryptomatte.h"
 #include "ods/picture/load_eyes.h"
 #include "ods/picture/save.h"
 #include "ods/picture/stored_picture.h"
@@ -24,31 +28,8 @@
 namespace {
 
 constexpr int kMostWidth = 2048;         // of what is judged
+constexpr double kLeastAround = 256.0;  // pixels of a picture without depth
 constexpr double kLeastMatched = 0.02;  // of a picture without depth
-
-// What each instance of a scene is called: a name for each, and each instance's index in the names. Instances that have
-// none go by their material.
-struct Things {
-  std::vector<std::string> names;
-  std::vector<int> of_instance;
-};
-
-Things things_of(const ods::Scene& scene) {
-  Things things{{}, std::vector<int>(scene.instances.size(), -1)};
-  for (const ods::NamedObject& object : scene.objects) {
-    for (size_t i = 0; i < object.count; i++) {
-      things.of_instance[object.first_instance + i] = static_cast<int>(things.names.size());
-    }
-    things.names.push_back(object.name);
-  }
-  for (size_t i = 0; i < scene.instances.size(); i++) {
-    if (things.of_instance[i] >= 0) continue;
-    const auto material = static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].material);
-    things.of_instance[i] = static_cast<int>(things.names.size());
-    things.names.push_back(material < scene.material_names.size() ? scene.material_names[material] : "");
-  }
-  return things;
-}
 
 // What rays from the circle's middle meet before they leave it.
 std::vector<std::string> hidden_in_circle(const ods::CpuRenderer& renderer, const ods::StereoCamera& camera,
@@ -84,12 +65,38 @@ ods::Image colors_of(const ods::StoredPicture& picture, size_t eye, int width, i
   return light;
 }
 
+std::optional<ods::Cryptomatte> matte_of(const std::string& path) {
+  return ods::find_cryptomatte(ods::read_info(ods::names_eye(path) ? ods::path_for_eye(path, ods::kLeft) : path));
+}
+
+// numbers: of what each pixel shows; chosen: the pixels that are judged.
+void name_things(ods::SeenDepth& seen, const ods::Image& numbers, const std::vector<size_t>& chosen,
+                 const ods::Cryptomatte& matte) {
+  if (numbers.pixels.empty() || matte.names.empty()) return;
+  std::map<float, int> places;
+  for (const auto& [number, name] : matte.names) {
+    if (name.empty()) continue;
+    places[number] = static_cast<int>(seen.names.size());
+    seen.names.push_back(name);
+  }
+  for (const size_t pixel : chosen) {
+    const auto found = places.find(numbers.pixels[pixel]);
+    seen.things.push_back(found == places.end() ? -1 : found->second);
+  }
+}
+
 Looked match_picture(const ods::StoredPicture& picture, const std::string& name) {
   if (picture.eyes.size() != 2) {
     throw ods::Error(ods::ErrorKind::kInput,
                      fmt::format("'{}' has one eye and no depth (a layer Z, metres along the ray): nothing in it tells "
                                  "how far things are. If it has two eyes, say --layout",
                                  name));
+  }
+  const double around = 2.0 * std::numbers::pi * ods::pixels_per_radian(picture.camera.projection, picture.size.width);
+  if (around < kLeastAround) {
+    throw ods::Error(ods::ErrorKind::kInput,
+                     fmt::format("'{}' has no depth, and its eyes have {:.0f} pixels around: too few to be matched", name,
+                                 around));
   }
   if (!picture.has_ipd) note("no word says how far apart its eyes are: distances are for 65 mm");
   ods::MatchedEyes matched = ods::match_eyes_for_depth(ods::grey_eyes(picture), picture.camera, picture.is_float);
@@ -117,19 +124,14 @@ Looked look_at_scene(const ComfortJob& job) {
     ods::use_merge_map(camera, ods::merge_map_of(ods::shares_seen(renderer, camera, *job.camera.merge_limit)));
   }
   const Things things = things_of(scene);
-  const std::vector<int> eyes = ods::eye_list(options.eyes);
-  const std::vector<std::vector<ods::Hit>> hits = renderer.center_hits(camera, options);
   Looked looked{camera, {}, {}, hidden_in_circle(renderer, camera, options, things)};
-  for (size_t i = 0; i < eyes.size(); i++) {
-    Judged& judged = looked.eyes.emplace_back();
-    judged.seen = {camera, eyes[i], ods::Image(options.width, options.height, 1), {}, things.names};
-    judged.light = ods::Image(options.width, options.height, 3);
-    for (size_t k = 0; k < hits[i].size(); k++) {
-      const ods::Hit& hit = hits[i][k];
-      judged.seen.depth.pixels[k] = hit.t < 0.0f ? ods::kFarDepth : hit.t;
-      std::fill_n(&judged.light.pixels[3 * k], 3, hit.t < 0.0f ? 0.8f : 0.5f / (1.0f + hit.t));
-      judged.seen.things.push_back(hit.t < 0.0f ? -1 : things.of_instance[static_cast<size_t>(hit.instance)]);
+  for (ods::SeenDepth& seen : look_from(renderer, things, camera, options)) {
+    ods::Image light(options.width, options.height, 3);
+    for (size_t k = 0; k < seen.depth.pixels.size(); k++) {
+      const float depth = seen.depth.pixels[k];
+      std::fill_n(&light.pixels[3 * k], 3, ods::is_surface(depth) ? 0.5f / (1.0f + depth) : 0.8f);
     }
+    looked.eyes.push_back({std::move(seen), std::move(light)});
   }
   return looked;
 }
@@ -143,13 +145,15 @@ Looked look_at_picture(const ComfortJob& job) {
   for (const std::string& text : notes) note(text);
   if (!picture.maps.empty()) picture = ods::unwrapped(picture);
   if (!ods::depth_layer(picture)) return match_picture(picture, job.scene.name);
+  const std::optional<ods::Cryptomatte> matte = matte_of(job.scene.name);
   const bool shows = !job.heat.empty() || !job.html.empty();
   Looked looked{picture.camera, {}, {}, {}};
   for (size_t i = 0; i < picture.eyes.size(); i++) {
     Judged& judged = looked.eyes.emplace_back();
-    judged.seen = {
-        picture.camera, picture.eyes[i].eye, ods::nearest_of_blocks(ods::depth_of_eye(picture, i), kMostWidth), {}, {}};
-    const ods::Image& depth = judged.seen.depth;
+    std::vector<size_t> chosen;
+    const ods::Image depth = ods::nearest_of_blocks(ods::depth_of_eye(picture, i), kMostWidth, &chosen);
+    judged.seen = {picture.camera, picture.eyes[i].eye, depth, {}, {}};
+    if (matte) name_things(judged.seen, ods::matte_of_eye(picture, i, *matte), chosen, *matte);
     if (shows) judged.light = colors_of(picture, i, depth.width, depth.height);
   }
   return looked;

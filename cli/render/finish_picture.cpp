@@ -3,9 +3,11 @@
 #include "cli/render/finish_picture.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "cli/options/picture_options.h"
 #include "ods/denoise/oidn.h"
+#include "ods/picture/cryptomatte.h"
 #include "ods/render/light_cache.h"
 
 // A video's frames are .exr, but what is looked at is the video. One sample has no variance.
@@ -32,7 +34,8 @@ ods::RenderOptions options_to_finish(const RenderJob& job) {
 }
 
 std::vector<std::string> finish_picture(const RenderJob& job, const ods::StereoCamera& camera, ods::Picture picture,
-                                        const std::string& path, std::span<const ods::FrameBeside> beside) {
+                                        const std::string& path, std::span<const ods::FrameBeside> beside,
+                                        std::optional<ObjectLayer> objects) {
   ods::Denoiser denoiser = denoiser_of(job);
   if (denoiser == ods::Denoiser::kOwn && !has_variance(picture)) denoiser = ods::Denoiser::kNone;
   const bool keeps_raw = denoiser != ods::Denoiser::kNone && job.render.layers;
@@ -54,5 +57,8 @@ std::vector<std::string> finish_picture(const RenderJob& job, const ods::StereoC
   const bool cached = ods::light_cache_paths(options) > 0;
   const ods::Indirect indirect = cached ? ods::Indirect::kCache : ods::Indirect::kPath;
   save.attributes.push_back({"ods:indirect", std::string(ods::indirect_name(indirect))});
-  return ods::save_picture(picture, camera, save, path);
+  if (!objects) return ods::save_picture(picture, camera, save, path);
+  ods::PictureRows rows = ods::rows_of(picture, true);
+  ods::add_cryptomatte(rows, save, std::move(objects->numbers), objects->names);
+  return ods::save_picture(rows, &camera, save, path);
 }

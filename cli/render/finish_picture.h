@@ -3,6 +3,7 @@
 //
 // From a rendered picture to its files: denoised if the job wants it, saved.
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,7 +18,14 @@ ods::Denoiser denoiser_of(const RenderJob& job);
 // The options with the layers that saving the job's pictures needs, and denoising them.
 ods::RenderOptions options_to_finish(const RenderJob& job);
 
+// Which object each pixel of each eye shows; as in ods/picture/cryptomatte.h.
+struct ObjectLayer {
+  std::vector<ods::Image> numbers;
+  std::vector<std::string> names;
+};
+
 // `picture` was rendered with options_to_finish(), or with more layers. beside: the frames beside it in a video.
 // Returns the names of the files.
 std::vector<std::string> finish_picture(const RenderJob& job, const ods::StereoCamera& camera, ods::Picture picture,
-                                        const std::string& path, std::span<const ods::FrameBeside> beside = {});
+                                        const std::string& path, std::span<const ods::FrameBeside> beside = {},
+                                        std::optional<ObjectLayer> objects = {});

@@ -11,6 +11,7 @@
 #include <limits>
 #include <set>
 
+#include "cli/comfort/first_look.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/camera_options.h"
@@ -92,6 +93,7 @@ void note_straight_light(const RenderJob& job, const ods::Scene& scene) {
 
 constexpr size_t kLooks = 5;  // at a video, spread evenly
 constexpr size_t kMergeLooks = 16;
+constexpr double kLongSamples = 2e7;  // in all pixels: rendering takes more than a few seconds
 
 // Indices of so many frames, spread evenly; of fewer if there are fewer.
 std::set<size_t> looks_at(const std::vector<Frame>& frames, size_t count) {
@@ -162,7 +164,7 @@ Rendered FrameRenderer::render(const Frame& frame, const std::function<void(doub
   const ods::RenderOptions options = options_for(frame, camera);
   ods::Progress progress;
   progress.report = part;
-  if (!asks_for_video(time_)) return render_still(job_, *renderer_, cameras, options, progress);
+  if (!asks_for_video(time_)) return render_still(job_, *renderer_, scene_, cameras, options, progress);
   ods::Picture picture = renderer_->render(cameras, options, progress);
   const double samples = picture.samples_taken;
   return {finish_picture(job_, camera, std::move(picture), frame.path), samples};
@@ -224,6 +226,20 @@ ods::Image FrameRenderer::find_merge(const std::vector<Frame>& frames) {
       "down",
       full(89, -1), full(90, 1), 100.0f * map.at(0, 0)[0], 100.0f * map.at(0, map.height - 1)[0]));
   return map;
+}
+
+// One line for all frames, and none where the job is a part of one: the others would say it again.
+void FrameRenderer::warn_of_strain(const std::vector<Frame>& frames) {
+  const double samples = 2.0 * job_.render.width * job_.render.width / 2.0 * job_.render.samples;
+  const bool is_long = samples * static_cast<double>(frames.size()) >= kLongSamples;
+  if (!is_long || job_.part || ods::eye_list(job_.render.eyes).size() < 2) return;
+  for (const size_t i : looks_at(frames, kLooks)) {
+    const std::vector<ods::StereoCamera> cameras = set_time(frames[i]);
+    const std::string line =
+        strain_line(*renderer_, scene_, cameras[cameras.size() / 2], ods::ComfortLevel::kError);
+    if (line.empty()) continue;
+    return warn(line + (job_.camera.merge_limit ? "" : ", or --merge auto or a smaller --ipd") + "; ods comfort has more");
+  }
 }
 
 // Options for a picture of the same kind that takes a 64th of the time; more where few pixels would tell little, and

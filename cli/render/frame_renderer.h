@@ -65,6 +65,9 @@ class FrameRenderer {
   // Notes what it chose. Precondition: the job asks for it.
   ods::Image find_merge(const std::vector<Frame>& frames);
 
+  // Says once, before a long rendering, if something in some of `frames` strains the viewer's eyes to an error.
+  void warn_of_strain(const std::vector<Frame>& frames);
+
   // Reads what keep_raw() has written, if it is there; else renders.
   RawFrame render_raw(const Frame& frame, const std::function<void(double done)>& report);
 

@@ -158,6 +158,7 @@ void render_job(const RenderJob& wanted, ProgressLines& lines) {
   say_room(job, frames);
   FrameRenderer renderer(job, time, scene, all.front());
   settle_merge(job, renderer, all);
+  renderer.warn_of_strain(all);
   job.save.exposure = renderer.find_exposure(all);
   if (scene.as_painted && !gives(job, "--tone")) job.save.tone = ods::ToneCurve::kLinear;
   const auto start = std::chrono::steady_clock::now();
@@ -208,6 +209,7 @@ RenderedFrames render_frames(const RenderJob& wanted, const StepReport& report,
   const bool shared = !time.only.empty();
   FrameRenderer renderer(job, time, scene, all.front());
   if (!frames.empty()) settle_merge(job, renderer, all);
+  if (!frames.empty() && !shared) renderer.warn_of_strain(all);
   const float exposure = renderer.find_exposure(all);
   if (!frames.empty()) {
     note(fmt::format("to render: {} frame{}, {}x{} per eye, at most {} samples per pixel", frames.size(),

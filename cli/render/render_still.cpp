@@ -4,10 +4,15 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <utility>
+
+#include "cli/comfort/first_look.h"
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
 #include "cli/render/finish_picture.h"
 #include "cli/render/unfinished_picture.h"
+#include "ods/picture/cryptomatte.h"
 #include "ods/render/part_file.h"
 #include "ods/render/render_target.h"
 
@@ -19,35 +24,55 @@ const char* stopping_words() {
   return stderr_is_terminal() ? "\r\x1b[Kods: stopping; Ctrl-C again ends at once\n" : "ods: stopping\n";
 }
 
+std::optional<ObjectLayer> objects_of(const RenderJob& job, const ods::CpuRenderer& renderer, const ods::Scene& scene,
+                                      const ods::StereoCamera& camera, const ods::RenderOptions& options) {
+  if (!job.object_layer) return {};
+  const Things things = things_of(scene);
+  std::vector<float> numbers;
+  for (const std::string& name : things.names) numbers.push_back(name.empty() ? 0.0f : ods::matte_number(name));
+  ObjectLayer layer{{}, things.names};
+  for (const std::vector<ods::Hit>& hits : renderer.center_hits(camera, options)) {
+    ods::Image& image = layer.numbers.emplace_back(options.width, options.height, 1);
+    for (size_t i = 0; i < hits.size(); i++) {
+      if (hits[i].t < 0.0f) continue;
+      image.pixels[i] = numbers[static_cast<size_t>(things.of_instance[static_cast<size_t>(hits[i].instance)])];
+    }
+  }
+  return layer;
+}
+
 Rendered finish(const RenderJob& job, const ods::StereoCamera& camera, const ods::RenderOptions& options,
-                ods::PictureSamples samples) {
+                ods::PictureSamples samples, std::optional<ObjectLayer> objects) {
   const auto taken = static_cast<double>(ods::count_samples(samples));
   if (job.part) return {{ods::save_part(job.output, sampled_picture(job, options, camera), samples)}, taken};
-  return {finish_picture(job, camera, ods::develop(std::move(samples), options), job.output), taken};
+  return {finish_picture(job, camera, ods::develop(std::move(samples), options), job.output, {}, std::move(objects)),
+          taken};
 }
 
 [[noreturn]] void end_early(const RenderJob& job, const ods::StereoCamera& camera, const ods::RenderOptions& options,
-                            ods::PictureSamples& samples, const UnfinishedPicture& unfinished, const GentleStop& stop) {
+                            ods::PictureSamples& samples, std::optional<ObjectLayer> objects,
+                            const UnfinishedPicture& unfinished, const GentleStop& stop) {
   if (unfinished.is_kept()) {
     const std::string& path = unfinished.path();
     note(fmt::format("what is rendered is kept in '{}': the same command with --resume goes on{}", path,
                      job.save_unfinished ? "" : fmt::format(", ods merge '{}' -o FILE saves it as it is", path)));
   }
   if (job.save_unfinished) {
-    for (const std::string& file : finish(job, camera, options, std::move(samples)).files) announce_file(file);
+    for (const std::string& file : finish(job, camera, options, std::move(samples), std::move(objects)).files) announce_file(file);
   }
   stop.end();
 }
 
 }  // namespace
 
-Rendered render_still(const RenderJob& job, const ods::CpuRenderer& renderer,
+Rendered render_still(const RenderJob& job, const ods::CpuRenderer& renderer, const ods::Scene& scene,
                       std::span<const ods::StereoCamera> cameras, const ods::RenderOptions& options,
                       const ods::Progress& progress) {
   const ods::StereoCamera& camera = cameras[cameras.size() / 2];
   ods::check_picture_memory(options);
   UnfinishedPicture unfinished(job, options, camera);
   ods::PictureSamples samples = unfinished.begin();
+  std::optional<ObjectLayer> objects = objects_of(job, renderer, scene, camera, options);
   {
     const GentleStop stop(stopping_words());
     ods::Progress stoppable = progress;
@@ -57,10 +82,10 @@ Rendered render_still(const RenderJob& job, const ods::CpuRenderer& renderer,
                       [&](const ods::PictureSamples& now) { unfinished.keep(now); });
     } catch (const ods::Error& error) {
       if (error.kind() != ods::ErrorKind::kCancelled) throw;
-      end_early(job, camera, options, samples, unfinished, stop);
+      end_early(job, camera, options, samples, std::move(objects), unfinished, stop);
     }
   }
-  Rendered rendered = finish(job, camera, options, std::move(samples));
+  Rendered rendered = finish(job, camera, options, std::move(samples), std::move(objects));
   unfinished.remove();
   return rendered;
 }

@@ -18,7 +18,7 @@ struct Rendered {
 };
 
 // Renders job.output. Ends the process if a signal interrupts it, after keeping what is rendered.
-Rendered render_still(const RenderJob& job, const ods::CpuRenderer& renderer,
+Rendered render_still(const RenderJob& job, const ods::CpuRenderer& renderer, const ods::Scene& scene,
                       std::span<const ods::StereoCamera> cameras, const ods::RenderOptions& options,
                       const ods::Progress& progress);
 

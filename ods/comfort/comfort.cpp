@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/comfort/comfort.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -23,6 +24,7 @@ namespace {
 constexpr double kDegree = pi / 180.0, kArcMinute = kDegree / 60.0;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr size_t kMostPlaces = 10;
+constexpr double kBeside = 20.0 * kDegree;
 
 double cross_length(vec3 a, vec3 b) {
   return double{length(cross(a, b))};
@@ -89,6 +91,7 @@ class Judge {
   double rank_of(const Point& point) const;
   double circle_for(size_t pixel) const;
   StrainedPlace describe(size_t pixel, double share) const;
+  std::vector<int> things_or_areas() const;
   void list_places(ComfortReport& report, double all) const;
   double steradians_of_pixel() const;
 
@@ -274,15 +277,34 @@ StrainedPlace Judge::describe(size_t pixel, double share) const {
   return place;
 }
 
-void Judge::list_places(ComfortReport& report, double all) const {
+// What strains and has no name is an area: numbered after the names.
+std::vector<int> Judge::things_or_areas() const {
   AreaGrid grid{width_, height_, is_whole_turn(), {}, {}};
-  if (seen_.things.empty()) {
-    for (const Point& point : points_) {
-      grid.is_in.push_back(point.level != ComfortLevel::kOk);
-      grid.nearness.push_back(1.0f / point.distance);
-    }
+  const bool has_things = !seen_.things.empty();
+  for (size_t i = 0; i < points_.size(); i++) {
+    grid.is_in.push_back(points_[i].level != ComfortLevel::kOk && !(has_things && seen_.things[i] >= 0));
+    grid.nearness.push_back(1.0f / points_[i].distance);
   }
-  const std::vector<int> areas = seen_.things.empty() ? connected_areas(grid) : seen_.things;
+  std::vector<int> areas = connected_areas(grid);
+  for (size_t i = 0; i < areas.size(); i++) {
+    if (areas[i] >= 0) areas[i] += static_cast<int>(seen_.names.size());
+    else if (has_things) areas[i] = seen_.things[i];
+  }
+  return areas;
+}
+
+// Whether an area says nothing that a worse one beside it does not say.
+bool is_part_of(const StrainedPlace& place, const StrainedPlace& worse) {
+  if (!place.name.empty() || !worse.name.empty() || place.strain != worse.strain) return false;
+  const auto way = [](const StrainedPlace& each) {
+    const double a = each.azimuth * kDegree, e = each.elevation * kDegree;
+    return glm::dvec3(std::cos(e) * std::sin(a), std::sin(e), -std::cos(e) * std::cos(a));
+  };
+  return place.share < worse.share && glm::dot(way(place), way(worse)) > std::cos(kBeside);
+}
+
+void Judge::list_places(ComfortReport& report, double all) const {
+  const std::vector<int> areas = things_or_areas();
   struct Thing {
     size_t worst = 0;
     double rank = 0.0, share = 0.0;
@@ -300,10 +322,12 @@ void Judge::list_places(ComfortReport& report, double all) const {
     if (things[i].rank > 0.0) order.push_back(i);
   }
   std::ranges::stable_sort(order, [&](size_t a, size_t b) { return things[a].rank > things[b].rank; });
-  order.resize(std::min(order.size(), kMostPlaces));
   for (const size_t i : order) {
-    report.places.push_back(describe(things[i].worst, things[i].share / all));
-    if (i < seen_.names.size()) report.places.back().name = seen_.names[i];
+    StrainedPlace place = describe(things[i].worst, things[i].share / all);
+    if (i < seen_.names.size()) place.name = seen_.names[i];
+    if (std::ranges::any_of(report.places, [&](const StrainedPlace& worse) { return is_part_of(place, worse); })) continue;
+    report.places.push_back(std::move(place));
+    if (report.places.size() == kMostPlaces) break;
   }
 }
 
@@ -363,16 +387,28 @@ ComfortLevel worst_level(const ComfortReport& report) {
   return worst;
 }
 
-Image nearest_of_blocks(const Image& depth, int most_width) {
-  const int block = (depth.width + most_width - 1) / most_width;
-  if (block <= 1) return depth;
+std::string direction_text(double azimuth, double elevation) {
+  const auto around = std::lround(std::abs(azimuth)), above = std::lround(std::abs(elevation));
+  const bool is_side = around != 0 && around != 180;
+  std::string text = is_side ? fmt::format("{} degrees {}", around, azimuth < 0.0 ? "left" : "right")
+                             : around == 0 ? "ahead" : "behind";
+  if (above > 0) text += fmt::format(", {}{} {}", above, is_side ? "" : " degrees", elevation < 0.0 ? "down" : "up");
+  return text;
+}
+
+Image nearest_of_blocks(const Image& depth, int most_width, std::vector<size_t>* chosen) {
+  const int block = std::max(1, (depth.width + most_width - 1) / most_width);
   Image nearest((depth.width + block - 1) / block, (depth.height + block - 1) / block, 1);
   std::ranges::fill(nearest.pixels, std::numeric_limits<float>::quiet_NaN());
+  if (chosen) chosen->assign(nearest.pixels.size(), 0);
   for (int y = 0; y < depth.height; y++) {
+    const float* row = depth.at(0, y);
     for (int x = 0; x < depth.width; x++) {
-      float& least = nearest.at(x / block, y / block)[0];
-      const float value = depth.at(x, y)[0];
-      if (value > 0.0f && !(value >= least)) least = value;
+      const size_t at = static_cast<size_t>(nearest.at(x / block, y / block) - nearest.pixels.data());
+      float& least = nearest.pixels[at];
+      if (!(row[x] > 0.0f) || row[x] >= least) continue;
+      least = row[x];
+      if (chosen) (*chosen)[at] = static_cast<size_t>(&row[x] - depth.pixels.data());
     }
   }
   return nearest;

@@ -70,8 +70,11 @@ ComfortReport judge_comfort(const SeenDepth& seen, const ComfortOptions& options
 // The worst level of anything.
 ComfortLevel worst_level(const ComfortReport& report);
 
+// "23 degrees right, 12 down".
+std::string direction_text(double azimuth, double elevation);
+
 // The depth of a picture that is at most `most_width` wide: the nearest of each block of pixels. Blocks without a depth
-// are NaN.
-Image nearest_of_blocks(const Image& depth, int most_width);
+// are NaN. chosen: gets the index of each block's nearest pixel.
+Image nearest_of_blocks(const Image& depth, int most_width, std::vector<size_t>* chosen = nullptr);
 
 }  // namespace ods

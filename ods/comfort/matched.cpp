@@ -73,16 +73,10 @@ float depth_of_parallax(const Camera& camera, int eye, vec2 uv, float around) {
   return depth > 0.0 && depth < 1e4 ? static_cast<float>(depth) : kFarDepth;
 }
 
-MatchedEyes match_eyes_for_depth(const std::vector<Image>& eyes, const StereoCamera& camera, bool is_float, int width) {
-  assert(eyes.size() == 2);
-  std::vector<GrayView> views = make_gray_views(eyes, camera.projection, is_float, width);
-  const Alignment alignment = find_alignment(smaller_views(views), !goes_around(views[0]));
-  MatchedEyes matched;
-  matched.apart = 60.0 * height_apart(alignment);
-  if (const EyeCorrection correction = correction_of(alignment); moves_pixels(correction)) {
-    views[1] = corrected_view(views[1], correction);
-  }
+MatchedEyes match_views_for_depth(std::vector<GrayView> views, const StereoCamera& camera) {
+  assert(views.size() == 2);
   DenseMatch match = match_densely(views[0], views[1]);
+  MatchedEyes matched;
   matched.share = match.share;
   matched.precision = match.precision / kArcMinute;
   StereoCamera seen_by = camera;
@@ -101,6 +95,17 @@ MatchedEyes match_eyes_for_depth(const std::vector<Image>& eyes, const StereoCam
     matched.seen.push_back({seen_by, eye, std::move(around), {}, {}});
   }
   matched.grey = std::move(views);
+  return matched;
+}
+
+MatchedEyes match_eyes_for_depth(const std::vector<Image>& eyes, const StereoCamera& camera, bool is_float, int width) {
+  std::vector<GrayView> views = make_gray_views(eyes, camera.projection, is_float, width);
+  const Alignment alignment = find_alignment(smaller_views(views), !goes_around(views[0]));
+  if (const EyeCorrection correction = correction_of(alignment); moves_pixels(correction)) {
+    views[1] = corrected_view(views[1], correction);
+  }
+  MatchedEyes matched = match_views_for_depth(std::move(views), camera);
+  matched.apart = 60.0 * height_apart(alignment);
   return matched;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ods/comfort/comfort.h"
+#include "ods/disparity/gray_view.h"
 
 namespace ods {
 
@@ -27,6 +28,9 @@ struct MatchedEyes {
 // tell its eye distance, distances are as if it were the camera's.
 MatchedEyes match_eyes_for_depth(const std::vector<Image>& eyes, const StereoCamera& camera, bool is_float,
                                  int width = kMatchedWidth);
+
+// The same for views of theirs, as make_gray_views() makes them, of eyes that are as high as each other: `apart` is 0.
+MatchedEyes match_views_for_depth(std::vector<GrayView> views, const StereoCamera& camera);
 
 // How far along its ray an eye shows a point whose azimuth is `around` farther right in the left eye's picture than in
 // the right one's. kFarDepth: beyond everything. uv: where the eye shows it. The inverse of half_parallax_of().
