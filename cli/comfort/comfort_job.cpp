@@ -5,33 +5,40 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 
 #include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "cli/options/layout_options.h"
 #include "ods/base/text.h"
 #include "ods/image/image_file.h"
+#include "ods/video/container/video_file.h"
 
 namespace {
 
 constexpr const char* kExamples =
     "  ods comfort picture.exr                       by its depth layer\n"
+    "  ods comfort picture_360_TB.jpg                by matching its eyes\n"
+    "  ods comfort video_360_TB.mp4 --html report.html\n"
     "  ods comfort scene.glb --position 0,1.6,0      before anything is rendered\n"
     "  ods comfort picture.exr --heat heat_360_TB.png\n"
     "  ods comfort scene.glb --rules google || echo move the camera";
 
 constexpr const char* kSummary =
-    "Judges what a stereo 360 picture does to its viewer's eyes: by the depth layer of a picture, or in a scene "
-    "before\n"
-    "it is rendered. Lists the things that strain most, where they are, and what would help. docs/comfort.md explains\n"
+    "Judges what a stereo 360 picture does to its viewer's eyes: by its depth layer, by matching its eyes where it has\n"
+    "none, or in a scene before it is rendered. Lists the things that strain most, where they are, and what would help. docs/comfort.md explains\n"
     "the strains and their limits. Exit code 1: something is an error; cautions and warnings do not count.";
 
-// Headsets whose focus is known from their makers or from measurements that name it.
+// Where the lenses of headsets focus.
 struct FocusRow {
   std::string_view name;
   float metres;
 };
-constexpr FocusRow kFocusTable[] = {
-    {"quest-2", 1.3f}, {"rift", 2.0f}, {"infinity", std::numeric_limits<float>::infinity()}};
+constexpr FocusRow kFocusTable[] = {{"quest-2", 1.3f},  // developers' guides quote it
+                                    {"quest-3", 1.3f},  // provisional: as its predecessor
+                                    {"rift", 2.0f},     // Abrash, Oculus Connect 3, 2016
+                                    {"infinity", std::numeric_limits<float>::infinity()}};
 
 float parse_focus(const std::string& word) {
   for (const FocusRow& row : kFocusTable) {
@@ -40,7 +47,16 @@ float parse_focus(const std::string& word) {
   const std::vector<float> numbers = parse_numbers(word);
   if (numbers.size() == 1 && numbers[0] >= 0.2f) return numbers[0];
   throw UsageError(
-      fmt::format("--focus is a distance in metres from 0.2 on, quest-2, rift or infinity, not '{}'", word));
+      fmt::format("--focus is a distance in metres from 0.2 on, quest-2, quest-3, rift or infinity, not '{}'", word));
+}
+
+// "63mm", "0.063".
+float parse_viewer_ipd(const std::string& word) {
+  const bool is_millimetres = word.ends_with("mm");
+  const std::vector<float> numbers = parse_numbers(is_millimetres ? word.substr(0, word.size() - 2) : word);
+  const float metres = numbers.size() == 1 ? numbers[0] * (is_millimetres ? 0.001f : 1.0f) : 0.0f;
+  if (metres >= 0.04f && metres <= 0.09f) return metres;
+  throw UsageError(fmt::format("--viewer-ipd is 40mm to 90mm, or 0.04 to 0.09 metres, not '{}'", word));
 }
 
 void parse_rules(const std::string& word, ods::ComfortOptions& comfort) {
@@ -60,11 +76,12 @@ void parse_rules(const std::string& word, ods::ComfortOptions& comfort) {
 
 // The file says how a picture was made.
 void refuse_camera(const Options& options, const ComfortJob& job) {
-  const std::vector<std::string> own = {"",       "--rules", "--focus", "--viewer-ipd", "--gaze",
-                                        "--heat", "--json",  "-q",      "--quiet",      "--no-color"};
+  const std::vector<std::string> own = {"",       "--rules",  "--focus",      "--viewer-ipd", "--gaze",  "--heat", "--html",
+                                        "--json", "--layout", "--projection", "-q",           "--quiet", "--no-color", "--progress"};
   for (const GivenWord& word : options.given_words()) {
     if (std::ranges::find(own, word.name) != own.end()) continue;
-    throw UsageError(fmt::format("{} is for scenes, and '{}' is a picture", word.name, job.scene.name));
+    throw UsageError(fmt::format("{} is for scenes, and '{}' is a {}", word.name, job.scene.name,
+                                 is_film(job) ? "video" : "picture"));
   }
 }
 
@@ -74,6 +91,12 @@ bool is_picture(const ComfortJob& job) {
   return ods::format_of_path(job.scene.name).has_value();
 }
 
+bool is_film(const ComfortJob& job) {
+  const std::string& path = job.scene.name;
+  std::error_code ignored;
+  return !is_picture(job) && std::filesystem::is_regular_file(path, ignored) && ods::is_video(path);
+}
+
 bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
   ods::Viewer& viewer = job.comfort.viewer;
   Options options("comfort", kSummary, kExamples);
@@ -81,8 +104,10 @@ bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
   options.group("Viewer");
   options.custom(
       "--focus", "METRES", "1.3", [&](const std::string& word) { viewer.focus = parse_focus(word); },
-      "where the headset's lenses focus: metres, quest-2 (1.3), rift (2), infinity");
-  options.number("--viewer-ipd", viewer.ipd, 0.04f, 0.09f, "distance between the viewer's pupils, metres");
+      "where the headset's lenses focus: metres, quest-2 (1.3), quest-3 (1.3, provisional), rift (2), infinity");
+  options.custom(
+      "--viewer-ipd", "METRES", "0.065", [&](const std::string& word) { viewer.ipd = parse_viewer_ipd(word); },
+      "distance between the viewer's pupils: 0.05, or 50mm, of a child to 0.075 of a man");
   options.number("--gaze", viewer.gaze_degrees, 1.0f, 45.0f, "degrees that the eyes turn before the head does");
   options.custom(
       "--rules", "RULES", "strain", [&](const std::string& word) { parse_rules(word, job.comfort); },
@@ -91,14 +116,19 @@ bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
   options.group("Output");
   options.text("--heat", ValueKind::output_file(), job.heat,
                "save the picture with what strains in yellow, orange, red");
+  options.text("--html", ValueKind::output_file(), job.html,
+               "save the report as one page with pictures and, of a video, curves");
   options.number("--width", job.width, 64, 8192, "width of the pictures of a scene that are judged");
   options.flag("--json", job.json, "print JSON");
+  add_layout_option(options, job.format.layout, "layout of a picture's eyes, if neither the file nor its name tells");
   add_camera_options(options, job.camera, job.scene.blender);
   options.group("Console");
-  add_console_options(options);
+  add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
-  if (is_picture(job)) {
+  if (is_picture(job) || is_film(job)) {
+    if (is_film(job) && !job.heat.empty()) throw UsageError("--heat is for pictures and scenes: --html shows a video's");
     refuse_camera(options, job);
+    if (options.given("--projection")) job.format.projection = job.camera.stereo.projection;
     return true;
   }
   job.scene.has_places = job.camera.position.has_value();

@@ -5,21 +5,27 @@
 #pragma once
 #include <string>
 
+#include "cli/console/progress.h"
 #include "cli/options/camera_options.h"
 #include "cli/options/scene_source.h"
 #include "ods/comfort/comfort.h"
+#include "ods/picture/metadata/stereo_format.h"
 
 struct ComfortJob {
   SceneSource scene;  // its name is that of the input, which may be a picture
   CameraOptions camera;
   ods::ComfortOptions comfort;
-  int width = 1024;  // of the pictures of a scene that are judged
-  std::string heat;  // where to save the levels as a picture; empty: nowhere
+  ods::FormatHint format;  // of a picture or a video
+  int width = 1024;        // of the pictures of a scene that are judged
+  std::string heat;        // where to save the levels as a picture; empty: nowhere
+  std::string html;        // likewise the report as a page
   bool json = false;
+  ProgressMode progress = ProgressMode::kAuto;  // of a video
 };
 
-// Whether the input is a picture by its name; else it is a scene.
+// Whether the input is a picture by its name; whether it is a video. Else it is a scene.
 bool is_picture(const ComfortJob& job);
+bool is_film(const ComfortJob& job);
 
 // False if help was requested. Throws UsageError and ods::Error.
 bool read_comfort_job(ComfortJob& job, int argc, char** argv);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -17,87 +18,134 @@ std::string_view level_name(ComfortLevel level) {
   return ods::name_in(ods::kComfortLevelTable, level);
 }
 
-// "23 degrees right, 12 down".
-std::string direction_text(const StrainedPlace& place) {
-  const auto around = std::lround(std::abs(place.azimuth)), above = std::lround(std::abs(place.elevation));
-  std::string text = around == 0     ? "ahead"
-                     : around == 180 ? "behind"
-                                     : fmt::format("{} degrees {}", around, place.azimuth < 0.0 ? "left" : "right");
-  if (above > 0)
-    text += fmt::format(", {}{} {}", above, around == 0 || around == 180 ? " degrees" : "",
-                        place.elevation < 0.0 ? "down" : "up");
+std::string shares_text(const std::array<double, 4>& shares) {
+  std::string text;
+  for (const ComfortLevel level : ods::kComfortLevels) {
+    text += fmt::format("{}{} {}", level == ComfortLevel::kOk ? "" : ", ", level_name(level),
+                        share_text(shares[static_cast<size_t>(level)]));
+  }
   return text;
+}
+
+void print_place(const StrainedPlace& place) {
+  const ods::StrainRow& strain = ods::strain_row(place.strain);
+  fmt::print("{}: {}, {:.2f} m away, {} ({} of the picture): {}, {:.3g} {}; {}\n", level_name(place.level),
+             thing_text(place), place.distance, direction_text(place), share_text(place.share), strain.title,
+             place.value, strain.unit, cure_text(place));
+}
+
+Json shares_json(const std::array<double, 4>& shares) {
+  Json json;
+  for (const ComfortLevel level : ods::kComfortLevels) {
+    json[level_name(level)] = shares[static_cast<size_t>(level)];
+  }
+  return json;
+}
+
+Json place_json(const StrainedPlace& place) {
+  return {{"name", place.name},
+          {"level", level_name(place.level)},
+          {"strain", ods::strain_row(place.strain).name},
+          {"value", place.value},
+          {"unit", ods::strain_row(place.strain).unit},
+          {"azimuth", place.azimuth},
+          {"elevation", place.elevation},
+          {"distance", place.distance},
+          {"enough", place.enough},
+          {"ipd", place.ipd},
+          {"share", place.share}};
+}
+
+}  // namespace
+
+std::string direction_text(const StrainedPlace& place) {
+  return ods::direction_text(place.azimuth, place.elevation);
+}
+
+std::string thing_text(const StrainedPlace& place) {
+  return place.name.empty() ? "an area" : "'" + place.name + "'";
 }
 
 std::string share_text(double share) {
   return share > 0.0 && share < 0.001 ? "<0.1 %" : fmt::format("{:.1f} %", 100.0 * share);
 }
 
-void print_place(const StrainedPlace& place) {
-  const ods::StrainRow& strain = ods::strain_row(place.strain);
-  const std::string name = place.name.empty() ? "an area" : "'" + place.name + "'";
-  fmt::print("{}: {}, {:.2f} m away, {} ({} of the picture): {}, {:.3g} {}; {:.2f} m would do\n",
-             level_name(place.level), name, place.distance, direction_text(place), share_text(place.share),
-             strain.title, place.value, strain.unit, place.enough);
+std::string cure_text(const StrainedPlace& place) {
+  std::string text = fmt::format("{:.2f} m would do", place.enough);
+  if (place.strain != Strain::kRule) text += fmt::format(", or --ipd {:.3f}", std::floor(1e3 * place.ipd) / 1e3);
+  return text;
 }
 
-void print_cures(const ods::StereoCamera& camera, const ods::ComfortOptions& options, const ComfortReport& report) {
-  if (ods::worst_level(report) < ComfortLevel::kWarning) return;
-  if (options.rules != ComfortRules::kStrain) return fmt::print("cure: move these things, or the camera\n");
-  fmt::print("cure: move these things, or the camera; or --ipd {:.3g} instead of {:.3g}\n",
-             std::floor(1e3 * double{report.largest_ipd}) / 1e3, camera.ipd);
-  const auto& limits = ods::strain_limits(Strain::kVertical, options.viewer);
-  if (report.most[static_cast<size_t>(Strain::kVertical)] > limits.warning) {
-    fmt::print("cure of what is above or below: a pole merge that begins earlier, as --merge cosine,30,90\n");
+std::vector<std::string> cure_lines(const ComfortJob& job, const Looked& looked, const ComfortReport& report) {
+  std::vector<std::string> lines;
+  for (const std::string& name : looked.hidden) {
+    lines.push_back(fmt::format("'{}' reaches into the circle of the eyes, where nothing is seen: move it, or the camera",
+                                name));
   }
+  if (ods::worst_level(report) < ComfortLevel::kWarning) return lines;
+  const bool is_rule = job.comfort.rules != ComfortRules::kStrain;
+  lines.push_back("move these things, or the camera" +
+                  (is_rule ? ""
+                           : fmt::format("; or --ipd {:.3g} instead of {:.3g}",
+                                         std::floor(1e3 * double{report.largest_ipd}) / 1e3, looked.camera.ipd)));
+  const double limit = ods::strain_limits(Strain::kVertical, job.comfort.viewer).warning;
+  if (report.most[static_cast<size_t>(Strain::kVertical)] > limit) {
+    lines.push_back("of what is above or below: --merge auto, as much stereo as the distances there allow");
+  }
+  return lines;
 }
 
-}  // namespace
+// --- for people and for programs -------------------------------------------------------------------------------------
 
-void print_text(const std::string& name, const ods::StereoCamera& camera, const ods::ComfortOptions& options,
-                const ComfortReport& report) {
-  fmt::print("{}: {}; eyes {:.3g} m apart, nearest {:.2f} m\n", name, level_name(ods::worst_level(report)), camera.ipd,
-             report.nearest);
-  for (const ComfortLevel level : ods::kComfortLevels) {
-    fmt::print("{}{} {}", level == ComfortLevel::kOk ? "" : ", ", level_name(level),
-               share_text(report.share[static_cast<size_t>(level)]));
+void print_text(const ComfortJob& job, const Looked& looked, const ComfortReport& report) {
+  fmt::print("{}: {}; eyes {:.3g} m apart, nearest {:.2f} m\n", job.scene.name, level_name(verdict(job, looked, report)),
+             looked.camera.ipd, report.nearest);
+  if (looked.match) {
+    fmt::print("by matching: +-{:.0f} minutes of arc; {:.0f} % of the picture could be matched\n",
+               looked.match->precision, 100.0 * looked.match->share);
+    if (const ComfortLevel level = apart_level(job, *looked.match); level > ComfortLevel::kOk) {
+      fmt::print("{}: one eye sees things {:.0f} minutes of arc higher than the other: ods lint has the cure\n",
+                 level_name(level), looked.match->apart);
+    }
   }
-  fmt::print(" of the picture, by solid angle\n");
+  fmt::print("{} of the picture, by solid angle; where people look: {}\n", shares_text(report.share),
+             shares_text(report.looked));
   for (const StrainedPlace& place : report.places) print_place(place);
-  print_cures(camera, options, report);
+  for (const std::string& cure : cure_lines(job, looked, report)) fmt::print("cure: {}\n", cure);
 }
 
-void print_json(const std::string& name, const ods::StereoCamera& camera, const ods::ComfortOptions& options,
-                const ComfortReport& report) {
-  Json json = {{"path", name},
-               {"level", level_name(ods::worst_level(report))},
-               {"ipd", camera.ipd},
-               {"viewer_ipd", options.viewer.ipd},
-               {"gaze", options.viewer.gaze_degrees}};
-  json["focus"] = std::isfinite(options.viewer.focus) ? Json(options.viewer.focus) : Json("infinity");
+void print_json(const ComfortJob& job, const Looked& looked, const ComfortReport& report) {
+  const ods::Viewer& viewer = job.comfort.viewer;
+  Json json = {{"path", job.scene.name},
+               {"level", level_name(verdict(job, looked, report))},
+               {"ipd", looked.camera.ipd},
+               {"viewer_ipd", viewer.ipd},
+               {"gaze", viewer.gaze_degrees}};
+  json["focus"] = std::isfinite(viewer.focus) ? Json(viewer.focus) : Json("infinity");
   json["nearest"] = std::isfinite(report.nearest) ? Json(report.nearest) : Json();
   json["unknown"] = report.unknown;
-  json["largest_ipd"] = report.largest_ipd;
-  for (const ComfortLevel level : ods::kComfortLevels) {
-    json["share"][level_name(level)] = report.share[static_cast<size_t>(level)];
+  if (looked.match) {
+    json["matched"] = {
+        {"share", looked.match->share}, {"precision", looked.match->precision}, {"apart", looked.match->apart}};
   }
+  json["largest_ipd"] = report.largest_ipd;
+  json["share"] = shares_json(report.share), json["looked"] = shares_json(report.looked);
   for (const ods::StrainRow& strain : ods::kStrainTable) {
     const bool is_rule = strain.member == Strain::kRule;
-    if (is_rule == (options.rules == ComfortRules::kStrain)) continue;
+    if (is_rule == (job.comfort.rules == ComfortRules::kStrain)) continue;
     json["most"][strain.name] = report.most[static_cast<size_t>(strain.member)];
   }
   json["places"] = Json::array();
-  for (const StrainedPlace& place : report.places) {
-    json["places"].push_back({{"name", place.name},
-                              {"level", level_name(place.level)},
-                              {"strain", ods::strain_row(place.strain).name},
-                              {"value", place.value},
-                              {"unit", ods::strain_row(place.strain).unit},
-                              {"azimuth", place.azimuth},
-                              {"elevation", place.elevation},
-                              {"distance", place.distance},
-                              {"enough", place.enough},
-                              {"share", place.share}});
-  }
+  for (const StrainedPlace& place : report.places) json["places"].push_back(place_json(place));
+  json["hidden"] = looked.hidden;
   std::puts(json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+}
+
+ComfortLevel apart_level(const ComfortJob& job, const MatchQuality& match) {
+  return ods::level_of(match.apart, ods::strain_limits(Strain::kVertical, job.comfort.viewer));
+}
+
+ComfortLevel verdict(const ComfortJob& job, const Looked& looked, const ComfortReport& report) {
+  const ComfortLevel level = ods::worst_level(report);
+  return looked.match ? std::max(level, apart_level(job, *looked.match)) : level;
 }

@@ -5,9 +5,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <utility>
 
+#include "cli/comfort/first_look.h"
 #include "cli/console/console.h"
 #include "ods/convert/reproject.h"
+#include "ods/convert/unwrap.h"
+#include "ods/identify/identify.h"
+#include "ods/image/tone.h"
+#include "ods/picture/cryptomatte.h"
 #include "ods/picture/load_eyes.h"
 #include "ods/picture/save.h"
 #include "ods/picture/stored_picture.h"
@@ -17,37 +27,95 @@
 
 namespace {
 
-constexpr int kMostWidth = 2048;  // of what is judged
+constexpr int kMostWidth = 2048;         // of what is judged
+constexpr double kLeastAround = 256.0;  // pixels of a picture without depth
+constexpr double kLeastMatched = 0.02;  // of a picture without depth
 
-// What each instance of a scene is called: a name for each, and each instance's index in the names. Instances that have
-// none go by their material.
-struct Things {
-  std::vector<std::string> names;
-  std::vector<int> of_instance;
-};
+// What rays from the circle's middle meet before they leave it.
+std::vector<std::string> hidden_in_circle(const ods::CpuRenderer& renderer, const ods::StereoCamera& camera,
+                                          const ods::RenderOptions& options, const Things& things) {
+  ods::RenderOptions middle = options;
+  middle.eyes = ods::Eyes::kMonoEye;
+  const ods::Camera kernel = ods::make_camera(camera);
+  const std::vector<ods::Hit> hits = std::move(renderer.center_hits(camera, middle)[0]);
+  std::set<std::string> names;
+  for (size_t i = 0; i < hits.size(); i++) {
+    if (hits[i].t < 0.0f || hits[i].t > 0.5f * camera.ipd) continue;
+    const auto width = static_cast<size_t>(middle.width);
+    const ods::vec2 uv((static_cast<float>(i % width) + 0.5f) / static_cast<float>(width),
+                       (static_cast<float>(i / width) + 0.5f) / static_cast<float>(middle.height));
+    const ods::ViewDirection look = ods::look_of(kernel.projection, uv, uv);
+    const float radius = 0.5f * camera.ipd * ods::merge_at(kernel, look.direction, look.elevation);
+    if (hits[i].t * std::cos(look.elevation) >= radius) continue;
+    names.insert(things.names[static_cast<size_t>(things.of_instance[static_cast<size_t>(hits[i].instance)])]);
+  }
+  return {names.begin(), names.end()};
+}
 
-Things things_of(const ods::Scene& scene) {
-  Things things{{}, std::vector<int>(scene.instances.size(), -1)};
-  for (const ods::NamedObject& object : scene.objects) {
-    for (size_t i = 0; i < object.count; i++) {
-      things.of_instance[object.first_instance + i] = static_cast<int>(things.names.size());
+// An eye's colours, the nearest pixels of it.
+ods::Image colors_of(const ods::StoredPicture& picture, size_t eye, int width, int height) {
+  ods::Image light(width, height, 3);
+  const auto [eye_width, eye_height] = picture.size;
+  ods::read_colors(picture, eye, [&](int from, const std::vector<float>& row) {
+    const int y = static_cast<int>(int64_t{from} * height / eye_height);
+    for (int x = 0; x < width; x++) {
+      std::copy_n(&row[3 * static_cast<size_t>(int64_t{x} * eye_width / width)], 3, light.at(x, y));
     }
-    things.names.push_back(object.name);
+  });
+  return light;
+}
+
+std::optional<ods::Cryptomatte> matte_of(const std::string& path) {
+  return ods::find_cryptomatte(ods::read_info(ods::names_eye(path) ? ods::path_for_eye(path, ods::kLeft) : path));
+}
+
+// numbers: of what each pixel shows; chosen: the pixels that are judged.
+void name_things(ods::SeenDepth& seen, const ods::Image& numbers, const std::vector<size_t>& chosen,
+                 const ods::Cryptomatte& matte) {
+  if (numbers.pixels.empty() || matte.names.empty()) return;
+  std::map<float, int> places;
+  for (const auto& [number, name] : matte.names) {
+    if (name.empty()) continue;
+    places[number] = static_cast<int>(seen.names.size());
+    seen.names.push_back(name);
   }
-  for (size_t i = 0; i < scene.instances.size(); i++) {
-    if (things.of_instance[i] >= 0) continue;
-    const auto material = static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].material);
-    things.of_instance[i] = static_cast<int>(things.names.size());
-    things.names.push_back(material < scene.material_names.size() ? scene.material_names[material] : "");
+  for (const size_t pixel : chosen) {
+    const auto found = places.find(numbers.pixels[pixel]);
+    seen.things.push_back(found == places.end() ? -1 : found->second);
   }
-  return things;
+}
+
+Looked match_picture(const ods::StoredPicture& picture, const std::string& name) {
+  if (picture.eyes.size() != 2) {
+    throw ods::Error(ods::ErrorKind::kInput,
+                     fmt::format("'{}' has one eye and no depth (a layer Z, metres along the ray): nothing in it tells "
+                                 "how far things are. If it has two eyes, say --layout",
+                                 name));
+  }
+  const double around = 2.0 * std::numbers::pi * ods::pixels_per_radian(picture.camera.projection, picture.size.width);
+  if (around < kLeastAround) {
+    throw ods::Error(ods::ErrorKind::kInput,
+                     fmt::format("'{}' has no depth, and its eyes have {:.0f} pixels around: too few to be matched", name,
+                                 around));
+  }
+  if (!picture.has_ipd) note("no word says how far apart its eyes are: distances are for 65 mm");
+  ods::MatchedEyes matched = ods::match_eyes_for_depth(ods::grey_eyes(picture), picture.camera, picture.is_float);
+  Looked looked{matched.seen[0].camera, {}, MatchQuality{matched.share, matched.precision, matched.apart}, {}};
+  if (matched.share < kLeastMatched) {
+    throw ods::Error(ods::ErrorKind::kInput,
+                     fmt::format("'{}' has no depth, and only {:.1f} % of its eyes could be matched: see what ods lint "
+                                 "says of it, or say --layout",
+                                 name, 100.0 * matched.share));
+  }
+  for (size_t i = 0; i < 2; i++) looked.eyes.push_back({std::move(matched.seen[i]), light_of(matched.grey[i])});
+  return looked;
 }
 
 }  // namespace
 
-std::vector<Judged> look_at_scene(const ComfortJob& job, ods::StereoCamera& camera) {
+Looked look_at_scene(const ComfortJob& job) {
   const ods::Scene scene = open_scene(job.scene);
-  camera = place_camera(job.camera, scene);
+  ods::StereoCamera camera = place_camera(job.camera, scene);
   ods::RenderOptions options;
   options.width = job.width;
   options = ods::with_height(options, camera);
@@ -56,67 +124,72 @@ std::vector<Judged> look_at_scene(const ComfortJob& job, ods::StereoCamera& came
     ods::use_merge_map(camera, ods::merge_map_of(ods::shares_seen(renderer, camera, *job.camera.merge_limit)));
   }
   const Things things = things_of(scene);
-  const std::vector<int> eyes = ods::eye_list(options.eyes);
-  std::vector<std::vector<ods::Hit>> hits = renderer.center_hits(camera, options);
-  std::vector<Judged> all;
-  for (size_t i = 0; i < eyes.size(); i++) {
-    Judged& judged = all.emplace_back();
-    judged.seen = {camera, eyes[i], ods::Image(options.width, options.height, 1), {}, things.names};
-    judged.grey = judged.seen.depth;
-    for (size_t k = 0; k < hits[i].size(); k++) {
-      const ods::Hit& hit = hits[i][k];
-      judged.seen.depth.pixels[k] = hit.t < 0.0f ? ods::kFarDepth : hit.t;
-      judged.grey.pixels[k] = hit.t < 0.0f ? 0.8f : 0.5f / (1.0f + hit.t);
-      judged.seen.things.push_back(hit.t < 0.0f ? -1 : things.of_instance[static_cast<size_t>(hit.instance)]);
+  Looked looked{camera, {}, {}, hidden_in_circle(renderer, camera, options, things)};
+  for (ods::SeenDepth& seen : look_from(renderer, things, camera, options)) {
+    ods::Image light(options.width, options.height, 3);
+    for (size_t k = 0; k < seen.depth.pixels.size(); k++) {
+      const float depth = seen.depth.pixels[k];
+      std::fill_n(&light.pixels[3 * k], 3, ods::is_surface(depth) ? 0.5f / (1.0f + depth) : 0.8f);
     }
+    looked.eyes.push_back({std::move(seen), std::move(light)});
   }
-  return all;
+  return looked;
 }
 
-std::vector<Judged> look_at_picture(const ComfortJob& job, ods::StereoCamera& camera) {
-  const ods::StoredPicture picture = ods::open_picture(job.scene.name);
-  if (!ods::depth_layer(picture)) {
-    throw ods::Error(ods::ErrorKind::kInput,
-                     fmt::format("'{}' has no depth (a layer Z, metres along the ray): ods render writes one into .exr",
-                                 job.scene.name));
-  }
-  for (const std::string& guess : picture.guesses) note(guess);
-  camera = picture.camera;
-  const std::vector<ods::Image> greys = job.heat.empty() ? std::vector<ods::Image>() : ods::grey_eyes(picture);
-  std::vector<Judged> all;
+Looked look_at_picture(const ComfortJob& job) {
+  ods::OpenOptions open;
+  std::vector<std::string> notes;
+  open.format = ods::identified(job.scene.name, job.format, notes);
+  ods::StoredPicture picture = ods::open_picture(job.scene.name, open);
+  notes.insert(notes.end(), picture.guesses.begin(), picture.guesses.end());
+  for (const std::string& text : notes) note(text);
+  if (!picture.maps.empty()) picture = ods::unwrapped(picture);
+  if (!ods::depth_layer(picture)) return match_picture(picture, job.scene.name);
+  const std::optional<ods::Cryptomatte> matte = matte_of(job.scene.name);
+  const bool shows = !job.heat.empty() || !job.html.empty();
+  Looked looked{picture.camera, {}, {}, {}};
   for (size_t i = 0; i < picture.eyes.size(); i++) {
-    Judged& judged = all.emplace_back();
-    judged.seen = {
-        camera, picture.eyes[i].eye, ods::nearest_of_blocks(ods::depth_of_eye(picture, i), kMostWidth), {}, {}};
-    if (greys.empty()) continue;
-    const ods::Image& depth = judged.seen.depth;
-    judged.grey = ods::Image(depth.width, depth.height, 1);
-    for (int y = 0; y < depth.height; y++) {
-      for (int x = 0; x < depth.width; x++) {
-        judged.grey.at(x, y)[0] = greys[i].at(x * greys[i].width / depth.width, y * greys[i].height / depth.height)[0];
-      }
-    }
+    Judged& judged = looked.eyes.emplace_back();
+    std::vector<size_t> chosen;
+    const ods::Image depth = ods::nearest_of_blocks(ods::depth_of_eye(picture, i), kMostWidth, &chosen);
+    judged.seen = {picture.camera, picture.eyes[i].eye, depth, {}, {}};
+    if (matte) name_things(judged.seen, ods::matte_of_eye(picture, i, *matte), chosen, *matte);
+    if (shows) judged.light = colors_of(picture, i, depth.width, depth.height);
   }
-  return all;
+  return looked;
 }
 
-void save_heat(const std::string& path, const ods::StereoCamera& camera, const std::vector<Judged>& judged,
-               const std::vector<ods::ComfortReport>& reports) {
+ods::Image light_of(const ods::Image& grey) {
+  ods::Image light(grey.width, grey.height, 3);
+  for (size_t i = 0; i < light.pixels.size(); i++) {
+    const float shown = grey.pixels[i / 3];
+    light.pixels[i] = shown > 0.0f ? ods::srgb_decode(shown) : 0.0f;
+  }
+  return light;
+}
+
+ods::Image heat_of(const Judged& judged, const ods::ComfortReport& report) {
   constexpr ods::vec3 kColors[] = {{0, 0, 0}, {1.0f, 0.75f, 0.05f}, {1.0f, 0.22f, 0.0f}, {0.75f, 0.0f, 0.03f}};
-  ods::Picture picture;
-  for (size_t i = 0; i < judged.size(); i++) {
-    ods::EyeImage& eye = picture.eyes.emplace_back();
-    const ods::Image &grey = judged[i].grey, &level = reports[i].level;
-    eye.eye = judged[i].seen.eye;
-    eye.radiance = ods::Image(grey.width, grey.height, 3);
-    for (size_t k = 0; k < grey.pixels.size(); k++) {
-      const float light = 0.6f * std::clamp(grey.pixels[k], 0.0f, 1.0f);
-      const auto color = static_cast<size_t>(level.pixels[k]);
-      for (int c = 0; c < 3; c++) {
-        const float hot = 0.3f * light + 0.7f * kColors[color][c];
-        eye.radiance.pixels[3 * k + static_cast<size_t>(c)] = color == 0 ? light : hot;
-      }
+  ods::Image heat(judged.light.width, judged.light.height, 3);
+  for (size_t k = 0; k < report.level.pixels.size(); k++) {
+    const float* from = &judged.light.pixels[3 * k];
+    const float grey = 0.2126f * from[0] + 0.7152f * from[1] + 0.0722f * from[2];
+    const float light = grey > 0.0f ? 0.6f * std::min(grey, 1.0f) : 0.0f;
+    const auto color = static_cast<size_t>(report.level.pixels[k]);
+    for (int c = 0; c < 3; c++) {
+      const float hot = 0.3f * light + 0.7f * kColors[color][c];
+      heat.pixels[3 * k + static_cast<size_t>(c)] = color == 0 ? light : hot;
     }
   }
-  for (const std::string& file : ods::save_picture(picture, camera, {}, path)) announce_file(file);
+  return heat;
+}
+
+void save_heat(const std::string& path, const Looked& looked, const std::vector<ods::ComfortReport>& reports) {
+  ods::Picture picture;
+  for (size_t i = 0; i < looked.eyes.size(); i++) {
+    ods::EyeImage& eye = picture.eyes.emplace_back();
+    eye.eye = looked.eyes[i].seen.eye;
+    eye.radiance = heat_of(looked.eyes[i], reports[i]);
+  }
+  for (const std::string& file : ods::save_picture(picture, looked.camera, {}, path)) announce_file(file);
 }

@@ -3,20 +3,39 @@
 //
 // What ods comfort judges, eye by eye, and the picture of its verdicts.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/comfort/comfort_job.h"
+#include "ods/comfort/matched.h"
 
 struct Judged {
   ods::SeenDepth seen;
-  ods::Image grey;  // what the heat is painted over: 1 channel, 0..1; may be empty if no heat is wanted
+  ods::Image light;  // what the heat is painted over: 3 channels, linear; may be empty if no picture is wanted
 };
 
-// camera: becomes that of the scene or picture. Throws UsageError and ods::Error.
-std::vector<Judged> look_at_scene(const ComfortJob& job, ods::StereoCamera& camera);
-std::vector<Judged> look_at_picture(const ComfortJob& job, ods::StereoCamera& camera);
+// How well eyes could be matched; as in ods::MatchedEyes.
+struct MatchQuality {
+  double share = 0.0, precision = 0.0, apart = 0.0;
+};
 
-// What is ok in grey; the rest in yellow, orange and red. reports: of each of `judged`.
-void save_heat(const std::string& path, const ods::StereoCamera& camera, const std::vector<Judged>& judged,
-               const std::vector<ods::ComfortReport>& reports);
+struct Looked {
+  ods::StereoCamera camera;  // of the scene or picture
+  std::vector<Judged> eyes;
+  std::optional<MatchQuality> match;  // of a picture without depth
+  std::vector<std::string> hidden;    // of a scene: what stands within the viewing circle, where no ray begins
+};
+
+// Throws UsageError and ods::Error.
+Looked look_at_scene(const ComfortJob& job);
+Looked look_at_picture(const ComfortJob& job);
+
+// Grey as a display shows it, 1 channel, as light of 3 channels.
+ods::Image light_of(const ods::Image& grey);
+
+// What is ok in grey; the rest in yellow, orange and red. 3 channels, linear.
+ods::Image heat_of(const Judged& judged, const ods::ComfortReport& report);
+
+// reports: of each of the eyes.
+void save_heat(const std::string& path, const Looked& looked, const std::vector<ods::ComfortReport>& reports);

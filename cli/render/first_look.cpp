@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/comfort/first_look.h"
 #include "cli/console/console.h"
 #include "cli/options/eye_options.h"
 #include "cli/options/picture_options.h"
@@ -103,4 +104,20 @@ void settle_merge(RenderJob& job, ods::FrameRenderer& renderer, const std::vecto
   ods::Image map = ods::comfortable_merge(renderer, all, *job.camera.merge_limit);
   note(merge_by_depth_text(map));
   ods::use_merge_map(job.camera.stereo, std::move(map));
+}
+
+// One line for all frames, and none where the job is a part of one: the others would say it again.
+void warn_of_strain(const RenderJob& job, ods::FrameRenderer& renderer, const std::vector<ods::SequenceFrame>& all) {
+  constexpr double kLongSamples = 2e7;  // in all pixels: rendering takes more than a few seconds
+  const double samples =
+      1.0 * job.render.width * job.render.width * job.render.samples * static_cast<double>(all.size());
+  if (samples < kLongSamples || job.part || ods::eye_list(job.render.eyes).size() < 2) return;
+  for (const size_t i : ods::looks_at(all, ods::kLooks)) {
+    const ods::Shot shot = renderer.set(all[i]);
+    const std::string line =
+        strain_line(renderer.renderer(), renderer.scene(), shot.camera(), ods::ComfortLevel::kError);
+    if (line.empty()) continue;
+    return warn(line + (job.camera.merge_limit ? "" : ", or --merge auto or a smaller --ipd") +
+                "; ods comfort has more");
+  }
 }

@@ -23,5 +23,8 @@ struct Exposures {
 Exposures choose_exposure(const RenderJob& job, const ods::Scene& scene, ods::FrameRenderer& renderer,
                           const std::vector<ods::SequenceFrame>& all);
 
+// Says once, before a long rendering, if something in some of `all` strains the viewer's eyes to an error.
+void warn_of_strain(const RenderJob& job, ods::FrameRenderer& renderer, const std::vector<ods::SequenceFrame>& all);
+
 // --merge auto: the merge that the scene's depth allows, in all of these frames. Notes what it chose.
 void settle_merge(RenderJob& job, ods::FrameRenderer& renderer, const std::vector<ods::SequenceFrame>& all);

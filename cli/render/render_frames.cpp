@@ -113,6 +113,7 @@ void look_first(RenderJob& job, const TimeOptions& time, ods::Scene& scene, ods:
                 ods::FrameRenderer& renderer, const std::vector<Frame>& all) {
   say_where(job, time, scene, all.front());
   settle_merge(job, renderer, all);
+  warn_of_strain(job, renderer, all);
   const auto [saved, judged] = choose_exposure(job, scene, renderer, all);
   job.save.exposure = saved;
   if (scene.as_painted && !gives(job, "--tone")) job.save.tone = ods::ToneCurve::kLinear;
@@ -189,6 +190,7 @@ RenderedFrames render_frames(const RenderJob& wanted, const StepReport& report,
   const std::vector<size_t> missing = choose_frames(time, all);
   ods::FrameRenderer renderer(sequence, scene);
   if (!missing.empty()) say_where(job, time, scene, all.front()), settle_merge(job, renderer, all);
+  if (!missing.empty() && time.only.empty()) warn_of_strain(job, renderer, all);
   const float exposure = choose_exposure(job, scene, renderer, all).judged;
   sequence.render.noise_exposure = exposure;
   if (missing.empty()) return {numbers, exposure, scene.as_painted};

@@ -43,6 +43,8 @@ void add_picture_options(Options& options, RenderJob& job) {
                "render the views of this rig (made by ods rig), for ods stitch");
   options.flag("--statistics", job.render.statistics,
                "also write each pixel's variance and number of samples, for ods denoise (.exr)");
+  options.flag("--object-layer", job.object_layer,
+               "also write which object each pixel shows, by name: a Cryptomatte, which ods comfort reads (.exr)");
   options.flag("--transparent", job.render.transparent,
                "leave the background transparent, for ods over; the sky still lights the scene (.exr .png .tif .webp)");
   options.texts(
@@ -182,6 +184,10 @@ bool read_render_job(RenderJob& job, int argc, char** argv, bool for_farm) {
     throw UsageError("--shadow-catcher needs --transparent");
   }
   if (job.render.statistics && !ods::keeps_layers(job.output)) throw UsageError("--statistics needs an .exr");
+  if (job.object_layer &&
+      (!ods::keeps_layers(job.output) || job.part || !job.rig.empty() || asks_for_video(job.time))) {
+    throw UsageError("--object-layer is for one whole picture, an .exr");
+  }
   job.render.layers = ods::keeps_layers(job.output);
   check_rig(options, job);
   finish_render_job(options, quality, job);

@@ -25,6 +25,7 @@ struct RenderJob {
   std::optional<float> exposure;         // stops; none: FrameRenderer::find_exposure() chooses
   float brighter = 0.0f;                 // stops, added to what it chooses
   bool has_layout = false;               // given by an option
+  bool object_layer = false;             // an .exr gets the names of what its pixels show
   std::string output;
   std::string rig;                // a slit rig: render its views instead of the camera's picture
   std::optional<ods::Part> part;  // of the samples

@@ -4,10 +4,15 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <utility>
+
+#include "cli/comfort/first_look.h"
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
 #include "cli/render/library_options.h"
 #include "cli/render/unfinished_picture.h"
+#include "ods/picture/cryptomatte.h"
 #include "ods/render/part_file.h"
 #include "ods/render/render_target.h"
 
@@ -19,24 +24,43 @@ const char* stopping_words() {
   return stderr_is_terminal() ? "\r\x1b[Kods: stopping; Ctrl-C again ends at once\n" : "ods: stopping\n";
 }
 
+std::optional<ods::ObjectLayer> objects_of(const RenderJob& job, const ods::FrameRenderer& renderer,
+                                           const ods::StereoCamera& camera, const ods::RenderOptions& options) {
+  if (!job.object_layer) return {};
+  const Things things = things_of(renderer.scene());
+  std::vector<float> numbers;
+  for (const std::string& name : things.names) numbers.push_back(name.empty() ? 0.0f : ods::matte_number(name));
+  ods::ObjectLayer layer{{}, things.names};
+  for (const std::vector<ods::Hit>& hits : renderer.renderer().center_hits(camera, options)) {
+    ods::Image& image = layer.numbers.emplace_back(options.width, options.height, 1);
+    for (size_t i = 0; i < hits.size(); i++) {
+      if (hits[i].t < 0.0f) continue;
+      image.pixels[i] = numbers[static_cast<size_t>(things.of_instance[static_cast<size_t>(hits[i].instance)])];
+    }
+  }
+  return layer;
+}
+
 ods::Rendered finish(const RenderJob& job, const ods::StereoCamera& camera, const ods::RenderOptions& options,
-                     ods::PictureSamples samples) {
+                     ods::PictureSamples samples, std::optional<ods::ObjectLayer> objects) {
   const auto taken = static_cast<double>(ods::count_samples(samples));
   if (job.part) return {{ods::save_part(job.output, sampled_picture(job, options, camera), samples)}, taken};
-  return {
-      ods::finish_picture(finish_of(job), job.render, camera, ods::develop(std::move(samples), options), job.output),
-      taken};
+  return {ods::finish_picture(finish_of(job), job.render, camera, ods::develop(std::move(samples), options), job.output,
+                              {}, std::move(objects)),
+          taken};
 }
 
 [[noreturn]] void end_early(const RenderJob& job, const ods::StereoCamera& camera, const ods::RenderOptions& options,
-                            ods::PictureSamples& samples, const UnfinishedPicture& unfinished, const GentleStop& stop) {
+                            ods::PictureSamples& samples, std::optional<ods::ObjectLayer> objects,
+                            const UnfinishedPicture& unfinished, const GentleStop& stop) {
   if (unfinished.is_kept()) {
     const std::string& path = unfinished.path();
     note(fmt::format("what is rendered is kept in '{}': the same command with --resume goes on{}", path,
                      job.save_unfinished ? "" : fmt::format(", ods merge '{}' -o FILE saves it as it is", path)));
   }
   if (job.save_unfinished) {
-    for (const std::string& file : finish(job, camera, options, std::move(samples)).files) announce_file(file);
+    for (const std::string& file : finish(job, camera, options, std::move(samples), std::move(objects)).files)
+      announce_file(file);
   }
   stop.end();
 }
@@ -53,6 +77,7 @@ ods::Rendered render_still(const RenderJob& job, ods::FrameRenderer& renderer, c
   ods::check_picture_memory(options);
   UnfinishedPicture unfinished(job, options, camera);
   ods::PictureSamples samples = unfinished.begin();
+  std::optional<ods::ObjectLayer> objects = objects_of(job, renderer, camera, options);
   {
     const GentleStop stop(stopping_words());
     const double share = denoiser_of(job) == ods::Denoiser::kNone ? 1.0 : ods::kShareOfRendering;
@@ -64,10 +89,10 @@ ods::Rendered render_still(const RenderJob& job, ods::FrameRenderer& renderer, c
                                  [&](const ods::PictureSamples& now) { unfinished.keep(now); });
     } catch (const ods::Error& error) {
       if (error.kind() != ods::ErrorKind::kCancelled) throw;
-      end_early(job, camera, options, samples, unfinished, stop);
+      end_early(job, camera, options, samples, std::move(objects), unfinished, stop);
     }
   }
-  ods::Rendered rendered = finish(job, camera, options, std::move(samples));
+  ods::Rendered rendered = finish(job, camera, options, std::move(samples), std::move(objects));
   unfinished.remove();
   return rendered;
 }

@@ -4,6 +4,7 @@
 // ods info: shows what is in a scene, as text or JSON.
 #include "ods/scene/info.h"
 
+#include "cli/comfort/first_look.h"
 #include "cli/console/console.h"
 #include "cli/options/camera_options.h"
 #include "cli/options/scene_source.h"
@@ -42,6 +43,9 @@ void info(int argc, char** argv) {
   found.viewing = scene.viewing;
   const vec3 position = place_camera(camera, scene).position;
   SceneInfo info = describe(scene, position);
+  if (info.nearest_surface >= 0.0f) {
+    found.strain = strain_line(ods::CpuRenderer(scene), scene, place_camera(camera, scene), ods::ComfortLevel::kWarning);
+  }
   info.has_environment |= wishes.given.radiance != vec3(0.0f);
   found.advice = with_options(found.advice), found.settled.unit_reason = with_options(found.settled.unit_reason);
   for (std::string& loss : info.losses) loss = with_options(loss);

@@ -55,6 +55,7 @@ void print_text(const SceneInfo& info, const SceneFindings& found, vec3 position
   if (info.nearest_surface >= 0.0f) {
     row("nearest", fmt::format("{:.3g} m from {}", info.nearest_surface, xyz(position)));
   }
+  if (!found.strain.empty()) row("comfort", found.strain + "; ods comfort has more");
   for (const ods::SheetGlass& glass : info.sheet_glass) {
     row("glass", fmt::format("'{}' has no volume and is rendered as thin sheets (closed meshes: {}, open: {}){}",
                              glass.name, glass.closed_meshes, glass.open_meshes,
@@ -99,6 +100,7 @@ void print_json(const SceneInfo& info, const SceneFindings& found, vec3 position
       {"sheet_glass", nlohmann::ordered_json::array()},
       {"extensions", nlohmann::ordered_json::array()},
       {"light_advice", found.advice},
+      {"comfort", found.strain},
       {"losses", info.losses},
       {"warnings", info.warnings},
   };

@@ -13,6 +13,7 @@ struct SceneFindings {
   ods::Settled settled;
   std::optional<ods::Viewing> viewing;
   std::string advice;  // on its light
+  std::string strain;  // the worst thing for a viewer's eyes; empty: none
 };
 
 void print_text(const ods::SceneInfo& info, const SceneFindings& found, ods::vec3 position);

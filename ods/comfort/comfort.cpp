@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/comfort/comfort.h"
 
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -21,9 +24,14 @@ namespace {
 constexpr double kDegree = pi / 180.0, kArcMinute = kDegree / 60.0;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr size_t kMostPlaces = 10;
+constexpr double kBeside = 20.0 * kDegree;
 
 double cross_length(vec3 a, vec3 b) {
   return double{length(cross(a, b))};
+}
+
+double elevation_of(const ViewDirection& look) {
+  return std::asin(std::clamp(double{look.direction.y}, -1.0, 1.0));
 }
 
 // How far around from -Z.
@@ -41,6 +49,8 @@ double half_parallax_of(const Camera& camera, int eye, const ViewDirection& look
   return double{eye_side(eye)} * std::remainder(azimuth_of(point) - azimuth_of(look.direction), 2.0 * pi);
 }
 
+using Strains = std::array<float, std::size(kStrains)>;
+
 class Judge {
  public:
   Judge(const SeenDepth& seen, const ComfortOptions& options)
@@ -48,40 +58,51 @@ class Judge {
         options_(options),
         camera_(make_camera(seen.camera)),
         width_(seen.depth.width),
-        height_(seen.depth.height) {
+        height_(seen.depth.height),
+        steradians_(steradians_of_pixel()) {
     for (const Strain strain : kStrains) limits_[static_cast<size_t>(strain)] = strain_limits(strain, options.viewer);
   }
 
   ComfortReport report();
 
  private:
-  // What is known of a pixel: the angle at which eyes must converge, the worst of the strains.
+  // What is kept of each pixel; the rest is found again where it is wanted.
   struct Point {
-    bool is_shown = false;
-    double solid_angle = 0.0;
-    double elevation = 0.0, azimuth = 0.0, distance = kFar, half_parallax = 0.0, vergence = 0.0;
-    double across = 0.0, height = 0.0;  // from the circle's axis, above its plane
-    std::array<double, 4> strains{};
+    bool is_known = false;      // it is in the picture, and has a depth or nothing there
+    float solid_angle = 0.0f;
+    float distance = std::numeric_limits<float>::infinity();
+    float vergence = 0.0f;
+    Strains strains{};
     ComfortLevel level = ComfortLevel::kOk;
   };
+  // Where a pixel's surface is.
+  struct Place {
+    ViewDirection look;
+    double half_parallax = 0.0, across = 0.0, height = 0.0, distance = kFar;  // as in strain.h; from the centre
+  };
 
-  void place(int x, int y);
-  void add_steps();
-  void add_step(Point& point, const Point& beside);
+  Place place_of(int x, int y, const ViewDirection& look) const;
+  void judge_pixel(int x, int y);
+  void add_steps(int y);
+  void add_edges(int y);
   void rate(Point& point) const;
   Strain worst_of(const Point& point) const;
+  double most_of(const Point& point) const;  // of its strains, in limits of a warning
   double rank_of(const Point& point) const;
-  double circle_for(const Point& point) const;
-  StrainedPlace describe(const Point& point, double share) const;
-  void list_places(ComfortReport& report) const;
+  double circle_for(size_t pixel) const;
+  StrainedPlace describe(size_t pixel, double share) const;
+  std::vector<int> things_or_areas() const;
+  void list_places(ComfortReport& report, double all) const;
+  double steradians_of_pixel() const;
 
-  Point& at(int x, int y) {
-    return points_[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)];
+  size_t pixel(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
   }
   bool is_whole_turn() const {
     return camera_.projection.kind == kLatLong && std::abs(double{camera_.projection.span.x} - 2.0 * pi) < 1e-4;
   }
   double gaze() const { return double{options_.viewer.gaze_degrees} * kDegree; }
+  double limit(Strain strain) const { return limits_[static_cast<size_t>(strain)].warning; }
   vec2 middle_of(int x, int y) const {
     return {(static_cast<float>(x) + 0.5f) / static_cast<float>(width_),
             (static_cast<float>(y) + 0.5f) / static_cast<float>(height_)};
@@ -95,7 +116,8 @@ class Judge {
   const ComfortOptions& options_;
   const Camera camera_;
   const int width_, height_;
-  std::array<StrainLimits, 4> limits_{};
+  const double steradians_;  // of relative_solid_angle()
+  std::array<StrainLimits, std::size(kStrains)> limits_{};
   std::vector<Point> points_;
 };
 
@@ -104,64 +126,91 @@ double rule_distance(const ComfortOptions& options, double elevation) {
   return kGoogleAhead + (kGoogleAbove - kGoogleAhead) * std::abs(std::sin(elevation));
 }
 
-void Judge::place(int x, int y) {
-  Point& point = at(x, y);
-  const ViewDirection look = look_at(x, y);
-  if (!look.seen) return;
-  point.is_shown = true;
-  point.elevation = std::asin(std::clamp(double{look.direction.y}, -1.0, 1.0));
-  point.azimuth = azimuth_of(look.direction);
-  const vec3 right = look_at(x + (x + 1 < width_ ? 1 : -1), y).direction;
-  const vec3 below = look_at(x, y + (y + 1 < height_ ? 1 : -1)).direction;
-  point.solid_angle = cross_length(right - look.direction, below - look.direction);
-  const float depth = seen_.depth.at(x, y)[0];
-  if (!is_surface(depth)) return;
+// By the size of one pixel: the middle one, or the first face's.
+double Judge::steradians_of_pixel() const {
+  const Projection& projection = camera_.projection;
+  vec2 home(0.5f);
+  if (is_cube(projection.kind)) {
+    const auto columns = static_cast<float>(cube_columns(projection.kind));
+    home = vec2(0.5f / columns, columns / 12.0f);
+  }
+  const vec2 size(1.0f / static_cast<float>(width_), 1.0f / static_cast<float>(height_));
+  const auto at = [&](float x, float y) { return look_of(projection, home, home + size * vec2(x, y)).direction; };
+  const double solid = cross_length(at(0.5f, 0.0f) - at(-0.5f, 0.0f), at(0.0f, 0.5f) - at(0.0f, -0.5f));
+  return solid / double{relative_solid_angle(projection, home, home)};
+}
+
+Judge::Place Judge::place_of(int x, int y, const ViewDirection& look) const {
+  Place place{look};
+  const float depth = *seen_.depth.at(x, y);
+  if (!is_surface(depth)) return place;
   const Ray ray = camera_ray(camera_, seen_.eye, middle_of(x, y));
   const vec3 away = ray.origin + ray.direction * depth - camera_.center;
   const vec3 local(dot(away, camera_.right), dot(away, camera_.up), dot(away, camera_.back));
-  const double half = point.half_parallax = half_parallax_of(camera_, seen_.eye, look, local);
-  point.distance = double{length(local)};
-  point.across = std::hypot(double{local.x}, double{local.z}), point.height = double{local.y};
-  point.vergence = vergence(half, point.elevation);
-  if (options_.rules != ComfortRules::kStrain) {
-    point.strains[static_cast<size_t>(Strain::kRule)] = rule_distance(options_, point.elevation) / point.distance;
-    return;
-  }
-  point.strains[static_cast<size_t>(Strain::kNear)] = vergence_dioptres(point.vergence, options_.viewer);
-  point.strains[static_cast<size_t>(Strain::kVertical)] =
-      worst_vertical_disparity(half, point.elevation, gaze()) / kArcMinute;
+  place.half_parallax = half_parallax_of(camera_, seen_.eye, look, local);
+  place.across = std::hypot(double{local.x}, double{local.z}), place.height = double{local.y};
+  place.distance = double{length(local)};
+  return place;
 }
 
-void Judge::add_step(Point& point, const Point& beside) {
-  if (!point.is_shown || !beside.is_shown) return;
-  double& step = point.strains[static_cast<size_t>(Strain::kStep)];
-  step = std::max(step, (point.vergence - beside.vergence) / kDegree);
+void Judge::judge_pixel(int x, int y) {
+  Point& point = points_[pixel(x, y)];
+  const ViewDirection look = look_at(x, y);
+  point.is_known = look.seen && *seen_.depth.at(x, y) > 0.0f;
+  if (!point.is_known) return;
+  const vec2 uv = middle_of(x, y);
+  point.solid_angle = static_cast<float>(steradians_ * double{relative_solid_angle(camera_.projection, uv, uv)});
+  const Place place = place_of(x, y, look);
+  if (place.distance == kFar) return;
+  const double elevation = elevation_of(look);
+  point.distance = static_cast<float>(place.distance);
+  const double converged = vergence(place.half_parallax, elevation);
+  point.vergence = static_cast<float>(converged);
+  const auto set = [&](Strain strain, double value) {
+    point.strains[static_cast<size_t>(strain)] = static_cast<float>(value);
+  };
+  if (options_.rules != ComfortRules::kStrain) {
+    return set(Strain::kRule, rule_distance(options_, elevation) / place.distance);
+  }
+  set(Strain::kNear, vergence_dioptres(converged, options_.viewer));
+  set(Strain::kVertical, worst_vertical_disparity(place.half_parallax, elevation, gaze()) / kArcMinute);
 }
 
 // Each pixel against those a degree to its sides, above and below; the nearer one has the strain.
-void Judge::add_steps() {
+void Judge::add_steps(int y) {
   const double least = limits_[static_cast<size_t>(Strain::kStep)].caution * kDegree;
-  for (int y = 0; y < height_; y++) {
-    for (int x = 0; x < width_; x++) {
-      Point& point = at(x, y);
-      if (!(point.vergence > least)) continue;
-      const double side = std::sqrt(std::max(point.solid_angle, 1e-12));  // of a pixel
-      const int reach = std::clamp(static_cast<int>(std::lround(kDegree / side)), 1, width_ / 4 + 1);
-      for (const int to : {x - reach, x + reach}) {
-        const int wrapped = is_whole_turn() ? (to + width_) % width_ : to;
-        if (wrapped >= 0 && wrapped < width_) add_step(point, at(wrapped, y));
-      }
-      for (const int to : {y - reach, y + reach}) {
-        if (to >= 0 && to < height_) add_step(point, at(x, to));
-      }
-    }
+  for (int x = 0; x < width_; x++) {
+    Point& point = points_[pixel(x, y)];
+    if (!(double{point.vergence} > least)) continue;
+    const double side = std::sqrt(std::max(double{point.solid_angle}, 1e-12));  // of a pixel
+    const int reach = std::clamp(static_cast<int>(std::lround(kDegree / side)), 1, width_ / 4 + 1);
+    const auto compare = [&](int to_x, int to_y) {
+      if (is_whole_turn()) to_x = (to_x + width_) % width_;
+      if (to_x < 0 || to_x >= width_ || to_y < 0 || to_y >= height_) return;
+      const Point& beside = points_[pixel(to_x, to_y)];
+      if (!beside.is_known) return;
+      float& step = point.strains[static_cast<size_t>(Strain::kStep)];
+      step = std::max(step, (point.vergence - beside.vergence) / static_cast<float>(kDegree));
+    };
+    for (const int to : {-reach, reach}) compare(x + to, y), compare(x, y + to);
+  }
+}
+
+// What the sides of a picture cut that does not go all around: one eye shows more of it than the other.
+void Judge::add_edges(int y) {
+  if (is_whole_turn() || is_cube(camera_.projection.kind)) return;
+  for (int x = 0; x < width_; x++) {
+    Point& point = points_[pixel(x, y)];
+    if (!point.is_known) continue;
+    const bool is_edge = x == 0 || x + 1 == width_ || !look_at(x - 1, y).seen || !look_at(x + 1, y).seen;
+    if (is_edge) point.strains[static_cast<size_t>(Strain::kEdge)] = point.vergence / static_cast<float>(kDegree);
   }
 }
 
 void Judge::rate(Point& point) const {
   for (const Strain strain : kStrains) {
     const auto i = static_cast<size_t>(strain);
-    point.level = std::max(point.level, level_of(point.strains[i], limits_[i]));
+    point.level = std::max(point.level, level_of(double{point.strains[i]}, limits_[i]));
   }
 }
 
@@ -170,72 +219,102 @@ Strain Judge::worst_of(const Point& point) const {
   double most = 0.0;
   for (const Strain strain : kStrains) {
     const auto i = static_cast<size_t>(strain);
-    const double value = point.strains[i] / limits_[i].warning;
-    const bool is_worst = level_of(point.strains[i], limits_[i]) == point.level;
+    const double value = double{point.strains[i]} / limits_[i].warning;
+    const bool is_worst = level_of(double{point.strains[i]}, limits_[i]) == point.level;
     if (is_worst && value > most) most = value, worst = strain;
   }
   return worst;
 }
 
-double Judge::rank_of(const Point& point) const {
-  const auto i = static_cast<size_t>(worst_of(point));
-  return static_cast<double>(point.level) * 1e6 + point.strains[i] / limits_[i].warning;
+double Judge::most_of(const Point& point) const {
+  double most = 0.0;
+  for (size_t i = 0; i < limits_.size(); i++) most = std::max(most, double{point.strains[i]} / limits_[i].warning);
+  return most;
 }
 
-// The share of the circle's radius with which the point is no more than a caution. Strains are nearly proportional to
+double Judge::rank_of(const Point& point) const {
+  const auto i = static_cast<size_t>(worst_of(point));
+  return static_cast<double>(point.level) * 1e6 + double{point.strains[i]} / limits_[i].warning;
+}
+
+// The share of the circle's radius with which the pixel is no more than a caution. Strains are nearly proportional to
 // the radius, but for points near the axis, which change their elevation with it.
-double Judge::circle_for(const Point& point) const {
+double Judge::circle_for(size_t pixel) const {
+  const Point& point = points_[pixel];
   if (point.level < ComfortLevel::kWarning || options_.rules != ComfortRules::kStrain) return 1.0;
-  const auto limit = [&](Strain strain) { return limits_[static_cast<size_t>(strain)].warning; };
-  const double circle = point.across * std::sin(point.half_parallax);
+  const int x = static_cast<int>(pixel) % width_, y = static_cast<int>(pixel) / width_;
+  const Place place = place_of(x, y, look_at(x, y));
+  const double circle = place.across * std::sin(place.half_parallax);
   double share = 1.0;
   for (int i = 0; i < 8; i++) {
-    const auto [half, elevation] = seen_from_circle(share * circle, point.across, point.height);
+    const auto [half, elevation] = seen_from_circle(share * circle, place.across, place.height);
     const double near = vergence_dioptres(vergence(half, elevation), options_.viewer);
     const double vertical = worst_vertical_disparity(half, elevation, gaze()) / kArcMinute;
     const double over = std::max(near / limit(Strain::kNear), vertical / limit(Strain::kVertical));
+    if (over <= 1.0 && over > 0.9999) break;
     share = std::min(1.0, share / over);
   }
-  const double step = limit(Strain::kStep) / std::max(point.strains[static_cast<size_t>(Strain::kStep)], 1e-9);
-  return std::min(share, step);
+  for (const Strain strain : {Strain::kStep, Strain::kEdge}) {
+    share = std::min(share, limit(strain) / std::max(double{point.strains[static_cast<size_t>(strain)]}, 1e-9));
+  }
+  return share;
 }
 
 // Strains go nearly as one over the distance.
-StrainedPlace Judge::describe(const Point& point, double share) const {
+StrainedPlace Judge::describe(size_t pixel, double share) const {
+  const Point& point = points_[pixel];
+  const ViewDirection look = look_at(static_cast<int>(pixel) % width_, static_cast<int>(pixel) / width_);
   StrainedPlace place;
   place.strain = worst_of(point);
-  const auto i = static_cast<size_t>(place.strain);
-  place.value = point.strains[i];
+  place.value = double{point.strains[static_cast<size_t>(place.strain)]};
   place.level = point.level;
-  place.azimuth = point.azimuth / kDegree;
-  place.elevation = point.elevation / kDegree;
-  place.distance = point.distance;
+  place.azimuth = azimuth_of(look.direction) / kDegree;
+  place.elevation = elevation_of(look) / kDegree;
+  place.distance = double{point.distance};
   place.share = share;
-  double most = 0.0;
-  for (size_t k = 0; k < limits_.size(); k++) most = std::max(most, point.strains[k] / limits_[k].warning);
-  place.enough = point.distance * most;
+  place.enough = place.distance * most_of(point);
+  place.ipd = static_cast<float>(double{seen_.camera.ipd} * circle_for(pixel));
   return place;
 }
 
-void Judge::list_places(ComfortReport& report) const {
+// What strains and has no name is an area: numbered after the names.
+std::vector<int> Judge::things_or_areas() const {
   AreaGrid grid{width_, height_, is_whole_turn(), {}, {}};
-  for (const Point& point : points_) {
-    grid.is_in.push_back(point.level != ComfortLevel::kOk);
-    grid.nearness.push_back(static_cast<float>(1.0 / point.distance));
+  const bool has_things = !seen_.things.empty();
+  for (size_t i = 0; i < points_.size(); i++) {
+    grid.is_in.push_back(points_[i].level != ComfortLevel::kOk && !(has_things && seen_.things[i] >= 0));
+    grid.nearness.push_back(1.0f / points_[i].distance);
   }
-  const std::vector<int> areas = seen_.things.empty() ? connected_areas(grid) : seen_.things;
+  std::vector<int> areas = connected_areas(grid);
+  for (size_t i = 0; i < areas.size(); i++) {
+    if (areas[i] >= 0) areas[i] += static_cast<int>(seen_.names.size());
+    else if (has_things) areas[i] = seen_.things[i];
+  }
+  return areas;
+}
+
+// Whether an area says nothing that a worse one beside it does not say.
+bool is_part_of(const StrainedPlace& place, const StrainedPlace& worse) {
+  if (!place.name.empty() || !worse.name.empty() || place.strain != worse.strain) return false;
+  const auto way = [](const StrainedPlace& each) {
+    const double a = each.azimuth * kDegree, e = each.elevation * kDegree;
+    return glm::dvec3(std::cos(e) * std::sin(a), std::sin(e), -std::cos(e) * std::cos(a));
+  };
+  return place.share < worse.share && glm::dot(way(place), way(worse)) > std::cos(kBeside);
+}
+
+void Judge::list_places(ComfortReport& report, double all) const {
+  const std::vector<int> areas = things_or_areas();
   struct Thing {
     size_t worst = 0;
     double rank = 0.0, share = 0.0;
   };
   std::vector<Thing> things;
-  double all = 0.0;
   for (size_t i = 0; i < points_.size(); i++) {
-    all += points_[i].solid_angle;
     if (points_[i].level == ComfortLevel::kOk || areas[i] < 0) continue;
     if (things.size() <= static_cast<size_t>(areas[i])) things.resize(static_cast<size_t>(areas[i]) + 1);
     Thing& thing = things[static_cast<size_t>(areas[i])];
-    thing.share += points_[i].solid_angle;
+    thing.share += double{points_[i].solid_angle};
     if (const double rank = rank_of(points_[i]); rank > thing.rank) thing.rank = rank, thing.worst = i;
   }
   std::vector<size_t> order;
@@ -243,42 +322,53 @@ void Judge::list_places(ComfortReport& report) const {
     if (things[i].rank > 0.0) order.push_back(i);
   }
   std::ranges::stable_sort(order, [&](size_t a, size_t b) { return things[a].rank > things[b].rank; });
-  order.resize(std::min(order.size(), kMostPlaces));
   for (const size_t i : order) {
-    report.places.push_back(describe(points_[things[i].worst], things[i].share / all));
-    if (i < seen_.names.size()) report.places.back().name = seen_.names[i];
+    StrainedPlace place = describe(things[i].worst, things[i].share / all);
+    if (i < seen_.names.size()) place.name = seen_.names[i];
+    if (std::ranges::any_of(report.places, [&](const StrainedPlace& worse) { return is_part_of(place, worse); })) continue;
+    report.places.push_back(std::move(place));
+    if (report.places.size() == kMostPlaces) break;
   }
 }
 
 ComfortReport Judge::report() {
+  points_.resize(seen_.depth.pixels.size());
+  tbb::parallel_for(0, height_, [&](int y) {
+    for (int x = 0; x < width_; x++) judge_pixel(x, y);
+  });
+  std::vector<double> circles(static_cast<size_t>(height_), 1.0);
+  tbb::parallel_for(0, height_, [&](int y) {
+    if (options_.rules == ComfortRules::kStrain) add_steps(y), add_edges(y);
+    for (int x = 0; x < width_; x++) {
+      rate(points_[pixel(x, y)]);
+      double& circle = circles[static_cast<size_t>(y)];
+      circle = std::min(circle, circle_for(pixel(x, y)));
+    }
+  });
   ComfortReport report;
-  points_.resize(static_cast<size_t>(width_) * static_cast<size_t>(height_));
+  report.level = Image(width_, height_, 1);
+  report.nearest = kFar;
+  double all = 0.0, looked = 0.0;
   size_t unknown = 0;
   for (int y = 0; y < height_; y++) {
     for (int x = 0; x < width_; x++) {
-      place(x, y);
-      unknown += !(seen_.depth.at(x, y)[0] > 0.0f);
+      const Point& point = points_[pixel(x, y)];
+      const auto level = static_cast<size_t>(point.level);
+      unknown += !(*seen_.depth.at(x, y) > 0.0f);
+      const double solid = double{point.solid_angle}, gazed = solid * looked_at(elevation_of(look_at(x, y)));
+      all += solid, looked += gazed;
+      report.share[level] += solid, report.looked[level] += gazed;
+      report.nearest = std::min(report.nearest, double{point.distance});
+      *report.level.at(x, y) = static_cast<float>(point.level);
+      for (size_t k = 0; k < limits_.size(); k++) report.most[k] = std::max(report.most[k], double{point.strains[k]});
     }
   }
   if (unknown == points_.size()) throw Error(ErrorKind::kInput, "no pixel has a depth above 0");
-  if (options_.rules == ComfortRules::kStrain) add_steps();
-  report.level = Image(width_, height_, 1);
-  report.nearest = kFar;
-  double all = 0.0, circle = 1.0;
-  for (size_t i = 0; i < points_.size(); i++) {
-    Point& point = points_[i];
-    rate(point);
-    all += point.solid_angle;
-    report.share[static_cast<size_t>(point.level)] += point.solid_angle;
-    report.nearest = std::min(report.nearest, point.distance);
-    report.level.pixels[i] = static_cast<float>(point.level);
-    for (size_t k = 0; k < limits_.size(); k++) report.most[k] = std::max(report.most[k], point.strains[k]);
-    circle = std::min(circle, circle_for(point));
-  }
   for (double& share : report.share) share /= std::max(all, 1e-12);
+  for (double& share : report.looked) share /= std::max(looked, 1e-12);
   report.unknown = static_cast<double>(unknown) / static_cast<double>(points_.size());
-  report.largest_ipd = static_cast<float>(double{seen_.camera.ipd} * circle);
-  list_places(report);
+  report.largest_ipd = seen_.camera.ipd * static_cast<float>(*std::ranges::min_element(circles));
+  list_places(report, std::max(all, 1e-12));
   return report;
 }
 
@@ -297,16 +387,28 @@ ComfortLevel worst_level(const ComfortReport& report) {
   return worst;
 }
 
-Image nearest_of_blocks(const Image& depth, int most_width) {
-  const int block = (depth.width + most_width - 1) / most_width;
-  if (block <= 1) return depth;
+std::string direction_text(double azimuth, double elevation) {
+  const auto around = std::lround(std::abs(azimuth)), above = std::lround(std::abs(elevation));
+  const bool is_side = around != 0 && around != 180;
+  std::string text = is_side ? fmt::format("{} degrees {}", around, azimuth < 0.0 ? "left" : "right")
+                             : around == 0 ? "ahead" : "behind";
+  if (above > 0) text += fmt::format(", {}{} {}", above, is_side ? "" : " degrees", elevation < 0.0 ? "down" : "up");
+  return text;
+}
+
+Image nearest_of_blocks(const Image& depth, int most_width, std::vector<size_t>* chosen) {
+  const int block = std::max(1, (depth.width + most_width - 1) / most_width);
   Image nearest((depth.width + block - 1) / block, (depth.height + block - 1) / block, 1);
   std::ranges::fill(nearest.pixels, std::numeric_limits<float>::quiet_NaN());
+  if (chosen) chosen->assign(nearest.pixels.size(), 0);
   for (int y = 0; y < depth.height; y++) {
+    const float* row = depth.at(0, y);
     for (int x = 0; x < depth.width; x++) {
-      float& least = nearest.at(x / block, y / block)[0];
-      const float value = depth.at(x, y)[0];
-      if (value > 0.0f && !(value >= least)) least = value;
+      const size_t at = static_cast<size_t>(nearest.at(x / block, y / block) - nearest.pixels.data());
+      float& least = nearest.pixels[at];
+      if (!(row[x] > 0.0f) || row[x] >= least) continue;
+      least = row[x];
+      if (chosen) (*chosen)[at] = static_cast<size_t>(&row[x] - depth.pixels.data());
     }
   }
   return nearest;

@@ -50,11 +50,13 @@ struct StrainedPlace {
   double distance = 0.0;   // metres from the circle's centre
   double share = 0.0;      // of what the picture shows, by solid angle: where this thing is not ok
   double enough = 0.0;     // the distance, in the same direction, from which on it is no more than a caution
+  float ipd = 0.0f;        // the largest of the picture with which it is no more than a caution, at its distance
 };
 
 struct ComfortReport {
-  std::array<double, 4> share{};      // of what the picture shows, by solid angle, at each ComfortLevel
-  std::array<double, 4> most{};       // of each Strain
+  std::array<double, 4> share{};      // of what the picture shows and is known, by solid angle, at each ComfortLevel
+  std::array<double, 4> looked{};     // likewise, weighted by where people look: looked_at()
+  std::array<double, std::size(kStrains)> most{};  // of each Strain
   std::vector<StrainedPlace> places;  // worst first
   double nearest = 0.0;               // metres; infinite if there is nothing
   double unknown = 0.0;               // share of pixels without a depth
@@ -68,8 +70,11 @@ ComfortReport judge_comfort(const SeenDepth& seen, const ComfortOptions& options
 // The worst level of anything.
 ComfortLevel worst_level(const ComfortReport& report);
 
+// "23 degrees right, 12 down".
+std::string direction_text(double azimuth, double elevation);
+
 // The depth of a picture that is at most `most_width` wide: the nearest of each block of pixels. Blocks without a depth
-// are NaN.
-Image nearest_of_blocks(const Image& depth, int most_width);
+// are NaN. chosen: gets the index of each block's nearest pixel.
+Image nearest_of_blocks(const Image& depth, int most_width, std::vector<size_t>* chosen = nullptr);
 
 }  // namespace ods

@@ -42,6 +42,7 @@ StrainLimits strain_limits(Strain strain, const Viewer& viewer) {
     case Strain::kVertical:
       return {15.0, kFusionLimit, 60.0};
     case Strain::kStep:
+    case Strain::kEdge:
       return {1.84, 3.05, kNever};
     case Strain::kRule:
       return {1.0, 1.0, 1.0};
@@ -53,6 +54,10 @@ ComfortLevel level_of(double value, const StrainLimits& limits) {
   if (value > limits.error) return ComfortLevel::kError;
   if (value > limits.warning) return ComfortLevel::kWarning;
   return value > limits.caution ? ComfortLevel::kCaution : ComfortLevel::kOk;
+}
+
+double looked_at(double elevation) {
+  return std::exp(-std::abs(elevation) / (18.6 * kDegree)) / std::max(std::cos(elevation), 1e-3);
 }
 
 CircleView seen_from_circle(double radius, double across, double height) {

@@ -34,6 +34,7 @@ enum class Strain {
   kNear,      // the eyes converge nearer than they focus; in dioptres, of the distance for which they converge
   kVertical,  // worst_vertical_disparity(), in minutes of arc
   kStep,      // vergence against what is a degree beside it, in degrees
+  kEdge,      // vergence of what the side of a picture cuts that does not go all around, in degrees
   kRule,      // a rule of ComfortOptions is broken; how many times too near it is
 };
 
@@ -51,6 +52,8 @@ inline constexpr StrainRow kStrainTable[] = {
      "Qin et al., limits of Panum's area; a degree: severe"},
     {Strain::kStep, "step", "degrees", "a large step in depth to what is beside it",
      "Nagata 2002, limits of fusion of 392 people"},
+    {Strain::kEdge, "edge", "degrees", "the picture's side cuts it, and one eye shows more of it",
+     "as of a step; provisional"},
     {Strain::kRule, "rule", "times too near", "nearer than the rule allows", ""},
 };
 static_assert(has_every_member(kStrainTable));
@@ -68,6 +71,10 @@ inline constexpr NameRow<ComfortLevel> kComfortLevelTable[] = {
 };
 static_assert(has_every_member(kComfortLevelTable));
 inline constexpr auto kComfortLevels = members_of(kComfortLevelTable);
+
+// How much people look at this elevation, over the horizon's, by solid angle. Source: Sitzmann et al. 2018, "Saliency in
+// VR", have a Laplace distribution of elevations, 18.6 degrees wide; provisional, quoted from memory.
+double looked_at(double elevation);
 
 inline constexpr double kFusionLimit = 25.6;                     // minutes of arc: kVertical is a warning beyond
 inline constexpr double kGoogleAhead = 0.6, kGoogleAbove = 3.5;  // metres: Google's least distances

@@ -60,11 +60,11 @@ std::string conversion_fault(const StoredPicture& picture, const ConvertTarget& 
   }
   if (!sees_around(picture, target) || depth_layer(picture)) return correction_fault(picture, target);
   if (from_mono)
-    return "the picture is of one eye in the middle, and has no depth from which two could be made: give it by --depth "
+    return "the picture is of one eye in the middle, and has no depth from which two could be made: give it by `depth` "
            "FILE";
   return "eyes at other places see around things otherwise, which needs depth: render to .exr, which keeps it, or give "
          "it by "
-         "--depth FILE";
+         "`depth` FILE";
 }
 
 bool is_same_picture(const StoredPicture& picture, const ConvertTarget& target) {

@@ -22,9 +22,9 @@ struct DepthKindRow {
 inline constexpr DepthKindRow kDepthKindTable[] = {
     {DepthKind::kMetres, "metres", "metres"},
     {DepthKind::kMillimetres, "millimetres", "millimetres"},
-    {DepthKind::kInverse, "inverse", "1 / metres; with --near, from far (black) to near (white) by 1 / metres"},
-    {DepthKind::kDisparity, "disparity", "in proportion to 1 / metres: 0 is infinitely far, the largest is --near"},
-    {DepthKind::kRelative, "relative", "from --near (black) to --far (white) by metres"},
+    {DepthKind::kInverse, "inverse", "1 / metres; where the nearest is given, from far (black) to near (white) by 1 / metres"},
+    {DepthKind::kDisparity, "disparity", "in proportion to 1 / metres: 0 is infinitely far, the largest is the nearest"},
+    {DepthKind::kRelative, "relative", "from the nearest (black) to the farthest (white) by metres"},
 };
 static_assert(has_every_member(kDepthKindTable));
 

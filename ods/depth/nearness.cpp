@@ -59,7 +59,7 @@ Error unclear(const std::string& path, const std::string& what) {
 
 DepthKind kind_of(const DepthNumbers& depth, const DepthFormat& format) {
   if (!format.kind && depth.codes > 0) {
-    throw unclear(depth.path, fmt::format("its integers may mean many things: say which by --depth-kind {}",
+    throw unclear(depth.path, fmt::format("its integers may mean many things: say which by `depth-kind` {}",
                                           fmt::join(names_of(kDepthKindTable), ", ")));
   }
   return format.kind.value_or(DepthKind::kMetres);
@@ -71,13 +71,13 @@ void check_range(const DepthNumbers& depth, const DepthFormat& format, DepthKind
   const std::string_view name = name_in(kDepthKindTable, kind);
   if (format.has_scale && !format.nearest && (kind == DepthKind::kDisparity || is_inverse)) {
     throw unclear(depth.path,
-                  fmt::format("--depth-kind {} needs a scale: --near METRES, or --eye-height METRES", name));
+                  fmt::format("`depth-kind` {} needs a scale: `near` METRES, or `eye-height` METRES", name));
   }
   if (kind == DepthKind::kRelative && (!format.nearest || !format.farthest)) {
-    throw unclear(depth.path, "--depth-kind relative needs both ends: --near METRES --far METRES");
+    throw unclear(depth.path, "`depth-kind` relative needs both ends: `near` METRES `far` METRES");
   }
   if (format.nearest && format.farthest && *format.nearest >= *format.farthest) {
-    throw unclear(depth.path, "--near must be nearer than --far");
+    throw unclear(depth.path, "`near` must be nearer than `far`");
   }
 }
 

@@ -81,7 +81,7 @@ void turn_along_ray(Image& nearness, const StoredPicture& picture, const std::st
   const Projection projection = make_projection(picture.camera.projection);
   if (!is_cube(projection.kind) && !has_lens(projection.kind)) {
     throw Error(ErrorKind::kUsage, fmt::format("'{}': a {} picture has no axis along which depth could be measured: "
-                                               "leave out --depth-along axis",
+                                               "leave out `depth-along` axis",
                                                path, projection_name(picture.camera.projection)));
   }
   tbb::parallel_for(0, nearness.height, [&](int y) {
@@ -97,9 +97,9 @@ void turn_along_ray(Image& nearness, const StoredPicture& picture, const std::st
 std::string mend_of(const DepthNumbers& depth, const DepthFormat& format) {
   const DepthKind kind = format.kind.value_or(DepthKind::kMetres);
   if (kind == DepthKind::kInverse || kind == DepthKind::kDisparity) {
-    return format.nearest && depth.codes > 0 ? "--depth-kind relative" : "--depth-kind metres or relative";
+    return format.nearest && depth.codes > 0 ? "`depth-kind` relative" : "`depth-kind` metres or relative";
   }
-  return "--depth-kind inverse or disparity";
+  return "`depth-kind` inverse or disparity";
 }
 
 // An eye's depth as metres.
@@ -158,7 +158,7 @@ static void say_sharpened(double share, DepthReport& report) {
   if (share == 0.0) return;
   report.notes.push_back(
       fmt::format("{:.2g} % of the depth was on soft edges, which are as sharp as the picture's now "
-                  "(--depth-edges soft leaves them)",
+                  "(`depth-edges` soft leaves them)",
                   100.0 * share));
 }
 
@@ -168,7 +168,7 @@ static double scale_to_floor(const Image& nearness, const StoredPicture& picture
   if (found) return double{height} / *found;
   throw Error(
       ErrorKind::kInput,
-      fmt::format("'{}' shows no level floor below the viewer, which --eye-height needs: give --near instead", path));
+      fmt::format("'{}' shows no level floor below the viewer, which `eye-height` needs: give `near` instead", path));
 }
 
 // What the first eye's depth shows of the whole: a mistake, the scale.

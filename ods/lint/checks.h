@@ -94,6 +94,7 @@ void check_dead_poles(const Subject& subject, LintReport& report);
 void check_black(const Subject& subject, LintReport& report);
 void check_codes(const Subject& subject, LintReport& report);     // highlights, banding
 void check_shape(const Subject& subject, LintReport& report);     // aspect, video levels
+void note_nearest(const Subject& subject, LintReport& report);    // no check: one line
 void check_metadata(const Subject& subject, LintReport& report);  // except the layout, which check_layout() measures
 
 }  // namespace ods

@@ -77,6 +77,7 @@ static void check_pixels(const Subject& subject, LintReport& report) {
   check_sharpness(subject, report);
   check_parallax(subject, report);
   check_poles(subject, report);
+  if (!subject.is_video) note_nearest(subject, report);
 }
 
 // Reports the checks that were not reached.

@@ -422,7 +422,7 @@ static const std::vector<ImageLayer>& image_layers() {
   return layers;
 }
 
-static PictureRows rows_of(const Picture& picture, bool all_layers) {
+PictureRows rows_of(const Picture& picture, bool all_layers) {
   PictureRows rows;
   rows.eye = {picture.eyes[0].radiance.width, picture.eyes[0].radiance.height};
   std::vector<const Image EyeImage::*> images;

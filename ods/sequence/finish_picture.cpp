@@ -3,8 +3,10 @@
 #include "ods/sequence/finish_picture.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "ods/denoise/oidn.h"
+#include "ods/picture/cryptomatte.h"
 #include "ods/render/light_cache.h"
 
 namespace ods {
@@ -24,7 +26,7 @@ RenderOptions options_to_finish(RenderOptions wanted, Denoiser denoiser) {
 
 std::vector<std::string> finish_picture(const FinishOptions& finish, const RenderOptions& wanted,
                                         const StereoCamera& camera, Picture picture, const std::string& path,
-                                        std::span<const FrameBeside> beside) {
+                                        std::span<const FrameBeside> beside, std::optional<ObjectLayer> objects) {
   Denoiser denoiser = finish.denoiser;
   if (denoiser == Denoiser::kOwn && !has_variance(picture)) denoiser = Denoiser::kNone;
   const bool keeps_raw = denoiser != Denoiser::kNone && wanted.layers;
@@ -43,7 +45,10 @@ std::vector<std::string> finish_picture(const FinishOptions& finish, const Rende
   options.width = picture.eyes[0].radiance.width, options.height = picture.eyes[0].radiance.height;
   const Indirect indirect = light_cache_paths(options) > 0 ? Indirect::kCache : Indirect::kPath;
   save.attributes.push_back({"ods:indirect", std::string(indirect_name(indirect))});
-  return save_picture(picture, camera, save, path);
+  if (!objects) return save_picture(picture, camera, save, path);
+  PictureRows rows = rows_of(picture, true);
+  add_cryptomatte(rows, save, std::move(objects->numbers), objects->names);
+  return save_picture(rows, &camera, save, path);
 }
 
 }  // namespace ods

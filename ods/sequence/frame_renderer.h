@@ -45,6 +45,7 @@ class FrameRenderer {
   FrameRenderer(const SequenceOptions& options, Scene& scene) : options_(options), scene_(scene) {}
 
   const SequenceOptions& options() const { return options_; }
+  const Scene& scene() const { return scene_; }
 
   // Whether frames are denoised together with those beside them.
   bool draws_on_neighbours() const;

@@ -18,8 +18,7 @@
 
 namespace ods {
 
-// Indices of so many frames, spread evenly; of fewer if there are fewer.
-static std::set<size_t> looks_at(const std::vector<SequenceFrame>& frames, size_t count) {
+std::set<size_t> looks_at(const std::vector<SequenceFrame>& frames, size_t count) {
   assert(!frames.empty());
   std::set<size_t> chosen;
   for (size_t i = 0; i < count; i++) chosen.insert((2 * i + 1) * frames.size() / (2 * count));
@@ -27,7 +26,6 @@ static std::set<size_t> looks_at(const std::vector<SequenceFrame>& frames, size_
 }
 
 std::optional<float> suitable_exposure(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames) {
-  constexpr size_t kLooks = 5;
   std::vector<Picture> looks;
   for (const size_t i : looks_at(frames, kLooks)) {
     const Shot shot = renderer.set(frames[i]);
@@ -38,9 +36,9 @@ std::optional<float> suitable_exposure(FrameRenderer& renderer, const std::vecto
 }
 
 Image comfortable_merge(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames, float limit) {
-  constexpr size_t kLooks = 16;
+  constexpr size_t kMergeLooks = 16;
   std::vector<float> shares(kMergeRows, 1.0f);
-  for (const size_t i : looks_at(frames, kLooks)) {
+  for (const size_t i : looks_at(frames, kMergeLooks)) {
     const Shot shot = renderer.set(frames[i]);
     take_least(shares, shares_seen(renderer.renderer(), shot.camera(), limit));
   }

@@ -5,6 +5,7 @@
 // that share the frames or resume them find the same.
 #pragma once
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,12 @@
 
 namespace ods {
 
-// The exposure that suits the light of all frames (ods/stage/exposure.h). None: all is black. Precondition: there are
-// frames, here and below.
+// Indices of so many frames, spread evenly; of fewer if there are fewer. Precondition: there are frames, here and
+// below.
+std::set<size_t> looks_at(const std::vector<SequenceFrame>& frames, size_t count);
+inline constexpr size_t kLooks = 5;
+
+// The exposure that suits the light of all frames (ods/stage/exposure.h). None: all is black.
 std::optional<float> suitable_exposure(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames);
 
 // The merge map with which no frame strains the eyes by more than `limit` minutes of arc above and below

@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/comfort/video.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "ods/base/error.h"
+#include "ods/base/median.h"
+#include "ods/comfort/matched.h"
+#include "ods/comfort/motion.h"
+#include "ods/convert/unwrap.h"
+#include "ods/picture/load_eyes.h"
+#include "ods/video/video_input.h"
+
+namespace ods {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr int kWidth = 512;          // of the views that are matched
+constexpr int kLeastMoments = 8;     // of a short video
+constexpr int kGlance = 32;          // the width of the pictures that tell a cut
+constexpr double kSameShot = 0.5;    // the least correlation of two of them
+constexpr double kLeastMatched = 0.02;
+constexpr double kNearHorizon = 30.0 * kDegree;
+
+// A frame as it is looked at.
+struct Frame {
+  double seconds = 0.0;
+  std::vector<Image> eyes;
+  Image glance;
+};
+
+double correlation(const Image& a, const Image& b) {
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, yy = 0.0, xy = 0.0;
+  for (size_t i = 0; i < a.pixels.size(); i++) {
+    const double p = double{a.pixels[i]}, q = double{b.pixels[i]};
+    if (std::isnan(p) || std::isnan(q)) continue;
+    n += 1.0, x += p, y += q, xx += p * p, yy += q * q, xy += p * q;
+  }
+  const double across = n * xy - x * y, spread = (n * xx - x * x) * (n * yy - y * y);
+  return spread > 1e-9 ? across / std::sqrt(spread) : 1.0;
+}
+
+double median_vergence(const SeenDepth& seen) {
+  const Camera camera = make_camera(seen.camera);
+  const double ipd = double{camera.ipd};
+  std::vector<double> all;
+  for (int y = 0; y < seen.depth.height; y++) {
+    const double phi = std::numbers::pi * (0.5 - (y + 0.5) / seen.depth.height);
+    if (std::abs(phi) > kNearHorizon) continue;
+    for (int x = 0; x < seen.depth.width; x++) {
+      const double depth = double{*seen.depth.at(x, y)};
+      if (depth > 0.0) all.push_back(2.0 * std::atan(0.5 * ipd / depth) / kDegree);
+    }
+  }
+  return all.empty() ? 0.0 : median(std::move(all));
+}
+
+class VideoJudge {
+ public:
+  VideoJudge(const std::string& path, const VideoComfortOptions& options)
+      : options_(options), video_(open_video(path, options.format)), decoder_(path, video_.track) {
+    if (video_.prototype.eyes.size() != 2) {
+      throw Error(ErrorKind::kInput, fmt::format("'{}' has one eye: nothing in it tells how far things are", path));
+    }
+  }
+
+  VideoComfort run(const Progress& progress);
+
+ private:
+  // Of the first frame at or after that time, and of the one that follows it; nothing after the last.
+  std::optional<Frame> frame_at(double seconds);
+  std::optional<Frame> next_frame();
+  std::optional<VideoMoment> look_at(double seconds);
+  void add_motion(VideoMoment& moment, const Frame& frame, const MatchedEyes& matched);
+  void find_cut(VideoMoment& before, VideoMoment& after, const Image& last_glance);
+  void add_strains();
+  void add(const VideoStrain& strain);
+  MatchedEyes match(const Frame& frame) const {
+    return match_eyes_for_depth(frame.eyes, camera_, false, kWidth);
+  }
+
+  const VideoComfortOptions& options_;
+  VideoInput video_;
+  VideoDecoder decoder_;
+  StereoCamera camera_;
+  VideoComfort result_;
+  std::vector<StrainedPlace> places_;  // the worst of each moment, if it is not ok
+  std::vector<double> apart_;
+  Image glance_;  // of the last moment
+  glm::dvec3 velocity_{0.0};
+};
+
+std::optional<Frame> VideoJudge::next_frame() {
+  const std::optional<DecodedFrame> decoded = decoder_.next();
+  if (!decoded) return {};
+  StoredPicture picture = picture_of(video_, decoder_.stream(), *decoded);
+  if (!picture.maps.empty()) picture = unwrapped(picture);
+  camera_ = picture.camera;
+  Frame frame{decoder_.stream().seconds_at(decoded->time), grey_eyes(picture), {}};
+  frame.glance = make_gray_views({frame.eyes[0]}, camera_.projection, false, kGlance)[0];
+  return frame;
+}
+
+std::optional<Frame> VideoJudge::frame_at(double seconds) {
+  decoder_.skip_to(seconds + decoder_.stream().start);
+  return next_frame();
+}
+
+void VideoJudge::add_motion(VideoMoment& moment, const Frame& frame, const MatchedEyes& matched) {
+  const std::optional<Frame> next = next_frame();
+  if (!next || !(next->seconds > frame.seconds) || correlation(frame.glance, next->glance) < kSameShot) return;
+  const GrayView after = make_gray_views({next->eyes[0]}, camera_.projection, false, kWidth)[0];
+  const ViewerMotion motion =
+      motion_between(matched.grey[0], after, matched.seen[0].depth, next->seconds - frame.seconds);
+  moment.is_carried = motion.places >= kLeastPlaces;
+  if (!moment.is_carried) return;
+  moment.turn = std::abs(motion.turn.y) / kDegree;
+  moment.tilt = std::hypot(motion.turn.x, motion.turn.z) / kDegree;
+  moment.speed = glm::length(motion.velocity);
+  if (!result_.moments.empty() && result_.moments.back().is_carried) {
+    const double passed = moment.seconds - result_.moments.back().seconds;
+    moment.acceleration = glm::length(motion.velocity - velocity_) / passed;
+  }
+  velocity_ = motion.velocity;
+}
+
+std::optional<VideoMoment> VideoJudge::look_at(double seconds) {
+  const std::optional<Frame> frame = frame_at(seconds);
+  if (!frame) return {};
+  MatchedEyes matched = match(*frame);
+  VideoMoment moment;
+  moment.seconds = frame->seconds;
+  moment.matched = matched.share;
+  moment.nearest = std::numeric_limits<double>::infinity();
+  StrainedPlace worst;
+  if (matched.share >= kLeastMatched) {
+    ComfortReport report = judge_comfort(matched.seen[0], options_.comfort);
+    moment.nearest = report.nearest;
+    moment.vertical = report.most[static_cast<size_t>(Strain::kVertical)];
+    const double dioptres = report.most[static_cast<size_t>(Strain::kNear)];
+    moment.vergence = 2.0 * std::atan(0.5 * dioptres * double{options_.comfort.viewer.ipd}) / kDegree;
+    moment.middle = median_vergence(matched.seen[0]);
+    moment.level = worst_level(report);
+    result_.precision = std::max(result_.precision, matched.precision);
+    add_motion(moment, *frame, matched);
+    if (!report.places.empty()) worst = report.places[0];
+    const auto rank = [](const ComfortReport& each) {
+      return each.places.empty() ? 0.0 : static_cast<double>(each.places[0].level) + 1.0 - 1.0 / (1.0 + each.places[0].value);
+    };
+    if (!result_.seen || rank(report) > rank(result_.report)) {
+      result_.seen = std::move(matched.seen[0]), result_.grey = std::move(matched.grey[0]);
+      result_.report = std::move(report);
+    }
+  }
+  if (!result_.moments.empty() && correlation(glance_, frame->glance) < kSameShot) {
+    find_cut(result_.moments.back(), moment, glance_);
+  }
+  glance_ = frame->glance;
+  places_.push_back(worst), apart_.push_back(matched.share >= kLeastMatched ? matched.apart : 0.0);
+  return moment;
+}
+
+// Halves the time between two moments of different shots until the cut is between two frames, and compares what eyes
+// converge on before and after it.
+void VideoJudge::find_cut(VideoMoment& before, VideoMoment& after, const Image& last_glance) {
+  double low = before.seconds, high = after.seconds, from = before.middle, to = after.middle;
+  const double frame = video_.fps > 0.0 ? 1.0 / video_.fps : 0.04;
+  while (high - low > 1.5 * frame) {
+    const std::optional<Frame> middle = frame_at(0.5 * (low + high));
+    if (!middle || middle->seconds >= high || middle->seconds <= low) break;
+    const MatchedEyes matched = match(*middle);
+    const double vergence = median_vergence(matched.seen[0]);
+    if (correlation(last_glance, middle->glance) >= kSameShot) {
+      low = middle->seconds, from = vergence;
+    } else {
+      high = middle->seconds, to = vergence;
+    }
+  }
+  after.cut = std::abs(to - from);
+  after.acceleration = 0.0;
+}
+
+// One that goes on is one.
+void VideoJudge::add(const VideoStrain& strain) {
+  if (strain.level == ComfortLevel::kOk) return;
+  for (VideoStrain& known : result_.strains) {
+    if (known.name != strain.name || strain.from - known.to > 1.5 * result_.every) continue;
+    known.to = strain.to;
+    if (strain.level > known.level || (strain.level == known.level && strain.value > known.value)) {
+      known.worst = strain.worst, known.value = strain.value, known.level = strain.level, known.place = strain.place;
+    }
+    return;
+  }
+  result_.strains.push_back(strain);
+}
+
+void VideoJudge::add_strains() {
+  for (size_t i = 0; i < result_.moments.size(); i++) {
+    VideoMoment& moment = result_.moments[i];
+    const double at = moment.seconds;
+    if (const StrainedPlace& place = places_[i]; place.level > ComfortLevel::kOk) {
+      const StrainRow& row = strain_row(place.strain);
+      add({at, at, at, row.name, row.title, row.unit, place.value, place.level, place});
+    }
+    const std::pair<Ride, double> rides[] = {{Ride::kApart, apart_[i]},
+                                             {Ride::kTurn, moment.turn},
+                                             {Ride::kTilt, moment.tilt},
+                                             {Ride::kSpeed, moment.speed},
+                                             {Ride::kAcceleration, moment.acceleration},
+                                             {Ride::kCut, moment.cut.value_or(0.0)}};
+    for (const auto& [ride, value] : rides) {
+      const RideRow& row = ride_row(ride);
+      const ComfortLevel level = level_of(value, row.limits);
+      moment.level = std::max(moment.level, level);
+      add({at, at, at, row.name, row.title, row.unit, value, level, {}});
+    }
+  }
+  std::ranges::stable_sort(result_.strains, [](const VideoStrain& a, const VideoStrain& b) { return a.level > b.level; });
+  if (result_.strains.size() > 10) result_.strains.resize(10);
+}
+
+VideoComfort VideoJudge::run(const Progress& progress) {
+  result_.frames = decoder_.stream().count;
+  const double fps = video_.fps > 0.0 ? video_.fps : 25.0;
+  result_.seconds = result_.frames / fps;
+  const int wished = std::clamp(static_cast<int>(std::ceil(result_.seconds)), kLeastMoments, options_.most_moments);
+  const int count = result_.frames > 0 ? std::min(wished, result_.frames) : wished;
+  result_.every = result_.seconds > 0.0 ? result_.seconds / count : 1.0;
+  for (int i = 0; i < count; i++) {
+    if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "interrupted");
+    const std::optional<VideoMoment> moment = look_at(i * result_.every);
+    if (!moment) break;
+    result_.moments.push_back(*moment);
+    if (progress.report) progress.report((i + 1.0) / count);
+  }
+  if (!result_.seen) {
+    throw Error(ErrorKind::kInput,
+                fmt::format("the eyes of '{}' could not be matched: see what ods lint says of it", video_.path));
+  }
+  result_.camera = result_.seen->camera;
+  add_strains();
+  return std::move(result_);
+}
+
+}  // namespace
+
+VideoComfort judge_video(const std::string& path, const VideoComfortOptions& options, const Progress& progress) {
+  return VideoJudge(path, options).run(progress);
+}
+
+ComfortLevel worst_level(const VideoComfort& video) {
+  ComfortLevel worst = ComfortLevel::kOk;
+  for (const VideoMoment& moment : video.moments) worst = std::max(worst, moment.level);
+  return worst;
+}
+
+}  // namespace ods

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a stereo video does to its viewer, by matching the eyes of some of its frames, and each with the frame after it:
+// how near things are, how the viewer is carried and turned, how far eyes must jump at cuts. docs/comfort.md has the
+// limits and where they come from.
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ods/base/names.h"
+#include "ods/base/progress.h"
+#include "ods/comfort/comfort.h"
+#include "ods/comfort/strain.h"
+#include "ods/picture/metadata/stereo_format.h"
+
+namespace ods {
+
+// What strains in time, beside what strains in a picture.
+enum class Ride {
+  kApart,         // one eye sees things higher: minutes of arc
+  kTurn,          // the viewer is turned about the vertical: degrees a second
+  kTilt,          // about any other axis: the horizon rolls or nods; degrees a second
+  kSpeed,         // metres a second
+  kAcceleration,  // metres a second squared
+  kCut,           // how far vergence jumps there: degrees
+};
+
+struct RideRow {
+  Ride member;
+  std::string_view name;
+  std::string_view unit;
+  std::string_view title;
+  StrainLimits limits;
+  std::string_view source;
+};
+inline constexpr double kNoLimit = 1e300;
+inline constexpr RideRow kRideTable[] = {
+    {Ride::kApart, "apart", "minutes of arc", "one eye sees things higher", {15.0, kFusionLimit, 60.0},
+     "as of vertical disparity"},
+    {Ride::kTurn, "turn", "degrees a second", "the viewer is turned around", {10.0, 30.0, 60.0},
+     "So, Lo 1999: turning at 30 sickens; Hu et al. 1989: at 60 most; provisional"},
+    {Ride::kTilt, "tilt", "degrees a second", "the horizon rolls", {3.0, 10.0, 30.0},
+     "So, Lo 1999: roll and pitch sicken as yaw does; provisional"},
+    {Ride::kSpeed, "speed", "metres a second", "the viewer is carried fast", {3.0, 10.0, kNoLimit},
+     "So, Lo, Ho 2001: nausea grows from 3 to 10 metres a second"},
+    {Ride::kAcceleration, "acceleration", "metres a second squared", "the viewer's speed changes", {0.5, 1.5, kNoLimit},
+     "provisional"},
+    {Ride::kCut, "cut", "degrees", "eyes must jump in depth at a cut", {1.84, 3.05, kNoLimit},
+     "Nagata 2002, limits of fusion of 392 people"},
+};
+static_assert(has_every_member(kRideTable));
+inline constexpr auto kRides = members_of(kRideTable);
+constexpr const RideRow& ride_row(Ride ride) {
+  return row_in(kRideTable, ride);
+}
+
+// One frame that was looked at.
+struct VideoMoment {
+  double seconds = 0.0;
+  double matched = 0.0;    // share of the picture
+  double nearest = 0.0;    // metres; infinite if nothing is
+  double vergence = 0.0;   // degrees: the most
+  double vertical = 0.0;   // minutes of arc: the worst
+  double middle = 0.0;     // degrees: the median vergence of what is within 30 degrees of the horizon
+  bool is_carried = false;  // speed, turn and tilt are known
+  double speed = 0.0, turn = 0.0, tilt = 0.0, acceleration = 0.0;  // as Ride
+  std::optional<double> cut;                                       // since the moment before, there was a cut: as Ride
+  ComfortLevel level = ComfortLevel::kOk;
+};
+
+// Something that strains from one moment to another.
+struct VideoStrain {
+  double from = 0.0, to = 0.0, worst = 0.0;  // seconds
+  std::string_view name, title, unit;        // of a Strain or a Ride
+  double value = 0.0;
+  ComfortLevel level = ComfortLevel::kOk;
+  std::optional<StrainedPlace> place;  // of a strain in the picture
+};
+
+struct VideoComfort {
+  StereoCamera camera;
+  int frames = 0;        // of the video; 0: unknown
+  double seconds = 0.0;  // it lasts
+  double every = 0.0;    // seconds from one moment to the next
+  double precision = 0.0;
+  std::vector<VideoMoment> moments;
+  std::vector<VideoStrain> strains;  // worst first, at most ten
+  // The worst moment's picture.
+  std::optional<SeenDepth> seen;
+  Image grey;
+  ComfortReport report;
+};
+
+struct VideoComfortOptions {
+  ComfortOptions comfort;
+  FormatHint format;
+  int most_moments = 90;  // of a long video
+};
+
+// Throws Error(kInput), as open_video() and VideoDecoder, and if it has one eye or nothing matches; Error(kCancelled).
+VideoComfort judge_video(const std::string& path, const VideoComfortOptions& options = {},
+                         const Progress& progress = {});
+
+ComfortLevel worst_level(const VideoComfort& video);
+
+}  // namespace ods

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/picture/cryptomatte.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "ods/base/text.h"
+#include "ods/picture/channel_layers.h"
+
+namespace ods {
+
+namespace {
+
+constexpr const char* kOwnLayer = "CryptoObject";
+constexpr std::string_view kPrefix = "cryptomatte/";
+
+// The names of a manifest: {"name": "hexadecimal number", ...}.
+std::map<float, std::string> read_manifest(const std::string& text) {
+  std::map<float, std::string> names;
+  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object()) return names;
+  for (const auto& [name, value] : json.items()) {
+    if (!value.is_string()) continue;
+    const std::string& digits = value.get_ref<const std::string&>();
+    if (digits.empty() || digits.size() > 8 || digits.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos) {
+      continue;
+    }
+    names[std::bit_cast<float>(static_cast<uint32_t>(std::stoul(digits, nullptr, 16)))] = name;
+  }
+  return names;
+}
+
+std::string hexadecimal(float number) {
+  return fmt::format("{:08x}", std::bit_cast<uint32_t>(number));
+}
+
+}  // namespace
+
+// Source: Appleby, MurmurHash3_x86_32, in the public domain.
+uint32_t murmur3(std::string_view text) {
+  const auto mixed = [](uint32_t block) { return std::rotl(block * 0xcc9e2d51u, 15) * 0x1b873593u; };
+  const auto byte_at = [&](size_t i) { return static_cast<uint32_t>(static_cast<unsigned char>(text[i])); };
+  uint32_t hash = 0;
+  size_t at = 0;
+  for (; at + 4 <= text.size(); at += 4) {
+    const uint32_t block = byte_at(at) | byte_at(at + 1) << 8 | byte_at(at + 2) << 16 | byte_at(at + 3) << 24;
+    hash = std::rotl(hash ^ mixed(block), 13) * 5u + 0xe6546b64u;
+  }
+  uint32_t rest = 0;
+  for (size_t i = text.size(); i > at; i--) rest = rest << 8 | byte_at(i - 1);
+  if (at < text.size()) hash ^= mixed(rest);
+  hash ^= static_cast<uint32_t>(text.size());
+  hash = (hash ^ hash >> 16) * 0x85ebca6bu;
+  hash = (hash ^ hash >> 13) * 0xc2b2ae35u;
+  return hash ^ hash >> 16;
+}
+
+float matte_number(std::string_view name) {
+  uint32_t hash = murmur3(name);
+  const uint32_t exponent = hash >> 23 & 0xffu;
+  if (exponent == 0u || exponent == 0xffu) hash ^= 1u << 23;
+  return std::bit_cast<float>(hash);
+}
+
+std::optional<Cryptomatte> find_cryptomatte(const FileInfo& info) {
+  std::optional<Cryptomatte> found;
+  for (const auto& [attribute, layer] : info.text) {
+    if (!attribute.starts_with(kPrefix) || !attribute.ends_with("/name")) continue;
+    const bool is_better = !found || small_letters(layer).find("object") != std::string::npos;
+    if (!is_better) continue;
+    found = Cryptomatte{layer, {}};
+    const auto manifest = info.text.find(attribute.substr(0, attribute.size() - 4) + "manifest");
+    if (manifest != info.text.end()) found->names = read_manifest(manifest->second);
+  }
+  return found;
+}
+
+// The first rank of the first layer: `LAYER00.R`, in some files `LAYER00.r`.
+Image matte_of_eye(const StoredPicture& picture, size_t eye, const Cryptomatte& matte) {
+  for (const LayerPixels& layer : picture.eyes[eye].layers) {
+    for (size_t channel = 0; channel < layer.channels.size(); channel++) {
+      const auto [group, last] = split_name(layer.channels[channel]);
+      if (group != matte.layer + "00" || small_letters(last) != "r" || layer.sample != SampleType::kFloat) continue;
+      Image numbers(picture.size.width, picture.size.height, 1);
+      for (int y = 0; y < numbers.height; y++) {
+        for (int x = 0; x < numbers.width; x++) {
+          std::memcpy(numbers.at(x, y), layer.first + y * layer.row_stride + x * layer.pixel_stride + 4 * channel, 4);
+        }
+      }
+      return numbers;
+    }
+  }
+  return {};
+}
+
+void add_cryptomatte(PictureRows& rows, SaveOptions& save, std::vector<Image> numbers,
+                     const std::vector<std::string>& names) {
+  nlohmann::json manifest = nlohmann::json::object();
+  for (const std::string& name : names) {
+    if (!name.empty()) manifest[name] = hexadecimal(matte_number(name));
+  }
+  const std::string key = fmt::format("{}{:07x}/", kPrefix, murmur3(kOwnLayer) >> 4);
+  save.attributes.push_back({key + "name", std::string(kOwnLayer)});
+  save.attributes.push_back({key + "hash", std::string("MurmurHash3_32")});
+  save.attributes.push_back({key + "conversion", std::string("uint32_to_float32")});
+  save.attributes.push_back({key + "manifest", manifest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)});
+  const size_t before = count_channels(rows.layers);
+  RowLayer layer{{}, LayerRule::kNearest, SampleType::kFloat};
+  for (const char* channel : {"R", "G", "B", "A"}) layer.channels.push_back(fmt::format("{}00.{}", kOwnLayer, channel));
+  rows.layers.push_back(layer);
+  const auto all = std::make_shared<const std::vector<Image>>(std::move(numbers));
+  rows.fill = [fill = std::move(rows.fill), all, before](int index, int y, std::span<float> row) {
+    const Image& own = (*all)[static_cast<size_t>(index)];
+    const size_t stride = before + 4, width = static_cast<size_t>(own.width);
+    fill(index, y, row.first(before * width));
+    // From the last pixel on, for they move to the right.
+    for (size_t x = width; x-- > 0;) {
+      std::copy_backward(&row[x * before], &row[x * before] + before, &row[x * stride] + before);
+      const float number = *own.at(static_cast<int>(x), y);
+      const float ranks[] = {number, number == 0.0f ? 0.0f : 1.0f, 0.0f, 0.0f};
+      std::copy_n(ranks, 4, &row[x * stride + before]);
+    }
+  };
+}
+
+}  // namespace ods

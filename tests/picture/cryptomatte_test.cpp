@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/picture/cryptomatte.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+
+#include "ods/image/image_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ods {
+namespace {
+
+// Known answers of MurmurHash3_x86_32 with the seed 0.
+TEST(Cryptomatte, HashesAreMurmurs) {
+  EXPECT_EQ(murmur3(""), 0u);
+  EXPECT_EQ(murmur3("test"), 0xba6bd213u);
+  EXPECT_EQ(murmur3("Hello, world!"), 0xc0363e43u);
+  EXPECT_EQ(murmur3("The quick brown fox jumps over the lazy dog"), 0x2e4ff723u);
+}
+
+TEST(Cryptomatte, NumbersAreNumbers) {
+  for (int i = 0; i < 20000; i++) EXPECT_TRUE(std::isnormal(matte_number(std::to_string(i)))) << i;
+}
+
+TEST(Cryptomatte, WhatIsWrittenIsReadInBothEyes) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> names = {"Lamp", "Table \"large\"", "B\xc3\xa4r"};
+  Picture picture;
+  std::vector<Image> numbers;
+  for (const int eye : {kLeft, kRight}) {
+    picture.eyes.push_back({eye, Image(6, 3, 3), Image(6, 3, 1), {}, {}});
+    Image& own = numbers.emplace_back(6, 3, 1);
+    for (size_t i = 0; i < 18; i++) {
+      picture.eyes.back().radiance.pixels[3 * i] = 0.25f;
+      picture.eyes.back().depth.pixels[i] = static_cast<float>(i) + 1.0f;
+      own.pixels[i] = i == 17 ? 0.0f : matte_number(names[(i + static_cast<size_t>(eye)) % 3]);
+    }
+  }
+  PictureRows rows = rows_of(picture, true);
+  SaveOptions save;
+  add_cryptomatte(rows, save, numbers, names);
+  const std::string path = folder.path("x.exr");
+  const StereoCamera camera;
+  save_picture(rows, &camera, save, path);
+  const std::optional<Cryptomatte> matte = find_cryptomatte(read_info(path));
+  ASSERT_TRUE(matte);
+  EXPECT_EQ(matte->layer, "CryptoObject");
+  ASSERT_EQ(matte->names.size(), 3u);
+  for (const std::string& name : names) EXPECT_EQ(matte->names.at(matte_number(name)), name);
+  const StoredPicture stored = open_picture(path);
+  for (size_t eye = 0; eye < 2; eye++) EXPECT_EQ(matte_of_eye(stored, eye, *matte).pixels, numbers[eye].pixels);
+  EXPECT_TRUE(matte_of_eye(stored, 0, {"Other", {}}).pixels.empty());
+}
+
+TEST(Cryptomatte, HeadersOfOthersAndDamagedOnes) {
+  FileInfo info;
+  EXPECT_FALSE(find_cryptomatte(info));
+  info.text["cryptomatte/1234567/name"] = "ViewLayer.CryptoMaterial";
+  info.text["cryptomatte/1234567/manifest"] = "{\"Steel\":\"3f800000\"}";
+  info.text["cryptomatte/89abcde/name"] = "ViewLayer.CryptoObject";
+  info.text["cryptomatte/89abcde/manifest"] = "{\"Cube\":\"40000000\",\"bad\":\"xyz\",\"number\":5,\"long\":\"123456789\"}";
+  const std::optional<Cryptomatte> matte = find_cryptomatte(info);
+  ASSERT_TRUE(matte);
+  EXPECT_EQ(matte->layer, "ViewLayer.CryptoObject");
+  ASSERT_EQ(matte->names.size(), 1u);
+  EXPECT_EQ(matte->names.at(2.0f), "Cube");
+  for (const char* text : {"", "{", "[]", "\"x\""}) {
+    info.text["cryptomatte/89abcde/manifest"] = text;
+    EXPECT_TRUE(find_cryptomatte(info)->names.empty()) << text;
+  }
+}
+
+}  // namespace
+}  // namespace ods
