@@ -251,7 +251,7 @@ TEST(PictureDepth, AlongTheAxisOfALens) {
                   add_depth(sphere.picture, {numbers({64, 32}, [](float m) { return m; })}, options);
                 },
                 ErrorKind::kUsage)
-                .find("--depth-along"),
+                .find("`depth-along`"),
             std::string::npos);
 }
 
@@ -291,13 +291,13 @@ TEST(PictureDepth, MistakesAreSaidInOneLine) {
       {"negative", ErrorKind::kInput, numbers(size, [&](float m) { return -same(m); }), {}},
       {"are 0", ErrorKind::kInput, numbers(size, [](float m) { return m < 2.0f ? m : 0.0f; }), {}},
       {"another shape", ErrorKind::kInput, numbers({128, 100}, same), {}},
-      {"--depth-kind metres, millimetres", ErrorKind::kUsage, numbers(size, same, 255), {}},
-      {"--near", ErrorKind::kUsage,
+      {"`depth-kind` metres, millimetres", ErrorKind::kUsage, numbers(size, same, 255), {}},
+      {"`near`", ErrorKind::kUsage,
        numbers(
            size, [](float m) { return 1.0f / m; }, 255),
        inverse},
       {"both ends", ErrorKind::kUsage, numbers(size, same), {DepthKind::kRelative, DepthAlong::kRay, 1.0f, {}}},
-      {"nearer than --far",
+      {"nearer than `far`",
        ErrorKind::kUsage,
        numbers(size, same),
        {DepthKind::kRelative, DepthAlong::kRay, 5.0f, 2.0f}}};
@@ -332,10 +332,10 @@ TEST(PictureDepth, InvertedDepthIsNoticed) {
   EXPECT_TRUE(warnings(DepthKind::kInverse, by_nearness).empty());
   const auto far_white = warnings(DepthKind::kInverse, by_metres);
   ASSERT_EQ(far_white.size(), 1u);
-  EXPECT_NE(far_white[0].find("--depth-kind relative"), std::string::npos) << far_white[0];
+  EXPECT_NE(far_white[0].find("`depth-kind` relative"), std::string::npos) << far_white[0];
   const auto near_white = warnings(DepthKind::kRelative, by_nearness);
   ASSERT_EQ(near_white.size(), 1u);
-  EXPECT_NE(near_white[0].find("--depth-kind inverse"), std::string::npos) << near_white[0];
+  EXPECT_NE(near_white[0].find("`depth-kind` inverse"), std::string::npos) << near_white[0];
 }
 
 // --- scale -----------------------------------------------------------------------------------------------------------
