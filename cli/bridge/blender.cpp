@@ -147,10 +147,11 @@ static void run_script(const BlenderOptions& options, const std::vector<std::str
   }
   if (!listener.error().empty()) fail(what, listener.error());
   if (listener.is_done()) return;
-  const std::string how = WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL
-                              ? fmt::format("Blender crashed (signal {})", WTERMSIG(status))
-                          : WIFEXITED(status) && WEXITSTATUS(status) == 127 ? "Blender cannot be started"
-                                                                            : "Blender ended before it was done";
+  const std::string how =
+      WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL
+          ? fmt::format("Blender crashed (signal {}); --blender PATH tries another", WTERMSIG(status))
+      : WIFEXITED(status) && WEXITSTATUS(status) == 127 ? "Blender cannot be started"
+                                                        : "Blender ended before it was done";
   fail(what, listener.last().empty() ? how : fmt::format("{}; it said: {}", how, listener.last()));
 }
 

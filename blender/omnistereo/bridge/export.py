@@ -30,15 +30,29 @@ def _repair_numpy():
 # --- opening
 
 
-def _open_blend(path):
-    try:
-        bpy.ops.wm.open_mainfile(filepath=path, load_ui=False, use_scripts=False)
-    except RuntimeError as error:
-        raise Failure(f"Blender cannot open it: {_first_line(error)}") from None
-    made, own = bpy.data.version[:2], bpy.app.version[:2]
-    if tuple(made) > tuple(own):
+def _version_of(path):
+    """Of the Blender that saved a file, by its first bytes; (0, 0) if it is packed."""
+    with open(path, "rb") as file:
+        start = file.read(17)
+    # BLENDER-v304, and from 5.0 on BLENDER17-01v0500.
+    digits = start[13:17] if start[7:9].isdigit() else start[9:12]
+    return divmod(int(digits), 100) if start.startswith(b"BLENDER") and digits.isdigit() else (0, 0)
+
+
+def _refuse_newer(made):
+    own = bpy.app.version
+    if tuple(made[:2]) > tuple(own[:2]):
         raise Failure(f"it was saved by Blender {made[0]}.{made[1]}, and this is {own[0]}.{own[1]}: "
                       "give a newer one with --blender PATH")
+
+
+def _open_blend(path):
+    try:
+        _refuse_newer(_version_of(path))  # Blender 3.4 crashes when it opens a file of 4.3
+        bpy.ops.wm.open_mainfile(filepath=path, load_ui=False, use_scripts=False)
+    except (OSError, RuntimeError) as error:
+        raise Failure(f"Blender cannot open it: {_first_line(error)}") from None
+    _refuse_newer(bpy.data.version)
 
 
 def _first_line(error):

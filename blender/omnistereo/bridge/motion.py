@@ -61,7 +61,7 @@ def sample(context, objects, lights, report):
 
 def _changes(matrices):
     first = matrices[0]
-    return any((m[r][c] - first[r][c]) ** 2 > 1e-14 for m in matrices for r in range(4) for c in range(4))
+    return any((m[r][c] - first[r][c]) ** 2 > 1e-14 for m in matrices if m != first for r in range(4) for c in range(4))
 
 
 class Clip:
