@@ -33,12 +33,28 @@ Converter::Converter(const ConversionPlan& plan, const Source& source, bool move
       channels_(resampler_.channels()) {
   if (moves_eyes) {
     reprojection_ = make_reprojection(source);
-    warp_ = RowWarp::make(mapping_, *reprojection_);
+    set_up_rows(*source.picture, adds_alpha);
   }
   const StoredPicture& picture = *source.picture;
   if (const std::optional<size_t> layer = depth_layer(picture)) {
     depth_channel_ = adds_alpha ? 1 : 0;
     for (size_t i = 0; i < *layer; i++) depth_channel_ += static_cast<int>(picture.eyes[0].layers[i].channels.size());
+  }
+}
+
+// A target that is smaller than the picture is filled as if it were at least as large.
+void Converter::set_up_rows(const StoredPicture& picture, bool adds_alpha) {
+  constexpr int kMost = 8;
+  fine_ = mapping_;
+  for (finer_ = 1; finer_ <= kMost; finer_++) {
+    fine_.size = {mapping_.size.width * finer_, mapping_.size.height * finer_};
+    warp_ = RowWarp::make(fine_, *reprojection_);
+    if (warp_) break;
+  }
+  for (size_t i = 0; i < picture.eyes[0].layers.size(); i++) {
+    const LayerPixels& layer = picture.eyes[0].layers[i];
+    averaged_.insert(averaged_.end(), layer.channels.size(), layer.rule != LayerRule::kNearest);
+    if (i == 0 && adds_alpha) averaged_.push_back(true);
   }
 }
 
@@ -245,9 +261,45 @@ RowHoles Converter::fill_warped(const Row& row, const std::vector<SurfaceHit>& h
   return holes;
 }
 
-RowHoles Converter::fill_moved(const Row& row) const {
+std::optional<RowHoles> Converter::fill_by_rows(const Row& row) const {
   thread_local std::vector<SurfaceHit> hits;
-  if (warp_ && warp_->warp(row.index, row.y, holes_ == Holes::kFilled, hits)) return fill_warped(row, hits);
+  if (!warp_->warp(row.index, row.y, holes_ == Holes::kFilled, hits)) return {};
+  return fill_warped(row, hits);
+}
+
+// The mean of the finer rows' pixels; of what may not be averaged the middle one, of depth the nearest.
+std::optional<RowHoles> Converter::fill_by_finer_rows(const Row& row) const {
+  thread_local std::vector<float> fine;
+  const size_t channels = static_cast<size_t>(channels_), finer = static_cast<size_t>(finer_);
+  const size_t depth = static_cast<size_t>(depth_channel_);
+  const float share = 1.0f / static_cast<float>(finer_ * finer_);
+  RowHoles holes;
+  for (int j = 0; j < finer_; j++) {
+    fine.assign(row.pixels.size() * finer, 0.0f);
+    for (size_t i = depth; i < fine.size(); i += channels) fine[i] = kFarDepth;
+    const std::optional<RowHoles> own = fill_by_rows({row.index, row.y * finer_ + j, fine});
+    if (!own) return {};
+    holes.empty += own->empty, holes.filled += own->filled;
+    for (size_t i = 0; i < fine.size(); i++) {
+      const size_t c = i % channels, column = i / channels;
+      float& to = row.pixels[column / finer * channels + c];
+      if (c == depth) {
+        to = std::min(to, fine[i]);
+      } else if (averaged_[c]) {
+        to += share * fine[i];
+      } else if (j == finer_ / 2 && column % finer == finer / 2) {
+        to = fine[i];
+      }
+    }
+  }
+  return RowHoles{holes.empty / (finer_ * finer_), holes.filled / (finer_ * finer_)};
+}
+
+RowHoles Converter::fill_moved(const Row& row) const {
+  if (warp_) {
+    if (const auto done = finer_ > 1 ? fill_by_finer_rows(row) : fill_by_rows(row)) return *done;
+    clear(row.pixels);
+  }
   RowHoles holes;
   for (int x = 0; x < mapping_.size.width; x++) {
     if (!mapping_.wants(x, row.y)) continue;
@@ -257,14 +309,18 @@ RowHoles Converter::fill_moved(const Row& row) const {
   return holes;
 }
 
+void Converter::clear(std::span<float> row) const {
+  std::fill(row.begin(), row.end(), 0.0f);
+  const size_t first = static_cast<size_t>(depth_channel_), step = static_cast<size_t>(channels_);
+  for (size_t i = first; depth_channel_ >= 0 && i < row.size(); i += step) row[i] = kFarDepth;
+}
+
 RowHoles Converter::fill(int index, int y, std::span<float> row) const {
   if (plan_.is_same) {
     resampler_.copy(mapping_.from[static_cast<size_t>(index)], y, row);
     return {};
   }
-  std::fill(row.begin(), row.end(), 0.0f);
-  const size_t first = static_cast<size_t>(depth_channel_), step = static_cast<size_t>(channels_);
-  for (size_t i = first; depth_channel_ >= 0 && i < row.size(); i += step) row[i] = kFarDepth;
+  clear(row);
   if (reprojection_) return fill_moved({index, y, row});
   if (plan_.rows.empty()) {
     const RowPlan plan = plan_row(mapping_, index, y);

@@ -60,12 +60,16 @@ class Converter {
     std::span<float> pixels;
   };
 
+  void set_up_rows(const StoredPicture& picture, bool adds_alpha);
+  void clear(std::span<float> row) const;
   void fill_planned(const Row& row, const RowPlan& plan) const;
   void fill_stretch(const Row& row, const Stretch& stretch, const TexelBlock* block) const;
   void fill_alone(PixelRun& run, const Row& row, const Stretch& stretch, int i) const;
   void fill_single(const Row& row, const RowPlan& plan, const SinglePixel& single) const;
   RowHoles fill_moved(const Row& row) const;
   RowHoles fill_warped(const Row& row, const std::vector<SurfaceHit>& hits) const;
+  std::optional<RowHoles> fill_by_rows(const Row& row) const;
+  std::optional<RowHoles> fill_by_finer_rows(const Row& row) const;
   void fill_hits(PixelRun& run, const Row& row, int x, std::span<const SurfaceHit> hits) const;
   SurfaceHit fill_moved_pixel(const Row& row, int x) const;
   SurfaceHit meet(int index, vec2 home, vec2 uv) const;
@@ -77,7 +81,10 @@ class Converter {
   const Mapping& mapping_;
   Resampler resampler_;
   std::optional<Reprojection> reprojection_;
-  std::optional<RowWarp> warp_;  // of reprojection_
+  Mapping fine_;  // of a target that is `finer_` times as large, which is then averaged
+  int finer_ = 1;
+  std::optional<RowWarp> warp_;  // of reprojection_, to fine_
+  std::vector<bool> averaged_;   // the channels that may be
   Holes holes_ = Holes::kEmpty;
   int channels_;
   int depth_channel_ = -1;  // in a pixel of a row; below 0: there is no depth

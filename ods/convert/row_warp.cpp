@@ -28,6 +28,9 @@ static float density(const Projection& projection, Extent size) {
   return static_cast<float>(size.width) / projection.span.x;
 }
 
+// Radians: how wide edges are that lenses, stitchers and encoders have left.
+static const float kBlur = 2.0f * kPi / 4096.0f;
+
 std::optional<RowWarp> RowWarp::make(const Mapping& mapping, const Reprojection& reprojection) {
   const Camera &from = mapping.source.camera, &to = mapping.camera;
   if (!is_symmetric(from) || !is_symmetric(to) || mapping.turn || mapping.source.right) return std::nullopt;
@@ -165,12 +168,14 @@ struct Point {
 
 class Drawing {
  public:
-  Drawing(std::vector<Found>& found, float scale, float period, float one_surface, int source_eye)
+  // fringe: texels beside an edge that have colours of both sides.
+  Drawing(std::vector<Found>& found, float scale, float period, float one_surface, int fringe, int source_eye)
       : found_(found),
         half_(0.5f / scale),
         scale_(scale),
         period_(period),
         one_surface_(one_surface),
+        fringe_(fringe),
         eye_(source_eye) {}
 
   // Of all texels of a row. The last one is the first again, a turn later, if there is one.
@@ -179,7 +184,7 @@ class Drawing {
     for (size_t i = 0; i + 1 < points.size(); i++) {
       const Point &a = points[i], &b = points[i + 1];
       if (is_joined(a, b) || b.x - a.x < 2.0f * half_) continue;
-      frayed_[a.nearness > b.nearness ? i + 1 : i] = true;
+      fray(points, a.nearness > b.nearness ? i + 1 : i, a.nearness > b.nearness ? 1 : -1);
     }
     if (period_ > 0.0f) frayed_.front() = frayed_.back() = frayed_.front() || frayed_.back();
     for (size_t i = 0; i + 1 < points.size(); i++) {
@@ -195,6 +200,15 @@ class Drawing {
   }
 
  private:
+  // From a texel away from the nearer surface beside it, as long as the surface goes on.
+  void fray(const std::vector<Point>& points, size_t first, int step) {
+    for (int i = 0; i < fringe_; i++) {
+      const size_t at = first + static_cast<size_t>(i * step), next = at + static_cast<size_t>(step);
+      frayed_[at] = true;
+      if (next >= points.size() || !is_joined(points[std::min(at, next)], points[std::max(at, next)])) return;
+    }
+  }
+
   // Of one surface, or so little apart in the new picture that nothing shows between them.
   bool is_joined(const Point& a, const Point& b) const {
     if (a.nearness < 0.0f || b.nearness < 0.0f) return false;
@@ -231,7 +245,7 @@ class Drawing {
   std::vector<bool> frayed_;  // beside a nearer surface that uncovers what is behind: its colours are of both
   float half_;                // a texel, pixels
   float scale_, period_, one_surface_;
-  int eye_;
+  int fringe_, eye_;
 };
 
 // What a thing hides shows the surface beside it, mirrored at the edge: of a hole's two sides, the farther one.
@@ -371,9 +385,10 @@ bool RowWarp::warp(int index, int y, bool fills, std::vector<SurfaceHit>& row) c
     if (!find_surfaces(*mapping_, *reprojection_, {index, y}, eye, scale_, surfaces[eye])) return false;
   }
   found.assign(static_cast<size_t>(mapping_->size.width), Found());
+  const int fringe = 1 + static_cast<int>(density(mapping_->source.camera.projection, picture) * kBlur);
   for (int i = 0; i < eyes; i++) {
     const int eye = (mapping_->from[static_cast<size_t>(index)] + i) % eyes;
-    Drawing drawing(found, scale_, period_, one_surface_, eye);
+    Drawing drawing(found, scale_, period_, one_surface_, fringe, eye);
     draw_surfaces(surfaces[eye], picture, scale_, period_, one_surface_, drawing);
   }
   if (fills) {

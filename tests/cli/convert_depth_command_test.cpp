@@ -4,6 +4,7 @@
 // ods convert with depth beside the input, as its user meets it.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "ods/picture/stored_picture.h"
@@ -21,6 +22,13 @@ class ConvertDepth : public Cli {
   }
 
   ods::StoredPicture open(const std::string& name) { return ods::open_picture(folder.path(name)); }
+
+  // In minutes of arc, as ods comfort measures it.
+  double worst_vertical(const std::string& name) {
+    EXPECT_LE(run(in_folder("comfort @" + name + " --json")), 1) << err;
+    const size_t at = out.find("\"vertical\": ");
+    return at == std::string::npos ? -1.0 : std::atof(out.c_str() + at + 12);
+  }
 
   // A mono panorama without depth, and its depth.
   void make_panorama() {
@@ -66,6 +74,12 @@ TEST_F(ConvertDepth, MergesByDepth) {
   run_well("convert @stereo.exr --merge auto -o @calm.exr");
   EXPECT_NE(err.find("filled from what is beside it"), std::string::npos) << err;
   EXPECT_EQ(err.find("empty: "), std::string::npos) << err;
+  // The limit holds in what came out, and is used.
+  run_well("render room -q --width 256 --samples 1 --merge none -o @large.exr");
+  run_well("convert @large.exr --merge auto,30 --sidecar -q -o @cured.exr");
+  EXPECT_GE(worst_vertical("large.exr"), 60.0);
+  EXPECT_LE(worst_vertical("cured.exr"), 31.0);
+  EXPECT_GE(worst_vertical("cured.exr"), 20.0);
   EXPECT_EQ(run(in_folder("convert @panorama.png --merge auto -o @no.png")), 0) << err;
   EXPECT_NE(err.find("change nothing of one eye"), std::string::npos) << err;
   EXPECT_EQ(run(in_folder("convert @panorama.png --eyes both --merge auto -o @no.png")), 2);

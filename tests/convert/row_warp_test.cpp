@@ -111,12 +111,43 @@ TEST(RowWarp, IsOnlyForSymmetricCameras) {
   EXPECT_TRUE(can([](ConvertTarget&) {}));
   EXPECT_FALSE(can([](ConvertTarget& target) { target.camera.pitch = 10.0f; }));
   EXPECT_FALSE(can([](ConvertTarget& target) { target.camera.projection = projection_named("cube-3x2"); }));
-  EXPECT_FALSE(can([](ConvertTarget& target) { target.eye = {32, 16}; }));
   EXPECT_FALSE(can([](ConvertTarget& target) {
     auto map = std::make_shared<Image>(4, 1, 1);
     map->pixels = {1.0f, 0.5f, 1.0f, 1.0f};
     target.camera.merge_map = map, target.camera.top.mode = kMergeMap;
   }));
+}
+
+// A smaller target is the mean of a larger one.
+TEST(RowWarp, SmallerTargetsAreAveraged) {
+  const MadePicture made = picture_of_world(StereoCamera(), {1024, 512}, {kMono});
+  ConvertTarget target = stereo_of(made, Holes::kFilled);
+  target.eye = {400, 200};
+  const Conversion conversion = convert(made.picture, target);
+  const std::vector<Image> images = images_of(conversion.rows);
+  const Camera camera = make_camera(target.camera);
+  double squares = 0.0;
+  int64_t other_depth = 0, near_edges = 0;
+  for (size_t eye = 0; eye < 2; eye++) {
+    for (int i = 0; i < 400 * 200; i++) {
+      vec3 mean(0.0f);
+      float nearest = 1e9f, farthest = 0.0f;
+      for (int k = 0; k < 16; k++) {
+        const vec2 uv((static_cast<float>(i % 400) + 0.125f + 0.25f * static_cast<float>(k % 4)) / 400.0f,
+                      (static_cast<float>(i / 400) + 0.125f + 0.25f * static_cast<float>(k / 4)) / 200.0f);
+        const Seen seen = look_at_world(camera_ray(camera, target.eyes[eye], uv));
+        mean = mean + seen.color * (1.0f / 16.0f);
+        nearest = std::min(nearest, seen.depth), farthest = std::max(farthest, seen.depth);
+      }
+      const float* pixel = &images[eye].pixels[static_cast<size_t>(4 * i)];
+      for (int c = 0; c < 3; c++) squares += std::pow(double{pixel[c] - mean[c]}, 2);
+      near_edges += farthest > 1.2f * nearest;
+      other_depth += pixel[3] < 0.95f * nearest || pixel[3] > 1.02f * farthest;
+    }
+  }
+  EXPECT_GT(-10.0 * std::log10(squares / (6.0 * 400 * 200)), 38.0);
+  EXPECT_LT(other_depth, near_edges + 100);
+  EXPECT_EQ(*conversion.empty, 0);
 }
 
 // The first and last column of the ball in each row of an eye, by its colour; first > last: there is none.
