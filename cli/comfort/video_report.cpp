@@ -35,7 +35,7 @@ Json moment_json(const ods::VideoMoment& moment) {
     json["turn"] = moment.turn, json["tilt"] = moment.tilt;
     json["speed"] = moment.speed, json["acceleration"] = moment.acceleration;
   }
-  if (moment.cut) json["cut"] = *moment.cut;
+  if (moment.cut) json["cut"] = *moment.cut, json["cut_at"] = moment.cut_at;
   return json;
 }
 

@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kArcMinute = std::numbers::pi / 180.0 / 60.0;
 constexpr double kNearHorizon = 30.0;  // degrees
+constexpr int kLeastMatches = 15;      // of tiles, that two eyes of one picture have
 
 GrayView half_of(const GrayView& view) {
   GrayView half(view.width / 2, view.height / 2, 1);
@@ -106,6 +107,10 @@ MatchedEyes match_eyes_for_depth(const std::vector<Image>& eyes, const StereoCam
   }
   MatchedEyes matched = match_views_for_depth(std::move(views), camera);
   matched.apart = 60.0 * height_apart(alignment);
+  if (alignment.matches < kLeastMatches) {
+    for (SeenDepth& seen : matched.seen) std::ranges::fill(seen.depth.pixels, std::numeric_limits<float>::quiet_NaN());
+    matched.share = matched.apart = 0.0;
+  }
   return matched;
 }
 

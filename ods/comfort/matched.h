@@ -25,7 +25,7 @@ struct MatchedEyes {
 };
 
 // eyes: left and right, as grey_eyes() returns them. The camera says how they were seen; where the picture does not
-// tell its eye distance, distances are as if it were the camera's.
+// tell its eye distance, distances are as if it were the camera's. Of eyes that do not show the same nothing is matched.
 MatchedEyes match_eyes_for_depth(const std::vector<Image>& eyes, const StereoCamera& camera, bool is_float,
                                  int width = kMatchedWidth);
 

@@ -14,6 +14,7 @@
 #include "ods/comfort/matched.h"
 #include "ods/comfort/motion.h"
 #include "ods/convert/unwrap.h"
+#include "ods/disparity/match.h"
 #include "ods/picture/load_eyes.h"
 #include "ods/video/video_input.h"
 
@@ -24,8 +25,9 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kWidth = 512;          // of the views that are matched
 constexpr int kLeastMoments = 8;     // of a short video
-constexpr int kGlance = 32;          // the width of the pictures that tell a cut
-constexpr double kSameShot = 0.5;    // the least correlation of two of them
+constexpr int kGlance = 256;         // the width of the views that tell a cut
+constexpr double kSameShot = 0.3;    // the least share of their tiles that two frames of a shot have in common
+constexpr int kMostCuts = 12;        // that are looked for
 constexpr double kLeastMatched = 0.02;
 constexpr double kNearHorizon = 30.0 * kDegree;
 
@@ -33,18 +35,16 @@ constexpr double kNearHorizon = 30.0 * kDegree;
 struct Frame {
   double seconds = 0.0;
   std::vector<Image> eyes;
-  Image glance;
+  GrayView glance;  // of the left eye
 };
 
-double correlation(const Image& a, const Image& b) {
-  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, yy = 0.0, xy = 0.0;
-  for (size_t i = 0; i < a.pixels.size(); i++) {
-    const double p = double{a.pixels[i]}, q = double{b.pixels[i]};
-    if (std::isnan(p) || std::isnan(q)) continue;
-    n += 1.0, x += p, y += q, xx += p * p, yy += q * q, xy += p * q;
-  }
-  const double across = n * xy - x * y, spread = (n * xx - x * x) * (n * yy - y * y);
-  return spread > 1e-9 ? across / std::sqrt(spread) : 1.0;
+// The share of places that both views show, within what a moving camera does to them.
+double alike(const GrayView& a, const GrayView& b) {
+  Search search;
+  search.rows = 10, search.columns = 12, search.step = 10;
+  search.around = 0.35f, search.down = 0.12f;
+  search.lowest = -0.9f, search.highest = 0.9f;
+  return match_tiles(a, b, search).share();
 }
 
 double median_vergence(const SeenDepth& seen) {
@@ -79,12 +79,9 @@ class VideoJudge {
   std::optional<Frame> next_frame();
   std::optional<VideoMoment> look_at(double seconds);
   void add_motion(VideoMoment& moment, const Frame& frame, const MatchedEyes& matched);
-  void find_cut(VideoMoment& before, VideoMoment& after, const Image& last_glance);
+  void find_cut(const VideoMoment& before, VideoMoment& after, GrayView low_view, GrayView high_view);
   void add_strains();
   void add(const VideoStrain& strain);
-  MatchedEyes match(const Frame& frame) const {
-    return match_eyes_for_depth(frame.eyes, camera_, false, kWidth);
-  }
 
   const VideoComfortOptions& options_;
   VideoInput video_;
@@ -93,7 +90,8 @@ class VideoJudge {
   VideoComfort result_;
   std::vector<StrainedPlace> places_;  // the worst of each moment, if it is not ok
   std::vector<double> apart_;
-  Image glance_;  // of the last moment
+  GrayView glance_;  // of the last moment
+  int cuts_ = 0;
   glm::dvec3 velocity_{0.0};
 };
 
@@ -115,7 +113,7 @@ std::optional<Frame> VideoJudge::frame_at(double seconds) {
 
 void VideoJudge::add_motion(VideoMoment& moment, const Frame& frame, const MatchedEyes& matched) {
   const std::optional<Frame> next = next_frame();
-  if (!next || !(next->seconds > frame.seconds) || correlation(frame.glance, next->glance) < kSameShot) return;
+  if (!next || !(next->seconds > frame.seconds) || alike(frame.glance, next->glance) < kSameShot) return;
   const GrayView after = make_gray_views({next->eyes[0]}, camera_.projection, false, kWidth)[0];
   const ViewerMotion motion =
       motion_between(matched.grey[0], after, matched.seen[0].depth, next->seconds - frame.seconds);
@@ -134,7 +132,7 @@ void VideoJudge::add_motion(VideoMoment& moment, const Frame& frame, const Match
 std::optional<VideoMoment> VideoJudge::look_at(double seconds) {
   const std::optional<Frame> frame = frame_at(seconds);
   if (!frame) return {};
-  MatchedEyes matched = match(*frame);
+  MatchedEyes matched = match_eyes_for_depth(frame->eyes, camera_, false, kWidth);
   VideoMoment moment;
   moment.seconds = frame->seconds;
   moment.matched = matched.share;
@@ -159,31 +157,35 @@ std::optional<VideoMoment> VideoJudge::look_at(double seconds) {
       result_.report = std::move(report);
     }
   }
-  if (!result_.moments.empty() && correlation(glance_, frame->glance) < kSameShot) {
-    find_cut(result_.moments.back(), moment, glance_);
+  if (!result_.moments.empty() && cuts_ < kMostCuts && alike(glance_, frame->glance) < kSameShot) {
+    find_cut(result_.moments.back(), moment, glance_, frame->glance);
   }
   glance_ = frame->glance;
   places_.push_back(worst), apart_.push_back(matched.share >= kLeastMatched ? matched.apart : 0.0);
   return moment;
 }
 
-// Halves the time between two moments of different shots until the cut is between two frames, and compares what eyes
-// converge on before and after it.
-void VideoJudge::find_cut(VideoMoment& before, VideoMoment& after, const Image& last_glance) {
-  double low = before.seconds, high = after.seconds, from = before.middle, to = after.middle;
-  const double frame = video_.fps > 0.0 ? 1.0 / video_.fps : 0.04;
-  while (high - low > 1.5 * frame) {
-    const std::optional<Frame> middle = frame_at(0.5 * (low + high));
+// Halves the time between two moments that have little in common until it is that between two frames. If these have
+// little in common, too, it is a cut: how far is it from what eyes converge on before it to what comes after?
+void VideoJudge::find_cut(const VideoMoment& before, VideoMoment& after, GrayView low_view, GrayView high_view) {
+  double low = before.seconds, high = after.seconds;
+  const double step = video_.fps > 0.0 ? 1.0 / video_.fps : 0.04;
+  std::vector<Image> low_eyes, high_eyes;
+  while (high - low > 1.5 * step) {
+    std::optional<Frame> middle = frame_at(0.5 * (low + high - step));
     if (!middle || middle->seconds >= high || middle->seconds <= low) break;
-    const MatchedEyes matched = match(*middle);
-    const double vergence = median_vergence(matched.seen[0]);
-    if (correlation(last_glance, middle->glance) >= kSameShot) {
-      low = middle->seconds, from = vergence;
-    } else {
-      high = middle->seconds, to = vergence;
-    }
+    const bool is_before = alike(low_view, middle->glance) >= alike(middle->glance, high_view);
+    (is_before ? low : high) = middle->seconds;
+    (is_before ? low_eyes : high_eyes) = std::move(middle->eyes);
+    (is_before ? low_view : high_view) = std::move(middle->glance);
   }
-  after.cut = std::abs(to - from);
+  if (alike(low_view, high_view) >= kSameShot) return;
+  cuts_++;
+  const auto vergence = [&](const std::vector<Image>& eyes, double known) {
+    return eyes.empty() ? known : median_vergence(match_eyes_for_depth(eyes, camera_, false, kWidth).seen[0]);
+  };
+  after.cut = std::abs(vergence(high_eyes, after.middle) - vergence(low_eyes, before.middle));
+  after.cut_at = high;
   after.acceleration = 0.0;
 }
 
@@ -219,7 +221,8 @@ void VideoJudge::add_strains() {
       const RideRow& row = ride_row(ride);
       const ComfortLevel level = level_of(value, row.limits);
       moment.level = std::max(moment.level, level);
-      add({at, at, at, row.name, row.title, row.unit, value, level, {}});
+      const double when = ride == Ride::kCut ? moment.cut_at : at;
+      add({when, when, when, row.name, row.title, row.unit, value, level, {}});
     }
   }
   std::ranges::stable_sort(result_.strains, [](const VideoStrain& a, const VideoStrain& b) { return a.level > b.level; });

@@ -67,7 +67,8 @@ struct VideoMoment {
   double middle = 0.0;     // degrees: the median vergence of what is within 30 degrees of the horizon
   bool is_carried = false;  // speed, turn and tilt are known
   double speed = 0.0, turn = 0.0, tilt = 0.0, acceleration = 0.0;  // as Ride
-  std::optional<double> cut;                                       // since the moment before, there was a cut: as Ride
+  std::optional<double> cut;  // there was one since the moment before: as Ride
+  double cut_at = 0.0;        // seconds
   ComfortLevel level = ComfortLevel::kOk;
 };
 

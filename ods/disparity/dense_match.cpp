@@ -105,6 +105,7 @@ class Volume {
   std::vector<Best> best_shifts(int eye) const;
   std::vector<float> checked(int eye, const std::vector<Best>& own, const std::vector<Best>& other) const;
   void remove_specks(std::vector<float>& shifts) const;
+  std::vector<float> medians(const std::vector<float>& shifts) const;
   Image picture_of(int eye, const std::vector<float>& shifts) const;
 
   int width() const { return left_.width(); }
@@ -261,6 +262,25 @@ std::vector<float> Volume::checked(int eye, const std::vector<Best>& own, const 
   return shifts;
 }
 
+// Of three by three, where most are known.
+std::vector<float> Volume::medians(const std::vector<float>& shifts) const {
+  std::vector<float> smooth = shifts;
+  tbb::parallel_for(1, left_.rows - 1, [&](int y) {
+    for (int x = 0; x < width(); x++) {
+      if (std::isnan(shifts[pixel(x, y)])) continue;
+      std::array<float, 9> near{};
+      size_t count = 0;
+      for (int i = 0; i < 9; i++) {
+        const float shift = shifts[pixel(turned(x + i % 3 - 1), y + i / 3 - 1)];
+        if (!std::isnan(shift)) near[count++] = shift;
+      }
+      std::nth_element(near.begin(), near.begin() + count / 2, near.begin() + count);
+      smooth[pixel(x, y)] = near[count / 2];
+    }
+  });
+  return smooth;
+}
+
 void Volume::remove_specks(std::vector<float>& shifts) const {
   std::vector<char> done(shifts.size());
   std::vector<std::pair<int, int>> patch;
@@ -304,7 +324,7 @@ DenseMatch Volume::match() const {
   for (size_t eye = 0; eye < 2; eye++) {
     std::vector<float> shifts = checked(static_cast<int>(eye), best[eye], best[1 - eye]);
     remove_specks(shifts);
-    match.around[eye] = picture_of(static_cast<int>(eye), shifts);
+    match.around[eye] = picture_of(static_cast<int>(eye), medians(shifts));
   }
   double shown = 0.0, found = 0.0;
   std::vector<double> apart;

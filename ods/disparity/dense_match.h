@@ -22,7 +22,7 @@ struct DenseMatch {
   double precision = 0.0;  // radians on the great circle: how far apart most matches there and back are
 };
 
-// Parallax is found from 2 degrees outwards up to 20 degrees inwards. Precondition: both views have the same size.
+// The views must be two eyes of one picture: what is smooth matches something in any other. Parallax is found from 2 degrees outwards up to 20 degrees inwards. Precondition: both views have the same size.
 DenseMatch match_densely(const GrayView& left, const GrayView& right);
 
 }  // namespace ods

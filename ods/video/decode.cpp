@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "ods/base/error.h"
@@ -364,6 +365,7 @@ void VideoDecoder::skip_to(double seconds) {
   if (av_seek_frame(state.file.get(), state.source->index, before, AVSEEK_FLAG_BACKWARD) >= 0) {
     avcodec_flush_buffers(state.decoder.get());
     state.waiting.reset();
+    state.last = {std::numeric_limits<int64_t>::min() / 2, 0};  // times ascend from here on: it may be a step back
   }
   while (std::shared_ptr<AVFrame> frame = state.take()) {
     if (state.time_of(*frame).start < wanted) continue;

@@ -4,14 +4,23 @@
 // ods comfort as users run it.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "ods/files/atomic_file.h"
 #include "ods/image/image_file.h"
 #include "tests/support/cli_runner.h"
+#include "tests/support/gltf_builder.h"
 
 namespace {
 
 using Json = nlohmann::json;
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 class ComfortCommand : public Cli {
  protected:
@@ -82,10 +91,79 @@ TEST_F(ComfortCommand, TheHeatIsAPictureOfBothEyes) {
   EXPECT_EQ(info.height, 256);
 }
 
+// Without depth, by matching the eyes: the same verdict as with it, and how sure it is.
+TEST_F(ComfortCommand, APictureWithoutDepthIsMatched) {
+  const std::string words = "render room --width 512 --samples 4 --bounces 1 -q --position 1.9,0.5,0.4 --merge none -o ";
+  ASSERT_EQ(run(words + folder.path("x.exr")), 0) << err;
+  ASSERT_EQ(run("convert -q " + folder.path("x.exr") + " -o " + folder.path("x_360_TB.jpg")), 0) << err;
+  const Json exact = judged(folder.path("x.exr"));
+  const Json found = judged(folder.path("x_360_TB.jpg"));
+  EXPECT_EQ(code, 1);
+  EXPECT_EQ(found["level"], exact["level"]);
+  EXPECT_NEAR(found["nearest"], exact["nearest"], 0.15 * exact["nearest"].get<double>());
+  EXPECT_GT(found["matched"]["share"], 0.3);
+  EXPECT_LT(found["matched"]["precision"], 20.0);
+  const std::string page = folder.path("report.html");
+  run("comfort " + folder.path("x_360_TB.jpg") + " --html " + page);
+  EXPECT_NE(out.find("of the picture could be matched"), std::string::npos) << out;
+  const std::string html = text_of(page);
+  EXPECT_NE(html.find("data:image/jpeg;base64,"), std::string::npos);
+  EXPECT_NE(html.find("What strains most"), std::string::npos);
+  EXPECT_EQ(html.find("http"), std::string::npos) << "it needs nothing from outside";
+  run("lint " + folder.path("x_360_TB.jpg"));
+  EXPECT_NE(out.find("nearest thing about 0.4"), std::string::npos) << out;
+}
+
+// A thing of a scene has its name in the picture, too, if that was asked for.
+TEST_F(ComfortCommand, ThingsAreNamedInPictures) {
+  ods::GltfBuilder builder = ods::make_triangle();
+  builder.node(0)["name"] = "Sail <1>";
+  builder.node(0)["translation"] = {0.0, 0.0, -0.5};
+  const auto bytes = builder.glb();
+  const std::string scene = folder.path("sail.glb"), picture = folder.path("sail.exr");
+  ods::write_file(scene, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  const std::string words = "render " + scene + " --unit m --width 256 --samples 1 --position 0.2,0.2,0 -q -o ";
+  ASSERT_EQ(run(words + picture + " --object-layer"), 0) << err;
+  EXPECT_EQ(judged(picture)["places"][0]["name"], "Sail <1>");
+  EXPECT_EQ(run(words + folder.path("sail.png") + " --object-layer"), 2);
+  EXPECT_NE(err.find("--object-layer"), std::string::npos) << err;
+  run("comfort " + picture + " --html " + folder.path("sail.html"));
+  EXPECT_NE(text_of(folder.path("sail.html")).find("Sail &lt;1&gt;"), std::string::npos);
+  ASSERT_EQ(run("info " + scene + " --unit m --position 0.2,0.2,0"), 0) << err;
+  EXPECT_NE(out.find("'Sail <1>', 0.5"), std::string::npos) << out;
+}
+
+// One line before a long rendering, none before a short one.
+TEST_F(ComfortCommand, ALongRenderingIsWarnedOf) {
+  const std::string words = "render room --bounces 0 --indirect path --position 1.9,0.5,0.4 --merge none -o ";
+  ASSERT_EQ(run(words + folder.path("a.png") + " --width 256 --samples 400 --noise 1"), 0) << err;
+  const size_t said = err.find("strains the viewer's eyes");
+  ASSERT_NE(said, std::string::npos) << err;
+  EXPECT_EQ(err.find("strains the viewer's eyes", said + 1), std::string::npos) << err;
+  ASSERT_EQ(run(words + folder.path("b.png") + " --width 64 --samples 1"), 0) << err;
+  EXPECT_EQ(err.find("strains"), std::string::npos) << err;
+}
+
+TEST_F(ComfortCommand, ViewersAndHeadsetsByName) {
+  const Json usual = judged("room --width 128 --viewer-ipd 65mm"), child = judged("room --width 128 --viewer-ipd 50mm"),
+             rift = judged("room --width 128 --focus rift");
+  EXPECT_NEAR(usual["viewer_ipd"], 0.065, 1e-6);
+  EXPECT_NEAR(child["viewer_ipd"], 0.05, 1e-6);
+  EXPECT_NEAR(rift["focus"], 2.0, 1e-6);
+  EXPECT_GT(child["most"]["near"], usual["most"]["near"]);
+  EXPECT_EQ(run("comfort room --viewer-ipd 5mm"), 2);
+  EXPECT_NEAR(usual["looked"]["ok"].get<double>() + usual["looked"]["caution"].get<double>() +
+                  usual["looked"]["warning"].get<double>() + usual["looked"]["error"].get<double>(),
+              1.0, 1e-6);
+}
+
 TEST_F(ComfortCommand, BadInputIsOneLine) {
   ASSERT_EQ(run("render lamp --width 64 --samples 1 -q -o " + folder.path("flat.png")), 0) << err;
-  EXPECT_EQ(run("comfort " + folder.path("flat.png")), 3);
-  EXPECT_NE(err.find("has no depth"), std::string::npos) << err;
+  EXPECT_EQ(run("comfort " + folder.path("flat.png") + " --layout top-bottom"), 3);
+  EXPECT_NE(err.find("too few to be matched"), std::string::npos) << err;
+  ASSERT_EQ(run("render lamp --width 64 --samples 1 -q --eyes left -o " + folder.path("one.png")), 0) << err;
+  EXPECT_EQ(run("comfort " + folder.path("one.png")), 3);
+  EXPECT_NE(err.find("has one eye and no depth"), std::string::npos) << err;
   EXPECT_EQ(run("comfort " + folder.path("absent.exr")), 3);
   EXPECT_EQ(run("comfort lamp --focus near"), 2);
   EXPECT_EQ(run("comfort lamp --rules none"), 2);

@@ -85,6 +85,13 @@ TEST(Matched, AHigherEyeIsMeasured) {
   EXPECT_GT(matched.share, 0.5);
 }
 
+TEST(Matched, DifferentPicturesDoNotMatch) {
+  const StereoCamera camera;
+  const std::vector<Image> eyes = {grey_of(seen_in(World::kHall, camera, kLeft, kEye)),
+                                   grey_of(seen_in(World::kCave, camera, kRight, kEye))};
+  EXPECT_EQ(match_eyes_for_depth(eyes, camera, false).share, 0.0);
+}
+
 // --- how the viewer is carried ---------------------------------------------------------------------------------------
 
 GrayView left_view(const StereoCamera& camera) {
