@@ -20,7 +20,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kHighest = 50.0;  // degrees: nearer to the poles, a difference of headings is a small angle
 constexpr double kFar = 0.25;      // the share of the places that is taken for far
-constexpr double kHarmless = 0.4, kPainful = 0.9;  // degrees; told from their middle on
+constexpr double kHarmless = 0.3, kPainful = 0.7;  // degrees; told from their middle on
 constexpr size_t kLeast = 20;                      // places
 
 // The parallax that this share of the places is below; its error is a quarter of the spread between its neighbours.
@@ -48,7 +48,8 @@ void check_divergence(const Subject& subject, double swapped, LintReport& report
   Difference far = percentile(angles, kFar);
   const double yaw = -far.size;
   far.size = std::max(0.0, yaw);
-  const double certainty = certainty_of(far, kHarmless, kPainful) * (1.0 - swapped);
+  // Either the eyes are swapped or they diverge: the doubt which of them it is makes neither unlikely by itself.
+  const double certainty = std::min(certainty_of(far, kHarmless, kPainful), 1.0 - swapped);
   if (certainty < 0.1) return;
   report.findings.push_back(
       {Fault::kEyesDiverge, certainty,

@@ -42,7 +42,7 @@ class WhichWordWins : public testing::Test {
   }
   static FormatHint seen() {
     FormatHint known;
-    known.seen = SeenFormat{std::nullopt, named("mirror-ball"), "its pixels"};
+    known.seen = SeenFormat{std::nullopt, named("cylinder"), "its pixels"};
     return known;
   }
 
@@ -54,16 +54,16 @@ TEST_F(WhichWordWins, OfAPictureThatSaysItself) {
   camera.projection = named("fisheye");
   save_picture(one_eye(), camera, {}, folder.path("a_cube-3x2.exr"));
   save_picture(one_eye(), {}, folder.path("b_cube-3x2.exr"));
-  for (const char* name : {"a_cube-3x2.camera.json", "b_cube-3x2.camera.json"}) write_sidecar_of(name, "dome");
+  for (const char* name : {"a_cube-3x2.camera.json", "b_cube-3x2.camera.json"}) write_sidecar_of(name, "fisheye-equisolid");
   FormatHint asked = seen();
   asked.projection = named("eac");
   EXPECT_EQ(projection("a_cube-3x2.exr", asked), "eac") << "options";
   EXPECT_EQ(projection("a_cube-3x2.exr", seen()), "fisheye") << "the file's own ods:projection";
-  EXPECT_EQ(projection("b_cube-3x2.exr", seen()), "dome") << "the sidecar";
+  EXPECT_EQ(projection("b_cube-3x2.exr", seen()), "fisheye-equisolid") << "the sidecar";
   std::filesystem::remove(folder.path("b_cube-3x2.camera.json"));
   EXPECT_EQ(projection("b_cube-3x2.exr", seen()), "cube-3x2") << "the name";
   std::filesystem::rename(folder.path("b_cube-3x2.exr"), folder.path("b.exr"));
-  EXPECT_EQ(projection("b.exr", seen()), "mirror-ball") << "the pixels";
+  EXPECT_EQ(projection("b.exr", seen()), "cylinder") << "the pixels";
   EXPECT_EQ(projection("b.exr", {}), "lat-long") << "the shape";
 }
 
@@ -71,8 +71,8 @@ TEST_F(WhichWordWins, OfAPhotoWithGpano) {
   StereoCamera camera;
   camera.yaw = 40.0f;
   save_picture(one_eye(), camera, {}, folder.path("a_fisheye.jpg"));
-  write_sidecar_of("a_fisheye.camera.json", "dome");
-  EXPECT_EQ(projection("a_fisheye.jpg", seen()), "dome") << "the sidecar, which knows more";
+  write_sidecar_of("a_fisheye.camera.json", "fisheye-equisolid");
+  EXPECT_EQ(projection("a_fisheye.jpg", seen()), "fisheye-equisolid") << "the sidecar, which knows more";
   std::filesystem::remove(folder.path("a_fisheye.camera.json"));
   EXPECT_EQ(projection("a_fisheye.jpg", seen()), "lat-long") << "GPano";
   EXPECT_EQ(open_picture(folder.path("a_fisheye.jpg")).camera.yaw, 40.0f);

@@ -155,6 +155,16 @@ TEST_F(Heif, DamagedOnesAreOneLine) {
   }
 }
 
+// Found by fuzzing: of a grid whose tiles are overlays libheif knows no number of bits.
+TEST_F(Heif, AGridOfOverlaysIsRefused) {
+  write_png("a.png", {64, 32});
+  if (encode("-q 90", "a.png", "a.heic").code != 0) GTEST_SKIP() << "skipped: no encoder";
+  std::string whole = folder.read("a.heic");
+  if (whole.find("grid") == std::string::npos) GTEST_SKIP() << "skipped: this heif-enc makes no grid of it";
+  folder.write("a.heic", whole.replace(whole.find("hvc1"), 4, "iovl"));
+  EXPECT_NE(error("a.heic").find("how many bits"), std::string::npos) << error("a.heic");
+}
+
 // Files of some hundred bytes that ask for gigabytes or years: each is refused in one line.
 TEST_F(Heif, BombsAreRefused) {
   write_png("a.png", {64, 64});

@@ -3,7 +3,9 @@
 #include "ods/video/ycbcr.h"
 
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -131,6 +133,31 @@ StoredPicture picture_of(std::vector<float>& memory, Extent size, size_t channel
   layer.first = reinterpret_cast<const std::byte*>(memory.data());
   picture.eyes = {{kMono, {layer}}};
   return picture;
+}
+
+// A frame that nobody holds is taken again, with its pixels; one that somebody holds is nobody else's.
+TEST(FramePool, FramesAreUsedAgain) {
+  std::shared_ptr<VideoFrame> kept;
+  {
+    const FramePool pool({64, 32}, {});
+    std::shared_ptr<VideoFrame> first = pool.take();
+    kept = pool.take();
+    EXPECT_NE(first, kept);
+    const VideoFrame* place = first.get();
+    first->planes().first[0][0] = std::byte{77};
+    first.reset();
+    first = pool.take();
+    EXPECT_EQ(first.get(), place);
+    EXPECT_EQ(first->planes().first[0][0], std::byte{77});
+    EXPECT_NE(pool.take(), first);
+    tbb::parallel_for(0, 1000, [&](int i) {
+      const std::shared_ptr<VideoFrame> own = pool.take();
+      const auto value = static_cast<std::byte>(i % 256);
+      std::fill_n(own->planes().first[0], 64 * 32, value);
+      EXPECT_EQ(std::count(own->planes().first[0], own->planes().first[0] + 64 * 32, value), 64 * 32);
+    });
+  }
+  kept->planes().first[0][0] = std::byte{1};  // it outlives the pool
 }
 
 TEST(VideoFrame, LightIsDevelopedAsPicturesAre) {

@@ -80,6 +80,7 @@ HeifDecoder::HeifDecoder(const PictureBytes& file, int view) : name_(file.name),
   info.channels = {"R", "G", "B"};
   if (heif_image_handle_has_alpha_channel(handle)) info.channels.emplace_back("A");
   bits_ = heif_image_handle_get_luma_bits_per_pixel(handle);
+  if (bits_ < 1 || bits_ > 16) throw cannot_read(name_, "the HEIF does not say how many bits its pixels have");
   info.samples.assign(info.channels.size(), bits_ > 8 ? SampleType::kUint16 : SampleType::kUint8);
   info.is_pair = items.pair.size() == 2;
   if (items.fov > 0.0f) info.numbers["heif:fov"] = {items.fov};
