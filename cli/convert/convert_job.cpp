@@ -97,7 +97,12 @@ ods::TimeSpan parse_span(const std::string& text) {
 }
 
 void add_input_options(Options& options, ConvertJob& job, Wishes& wishes) {
+<<<<<<< HEAD
   options.group("Input, if it is not detected");
+=======
+  add_depth_options(options, job.depth);  // first: the header that opens has depth
+  options.group("Input, if neither the file nor its name tells");
+>>>>>>> d36
   options.custom(
       "--projection", "NAME", "",
       [&](const std::string& name) { job.known.projection = projection_by_name("--projection", name); },
@@ -117,7 +122,6 @@ void add_input_options(Options& options, ConvertJob& job, Wishes& wishes) {
   options.custom(
       "--frames", "RANGE", "", [&](const std::string& text) { wishes.frames = ods::parse_frames(text); },
       "frames to convert, if the input is frames: 1-100, 1-100x2 or 1,5,10-20; by default all");
-  add_depth_options(options, job.depth);
   options.argument(
       ValueKind::input_file("IN"), [&](const std::string& path) { open_header(path, job, wishes); },
       "a picture (.png .jpg .tif .webp .hdr .exr .heic .avif), frames (#### in the name is the number) or a video "

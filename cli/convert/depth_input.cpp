@@ -20,6 +20,7 @@ constexpr const char* kDepthWords[] = {"--depth-kind",  "--near",        "--far"
 std::string meanings() {
   std::string text;
   for (const ods::DepthKindRow& row : ods::kDepthKindTable) {
+    if (row.name == row.meaning) continue;
     text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", row.name, row.meaning);
   }
   return text;
@@ -38,7 +39,7 @@ void add_depth_options(Options& options, DepthInput& depth) {
                  "what its numbers mean; floats are metres unless you say. " + meanings());
   options.number("--near", how.format.nearest, 1e-3f, 1e6f, "distance of its near end, metres");
   options.number("--far", how.format.farthest, 1e-3f, 1e9f,
-                 "distance of its far end, metres; for inverse: or infinity");
+                 "distance of its far end, metres; for inverse infinite if you give none");
   options.choice("--depth-along", how.format.along, ods::kDepthAlongTable,
                  "whether distances are from the eye (ray), or along the axis of the lens or the cube's face (axis)");
   options.choice("--depth-edges", how.edges, ods::kDepthEdgesTable,

@@ -68,10 +68,11 @@ struct Node {
 class Shifts {
  public:
   std::vector<Node> nodes;
-  float most = 1e-6f;  // the nearness of the last node
+  float most = 1e-6f;      // the nearness of the last node
+  float nodes_per = 0.0f;  // nearness
 
   Node at(float nearness) const {
-    const float t = std::min(nearness, most) * static_cast<float>(nodes.size() - 1) / most;
+    const float t = std::clamp(nearness, 0.0f, most) * nodes_per;
     const size_t i = std::min(static_cast<size_t>(t), nodes.size() - 2);
     const float beyond = t - static_cast<float>(i);
     const Node &a = nodes[i], &b = nodes[i + 1];
@@ -103,6 +104,7 @@ bool find_shifts(const Mapping& mapping, RowOfTarget target, int source_eye, flo
   const vec2 home = mapping.home_of(middle, target.y);
   const Ray ray = mapping.ray_of(target.index, home, home);
   shifts.nodes.resize(count);
+  shifts.nodes_per = static_cast<float>(count - 1) / shifts.most;
   for (size_t i = 0; i < count; i++) {
     const float wanted = shifts.most * static_cast<float>(i) / static_cast<float>(count - 1);
     float inverse = wanted;
@@ -160,6 +162,12 @@ struct Found {
   int source_eye = 0;
   bool is_filled = false;
 };
+
+// std::floor() is a call of a function.
+int floor_of(float x) {
+  const int towards_0 = static_cast<int>(x);
+  return towards_0 - (static_cast<float>(towards_0) > x ? 1 : 0);
+}
 
 // A texel as a point on the target's row.
 struct Point {
@@ -220,12 +228,15 @@ class Drawing {
     const float width = static_cast<float>(found_.size());
     if (b.x < a.x) std::swap(a, b);
     if (period_ > 0.0f) {
-      const float turns = period_ * std::floor((a.x - 0.5f * (width - period_)) / period_);
-      a.x -= turns, b.x -= turns;
+      const float least = 0.5f * (width - period_);
+      float turn = a.x < least ? period_ : 0.0f;
+      while (a.x + turn < least) turn += period_;
+      while (a.x + turn >= least + period_) turn -= period_;
+      a.x += turn, b.x += turn;
     }
     const float per_pixel = 1.0f / std::max(b.x - a.x, 1e-6f);
-    const int last = static_cast<int>(std::floor(std::min(b.x, 2.0f * width)));
-    for (int x = static_cast<int>(std::ceil(std::max(a.x, -width))); x <= last; x++) {
+    const int last = floor_of(std::min(b.x, 2.0f * width));
+    for (int x = -floor_of(-std::max(a.x, -width)); x <= last; x++) {
       const float t = (static_cast<float>(x) - a.x) * per_pixel;
       put(x, a.nearness + (b.nearness - a.nearness) * t, a.column + (b.column - a.column) * t);
     }
@@ -352,12 +363,13 @@ static void draw_surfaces(const Surfaces& surfaces, Extent picture, float scale,
                           Drawing& drawing) {
   constexpr float kTwice = 0.25f;  // rows
   thread_local std::vector<Point> points;
+  const float pixels = 1.0f / scale;  // per texel
   const bool twice = surfaces.shifts.most_row() - surfaces.shifts.least_row() > kTwice;
   for (const float start : {surfaces.shifts.most, 0.0f}) {
     points.clear();
     for (int c = 0; c < picture.width; c++) {
       const float nearness = nearness_in(surfaces, c, start, one_surface), column = static_cast<float>(c) + 0.5f;
-      points.push_back({(column - surfaces.shifts.at(nearness).column) / scale, nearness, column});
+      points.push_back({(column - surfaces.shifts.at(nearness).column) * pixels, nearness, column});
     }
     if (period > 0.0f) {
       const float columns = static_cast<float>(picture.width);
@@ -394,9 +406,9 @@ bool RowWarp::warp(int index, int y, bool fills, std::vector<SurfaceHit>& row) c
   if (fills) {
     const auto find = [&](const Found& edge, float at) {
       const Surfaces& own = surfaces[edge.source_eye];
-      const int floor_of = static_cast<int>(std::floor(at));
-      const int column = period_ > 0.0f ? (floor_of % picture.width + picture.width) % picture.width
-                                        : std::clamp(floor_of, 0, picture.width - 1);
+      const int whole = floor_of(at);
+      const int column = period_ > 0.0f ? (whole % picture.width + picture.width) % picture.width
+                                        : std::clamp(whole, 0, picture.width - 1);
       return own.strip.at(column, own.shifts.at(edge.nearness).row, one_surface_);
     };
     Filling::fill(found, std::lround(period_) == mapping_->size.width, scale_, find);

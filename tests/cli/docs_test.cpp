@@ -297,7 +297,7 @@ class Pages : public ::testing::Test {
     ods::RenderOptions options;
     options.width = 96, options.height = 48, options.noise = 0.1f;
     const std::string camera = ods::write_sidecar({ods::StereoCamera(), {options.width, options.height}});
-    ods::write_unfinished(folder.path(name), {"", camera, 0.0f, ods::ToneCurve::kNeutral, options},
+    ods::write_unfinished(folder.path(name), {{}, camera, 0.0f, ods::ToneCurve::kNeutral, options},
                           ods::no_samples(options));
   }
 

@@ -24,8 +24,8 @@ struct VideoConversion {
   SphericalMetadata metadata;  // of the new video
   std::vector<TurnKey> turns;  // how the camera was turned; times from the first picture on. May be empty
   Resume resume = {};
-  DepthFootage* depth = nullptr;                 // of the pictures; may be none
-  std::function<void(const DepthReport&)> tell;  // of the first picture's depth
+  DepthFootage* depth = nullptr;                      // of the pictures; may be none
+  std::function<void(const DepthReport&)> tell = {};  // of the first picture's depth
 };
 
 // Converts the part of the video that Footage::choose() chose. `options` give the packing, and what is kept;
@@ -47,7 +47,7 @@ struct FramesConversion {
   DisplayTransform display;  // of scene-linear frames
   Resume resume = {};
   DepthFootage* depth = nullptr;
-  std::function<void(const DepthReport&)> tell;  // of the first picture's depth
+  std::function<void(const DepthReport&)> tell = {};  // of the first picture's depth
 };
 
 // Throws Error as make_video(), also kUsage for a frame that cannot be converted.
