@@ -97,12 +97,8 @@ ods::TimeSpan parse_span(const std::string& text) {
 }
 
 void add_input_options(Options& options, ConvertJob& job, Wishes& wishes) {
-<<<<<<< HEAD
-  options.group("Input, if it is not detected");
-=======
   add_depth_options(options, job.depth);  // first: the header that opens has depth
-  options.group("Input, if neither the file nor its name tells");
->>>>>>> d36
+  options.group("Input, if it is not detected");
   options.custom(
       "--projection", "NAME", "",
       [&](const std::string& name) { job.known.projection = projection_by_name("--projection", name); },

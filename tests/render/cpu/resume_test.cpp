@@ -69,7 +69,7 @@ TEST(Parts, AddUpToTheBitsOfOneRun) {
     part.part = {number, 3};
     PictureSamples samples = no_samples(part);
     renderer.sample({&camera, 1}, part, samples);
-    const SampledPicture about{"", write_sidecar({camera, {part.width, part.height}}), 0.0f, ToneCurve::kNeutral, part};
+    const SampledPicture about{{}, write_sidecar({camera, {part.width, part.height}}), 0.0f, ToneCurve::kNeutral, part};
     parts.push_back(save_part(folder.path(std::to_string(number) + ".exr"), about, samples));
   }
   EXPECT_EQ(digest(merge_parts(parts, options)), whole);
