@@ -129,7 +129,7 @@ TEST_F(LintEyes, ThatDifferInSizeAreFound) {
 
 // What is far in this scene has hardly any parallax.
 TEST_F(LintEyes, ThatMustDivergeAreFoundAndCured) {
-  for (const float amount : {-0.75f, -3.0f}) {
+  for (const float amount : {-0.6f, -3.0f}) {
     EyeCorrection made;
     made.yaw = amount;
     const LintReport report = lint(make(made, "wide_TB.png"));
