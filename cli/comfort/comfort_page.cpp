@@ -42,6 +42,7 @@ ol { list-style: none; margin: 0; padding: 0; display: grid; gap: .8rem;
      grid-template-columns: repeat(auto-fill, minmax(min(100%, 26rem), 1fr)); }
 li { display: grid; grid-template-columns: 8rem 1fr; gap: .8rem; padding: .7rem; border: 1px solid var(--line);
      border-radius: .6rem; }
+.bare { display: block; }
 .crop { position: relative; align-self: start; }
 .crop::after { content: ""; position: absolute; left: 50%; top: 50%; width: 1.4rem; height: 1.4rem; margin: -.7rem;
                border: 2px solid #fff; border-radius: 50%; box-shadow: 0 0 0 1px #000; }
@@ -94,10 +95,11 @@ std::string picture_html(const ods::Image& light, const std::string& words, cons
 
 std::string thing_html(const PageThing& thing, const std::string& path) {
   const std::string crop =
-      thing.crop.pixels.empty() ? "<div></div>"
+      thing.crop.pixels.empty() ? ""
                                 : "<div class=\"crop\">" + picture_html(thing.crop, thing.title, path) + "</div>";
   return fmt::format(
-      "<li>{}<div><p><b class=\"{}\">{}</b> {}</p><p class=\"soft\">{}</p><p>{}</p><p>{}</p></div></li>\n", crop,
+      "<li{}>{}<div><p><b class=\"{}\">{}</b> {}</p><p class=\"soft\">{}</p><p>{}</p><p>{}</p></div></li>\n",
+      crop.empty() ? " class=\"bare\"" : "", crop,
       level_name(thing.level), level_name(thing.level), escaped(thing.title), escaped(thing.where), escaped(thing.what),
       escaped(thing.cure));
 }

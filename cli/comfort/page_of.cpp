@@ -98,6 +98,8 @@ ComfortPage page_of(const ComfortJob& job, const ods::VideoComfort& video) {
     if (strain.place) {
       thing.where = fmt::format("{:.2f} m away, {}", strain.place->distance, direction_text(*strain.place));
       thing.cure = "Cure: " + cure_text(*strain.place);
+      const bool is_shown = !video.report.places.empty() && video.report.places[0].azimuth == strain.place->azimuth;
+      if (is_shown) thing.crop = crop_of(judged, strain.place->azimuth, strain.place->elevation);
     }
     page.things.push_back(std::move(thing));
   }
