@@ -26,8 +26,10 @@ constexpr const char* kExamples =
     "  ods comfort scene.glb --rules google || echo move the camera";
 
 constexpr const char* kSummary =
-    "Judges what a stereo 360 picture does to its viewer's eyes: by its depth layer, by matching its eyes where it has\n"
-    "none, or in a scene before it is rendered. Lists the things that strain most, where they are, and what would help. docs/comfort.md explains\n"
+    "Judges what a stereo 360 picture does to its viewer's eyes: by its depth layer, by matching its eyes where it "
+    "has\n"
+    "none, or in a scene before it is rendered. Lists the things that strain most, where they are, and what would "
+    "help. docs/comfort.md explains\n"
     "the strains and their limits. Exit code 1: something is an error; cautions and warnings do not count.";
 
 // Where the lenses of headsets focus.
@@ -76,8 +78,9 @@ void parse_rules(const std::string& word, ods::ComfortOptions& comfort) {
 
 // The file says how a picture was made.
 void refuse_camera(const Options& options, const ComfortJob& job) {
-  const std::vector<std::string> own = {"",       "--rules",  "--focus",      "--viewer-ipd", "--gaze",  "--heat", "--html",
-                                        "--json", "--layout", "--projection", "-q",           "--quiet", "--no-color", "--progress"};
+  const std::vector<std::string> own = {"",       "--rules", "--focus",    "--viewer-ipd", "--gaze",
+                                        "--heat", "--html",  "--json",     "--layout",     "--projection",
+                                        "-q",     "--quiet", "--no-color", "--progress"};
   for (const GivenWord& word : options.given_words()) {
     if (std::ranges::find(own, word.name) != own.end()) continue;
     throw UsageError(fmt::format("{} is for scenes, and '{}' is a {}", word.name, job.scene.name,
@@ -126,7 +129,8 @@ bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
   add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
   if (is_picture(job) || is_film(job)) {
-    if (is_film(job) && !job.heat.empty()) throw UsageError("--heat is for pictures and scenes: --html shows a video's");
+    if (is_film(job) && !job.heat.empty())
+      throw UsageError("--heat is for pictures and scenes: --html shows a video's");
     refuse_camera(options, job);
     if (options.given("--projection")) job.format.projection = job.camera.stereo.projection;
     return true;

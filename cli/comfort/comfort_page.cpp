@@ -54,11 +54,16 @@ table { border-collapse: collapse; } td { padding: .15rem 1rem .15rem 0; vertica
 std::string escaped(const std::string& text) {
   std::string safe;
   for (const char c : text) {
-    if (c == '<') safe += "&lt;";
-    else if (c == '>') safe += "&gt;";
-    else if (c == '&') safe += "&amp;";
-    else if (c == '"') safe += "&quot;";
-    else safe += c;
+    if (c == '<')
+      safe += "&lt;";
+    else if (c == '>')
+      safe += "&gt;";
+    else if (c == '&')
+      safe += "&amp;";
+    else if (c == '"')
+      safe += "&quot;";
+    else
+      safe += c;
   }
   return safe;
 }
@@ -78,8 +83,7 @@ std::string data_uri(const ods::Image& light, const std::string& path) {
   ods::write_image(file, header, [&](int y, std::span<float> row) {
     for (int x = 0; x < light.width; x++) {
       const float* pixel = light.at(x, y);
-      const ods::vec3 shown =
-          ods::tone_map(ods::vec3(pixel[0], pixel[1], pixel[2]), 0.0f, ods::ToneCurve::kNeutral);
+      const ods::vec3 shown = ods::tone_map(ods::vec3(pixel[0], pixel[1], pixel[2]), 0.0f, ods::ToneCurve::kNeutral);
       for (int c = 0; c < 3; c++) row[static_cast<size_t>(3 * x + c)] = ods::srgb_encode(shown[c]);
     }
   });
@@ -95,13 +99,11 @@ std::string picture_html(const ods::Image& light, const std::string& words, cons
 
 std::string thing_html(const PageThing& thing, const std::string& path) {
   const std::string crop =
-      thing.crop.pixels.empty() ? ""
-                                : "<div class=\"crop\">" + picture_html(thing.crop, thing.title, path) + "</div>";
+      thing.crop.pixels.empty() ? "" : "<div class=\"crop\">" + picture_html(thing.crop, thing.title, path) + "</div>";
   return fmt::format(
       "<li{}>{}<div><p><b class=\"{}\">{}</b> {}</p><p class=\"soft\">{}</p><p>{}</p><p>{}</p></div></li>\n",
-      crop.empty() ? " class=\"bare\"" : "", crop,
-      level_name(thing.level), level_name(thing.level), escaped(thing.title), escaped(thing.where), escaped(thing.what),
-      escaped(thing.cure));
+      crop.empty() ? " class=\"bare\"" : "", crop, level_name(thing.level), level_name(thing.level),
+      escaped(thing.title), escaped(thing.where), escaped(thing.what), escaped(thing.cure));
 }
 
 // A curve over time with its limits as dashed lines. A break in it is a value that is unknown.
@@ -122,9 +124,10 @@ std::string curve_html(const PageCurve& curve) {
                                      {ComfortLevel::kWarning, curve.limits.warning},
                                      {ComfortLevel::kError, curve.limits.error}}) {
     if (!(value > 0.0) || value > most) continue;
-    svg += fmt::format("<line class=\"{}\" x1=\"{}\" x2=\"{}\" y1=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"currentColor\" "
-                       "stroke-dasharray=\"4 4\"/>",
-                       level_name(level), kLeft, kWidth - kRight, y_of(value), y_of(value));
+    svg += fmt::format(
+        "<line class=\"{}\" x1=\"{}\" x2=\"{}\" y1=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"currentColor\" "
+        "stroke-dasharray=\"4 4\"/>",
+        level_name(level), kLeft, kWidth - kRight, y_of(value), y_of(value));
   }
   std::string path;
   bool draws = false;
@@ -132,14 +135,15 @@ std::string curve_html(const PageCurve& curve) {
     if (std::isfinite(value)) path += fmt::format("{}{:.1f} {:.1f}", draws ? "L" : "M", x_of(seconds), y_of(value));
     draws = std::isfinite(value);
   }
-  svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"currentColor\" stroke-width=\"2\" stroke-linecap=\"round\"/>",
-                     path);
+  svg += fmt::format(
+      "<path d=\"{}\" fill=\"none\" stroke=\"currentColor\" stroke-width=\"2\" stroke-linecap=\"round\"/>", path);
   svg += fmt::format("<line x1=\"{0}\" x2=\"{1}\" y1=\"{2}\" y2=\"{2}\" stroke=\"var(--line)\"/>", kLeft,
                      kWidth - kRight, kHeight - kBottom);
   svg += fmt::format("<text x=\"4\" y=\"{:.0f}\">{:.3g}</text><text x=\"4\" y=\"{:.0f}\">0</text>", kTop + 8.0, most,
                      kHeight - kBottom);
-  svg += fmt::format("<text x=\"{}\" y=\"{}\">0 s</text><text x=\"{}\" y=\"{}\" text-anchor=\"end\">{:.3g} s</text></svg>",
-                     kLeft, kHeight - 6.0, kWidth - kRight, kHeight - 6.0, end);
+  svg +=
+      fmt::format("<text x=\"{}\" y=\"{}\">0 s</text><text x=\"{}\" y=\"{}\" text-anchor=\"end\">{:.3g} s</text></svg>",
+                  kLeft, kHeight - 6.0, kWidth - kRight, kHeight - 6.0, end);
   return fmt::format("<figure>{}<figcaption>{}, {}</figcaption></figure>\n", svg, escaped(curve.title),
                      escaped(curve.unit));
 }

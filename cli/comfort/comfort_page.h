@@ -17,10 +17,10 @@ struct PagePicture {
 
 struct PageThing {
   ods::ComfortLevel level = ods::ComfortLevel::kOk;
-  std::string title;         // "'Lamp', 0.41 m away"
-  std::string where, what;   // "23 degrees right, 12 down"; what strains, and how much
+  std::string title;        // "'Lamp', 0.41 m away"
+  std::string where, what;  // "23 degrees right, 12 down"; what strains, and how much
   std::string cure;
-  ods::Image crop;           // likewise; empty: none
+  ods::Image crop;  // likewise; empty: none
 };
 
 struct PageCurve {

@@ -79,8 +79,8 @@ std::string cure_text(const StrainedPlace& place) {
 std::vector<std::string> cure_lines(const ComfortJob& job, const Looked& looked, const ComfortReport& report) {
   std::vector<std::string> lines;
   for (const std::string& name : looked.hidden) {
-    lines.push_back(fmt::format("'{}' reaches into the circle of the eyes, where nothing is seen: move it, or the camera",
-                                name));
+    lines.push_back(
+        fmt::format("'{}' reaches into the circle of the eyes, where nothing is seen: move it, or the camera", name));
   }
   if (ods::worst_level(report) < ComfortLevel::kWarning) return lines;
   const bool is_rule = job.comfort.rules != ComfortRules::kStrain;
@@ -98,8 +98,8 @@ std::vector<std::string> cure_lines(const ComfortJob& job, const Looked& looked,
 // --- for people and for programs -------------------------------------------------------------------------------------
 
 void print_text(const ComfortJob& job, const Looked& looked, const ComfortReport& report) {
-  fmt::print("{}: {}; eyes {:.3g} m apart, nearest {:.2f} m\n", job.scene.name, level_name(verdict(job, looked, report)),
-             looked.camera.ipd, report.nearest);
+  fmt::print("{}: {}; eyes {:.3g} m apart, nearest {:.2f} m\n", job.scene.name,
+             level_name(verdict(job, looked, report)), looked.camera.ipd, report.nearest);
   if (looked.match) {
     fmt::print("by matching: +-{:.0f} minutes of arc; {:.0f} % of the picture could be matched\n",
                looked.match->precision, 100.0 * looked.match->share);

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <utility>
 
@@ -27,8 +26,7 @@
 
 namespace {
 
-constexpr int kMostWidth = 2048;         // of what is judged
-constexpr double kLeastAround = 256.0;  // pixels of a picture without depth
+constexpr int kMostWidth = 2048;        // of what is judged
 constexpr double kLeastMatched = 0.02;  // of a picture without depth
 
 // What rays from the circle's middle meet before they leave it.
@@ -92,12 +90,7 @@ Looked match_picture(const ods::StoredPicture& picture, const std::string& name)
                                  "how far things are. If it has two eyes, say --layout",
                                  name));
   }
-  const double around = 2.0 * std::numbers::pi * ods::pixels_per_radian(picture.camera.projection, picture.size.width);
-  if (around < kLeastAround) {
-    throw ods::Error(ods::ErrorKind::kInput,
-                     fmt::format("'{}' has no depth, and its eyes have {:.0f} pixels around: too few to be matched", name,
-                                 around));
-  }
+  ods::check_matchable(picture.camera.projection, picture.size.width, name);
   if (!picture.has_ipd) note("no word says how far apart its eyes are: distances are for 65 mm");
   ods::MatchedEyes matched = ods::match_eyes_for_depth(ods::grey_eyes(picture), picture.camera, picture.is_float);
   Looked looked{matched.seen[0].camera, {}, MatchQuality{matched.share, matched.precision, matched.apart}, {}};

@@ -33,8 +33,8 @@ Image crop_of(const Judged& judged, double azimuth, double elevation) {
                        up * (pixel * static_cast<float>(kCropHeight / 2 - y));
       const ods::ImagePoint place = ods::place_of(camera.projection, normalize(way));
       if (!place.seen) continue;
-      const int from_x = std::clamp(static_cast<int>(place.uv.x * static_cast<float>(judged.light.width)), 0,
-                                    judged.light.width - 1);
+      const int from_x =
+          std::clamp(static_cast<int>(place.uv.x * static_cast<float>(judged.light.width)), 0, judged.light.width - 1);
       const int from_y = std::clamp(static_cast<int>(place.uv.y * static_cast<float>(judged.light.height)), 0,
                                     judged.light.height - 1);
       std::copy_n(judged.light.at(from_x, from_y), 3, crop.at(x, y));
@@ -63,12 +63,13 @@ ComfortPage page_of(const ComfortJob& job, const Looked& looked, const ComfortRe
   ComfortPage page;
   page.title = file_name(job.scene.name);
   page.level = verdict(job, looked, report);
-  page.lines.push_back(fmt::format("Eyes {:.3g} m apart; the nearest thing is {:.2f} m away.", looked.camera.ipd,
-                                   report.nearest));
+  page.lines.push_back(
+      fmt::format("Eyes {:.3g} m apart; the nearest thing is {:.2f} m away.", looked.camera.ipd, report.nearest));
   if (looked.match) {
-    page.lines.push_back(fmt::format("Judged by matching the eyes: +-{:.0f} minutes of arc; {:.0f} % of the picture "
-                                     "could be matched.",
-                                     looked.match->precision, 100.0 * looked.match->share));
+    page.lines.push_back(
+        fmt::format("Judged by matching the eyes: +-{:.0f} minutes of arc; {:.0f} % of the picture "
+                    "could be matched.",
+                    looked.match->precision, 100.0 * looked.match->share));
   }
   for (const ods::ComfortLevel level : ods::kComfortLevels) {
     page.shares.emplace_back(level, report.share[static_cast<size_t>(level)]);
@@ -91,8 +92,8 @@ ComfortPage page_of(const ComfortJob& job, const ods::VideoComfort& video) {
   page.level = ods::worst_level(video);
   page.lines.push_back(looked_text(video));
   const Judged judged{*video.seen, light_of(video.grey)};
-  page.pictures.push_back({"The worst moment's left eye: caution yellow, warning orange, error red",
-                           heat_of(judged, video.report)});
+  page.pictures.push_back(
+      {"The worst moment's left eye: caution yellow, warning orange, error red", heat_of(judged, video.report)});
   for (const ods::VideoStrain& strain : video.strains) {
     PageThing thing{strain.level, times_text(strain), "", strain_text(strain), "", {}};
     if (strain.place) {
@@ -112,8 +113,8 @@ ComfortPage page_of(const ComfortJob& job, const ods::VideoComfort& video) {
   const double unknown = std::nan("");
   add("The nearest thing", "metres", {}, [](Moment m) { return m.nearest; });
   add("The most that eyes must converge", "degrees", {}, [](Moment m) { return m.vergence; });
-  add("Vertical disparity at its worst", "minutes of arc",
-      ods::strain_limits(Strain::kVertical, job.comfort.viewer), [](Moment m) { return m.vertical; });
+  add("Vertical disparity at its worst", "minutes of arc", ods::strain_limits(Strain::kVertical, job.comfort.viewer),
+      [](Moment m) { return m.vertical; });
   for (const auto& [ride, member] : {std::pair{ods::Ride::kTurn, &ods::VideoMoment::turn},
                                      {ods::Ride::kTilt, &ods::VideoMoment::tilt},
                                      {ods::Ride::kSpeed, &ods::VideoMoment::speed},

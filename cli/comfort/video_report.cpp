@@ -24,12 +24,9 @@ Json number(double value) {
 }
 
 Json moment_json(const ods::VideoMoment& moment) {
-  Json json = {{"seconds", moment.seconds},
-               {"level", level_name(moment.level)},
-               {"matched", moment.matched},
-               {"nearest", number(moment.nearest)},
-               {"vergence", moment.vergence},
-               {"vertical", moment.vertical},
+  Json json = {{"seconds", moment.seconds},   {"level", level_name(moment.level)},
+               {"matched", moment.matched},   {"nearest", number(moment.nearest)},
+               {"vergence", moment.vergence}, {"vertical", moment.vertical},
                {"middle", moment.middle}};
   if (moment.is_carried) {
     json["turn"] = moment.turn, json["tilt"] = moment.tilt;
@@ -72,19 +69,17 @@ void print_text(const ComfortJob& job, const ods::VideoComfort& video) {
 }
 
 void print_json(const ComfortJob& job, const ods::VideoComfort& video) {
-  Json json = {{"path", job.scene.name},
-               {"level", level_name(worst_level(video))},
-               {"ipd", video.camera.ipd},
-               {"frames", video.frames},
-               {"seconds", video.seconds},
-               {"every", video.every},
-               {"precision", video.precision},
-               {"moments", Json::array()},
+  Json json = {{"path", job.scene.name},       {"level", level_name(worst_level(video))},
+               {"ipd", video.camera.ipd},      {"frames", video.frames},
+               {"seconds", video.seconds},     {"every", video.every},
+               {"precision", video.precision}, {"moments", Json::array()},
                {"strains", Json::array()}};
   for (const ods::VideoMoment& moment : video.moments) json["moments"].push_back(moment_json(moment));
   for (const ods::VideoStrain& strain : video.strains) {
-    Json each = {{"name", strain.name},   {"level", level_name(strain.level)}, {"from", strain.from}, {"to", strain.to},
-                 {"worst", strain.worst}, {"value", strain.value},             {"unit", strain.unit}};
+    Json each = {{"name", strain.name},   {"level", level_name(strain.level)},
+                 {"from", strain.from},   {"to", strain.to},
+                 {"worst", strain.worst}, {"value", strain.value},
+                 {"unit", strain.unit}};
     if (strain.place) {
       each["distance"] = strain.place->distance;
       each["azimuth"] = strain.place->azimuth, each["elevation"] = strain.place->elevation;

@@ -11,6 +11,6 @@
 void print_text(const ComfortJob& job, const ods::VideoComfort& video);
 void print_json(const ComfortJob& job, const ods::VideoComfort& video);
 
-std::string looked_text(const ods::VideoComfort& video);      // at how many frames
-std::string times_text(const ods::VideoStrain& strain);       // "from 3.0 to 5.0 s"
-std::string strain_text(const ods::VideoStrain& strain);      // "the horizon rolls: 12 degrees a second"
+std::string looked_text(const ods::VideoComfort& video);  // at how many frames
+std::string times_text(const ods::VideoStrain& strain);   // "from 3.0 to 5.0 s"
+std::string strain_text(const ods::VideoStrain& strain);  // "the horizon rolls: 12 degrees a second"

@@ -68,7 +68,7 @@ class Judge {
  private:
   // What is kept of each pixel; the rest is found again where it is wanted.
   struct Point {
-    bool is_known = false;      // it is in the picture, and has a depth or nothing there
+    bool is_known = false;  // it is in the picture, and has a depth or nothing there
     float solid_angle = 0.0f;
     float distance = std::numeric_limits<float>::infinity();
     float vergence = 0.0f;
@@ -287,8 +287,10 @@ std::vector<int> Judge::things_or_areas() const {
   }
   std::vector<int> areas = connected_areas(grid);
   for (size_t i = 0; i < areas.size(); i++) {
-    if (areas[i] >= 0) areas[i] += static_cast<int>(seen_.names.size());
-    else if (has_things) areas[i] = seen_.things[i];
+    if (areas[i] >= 0)
+      areas[i] += static_cast<int>(seen_.names.size());
+    else if (has_things)
+      areas[i] = seen_.things[i];
   }
   return areas;
 }
@@ -325,7 +327,8 @@ void Judge::list_places(ComfortReport& report, double all) const {
   for (const size_t i : order) {
     StrainedPlace place = describe(things[i].worst, things[i].share / all);
     if (i < seen_.names.size()) place.name = seen_.names[i];
-    if (std::ranges::any_of(report.places, [&](const StrainedPlace& worse) { return is_part_of(place, worse); })) continue;
+    if (std::ranges::any_of(report.places, [&](const StrainedPlace& worse) { return is_part_of(place, worse); }))
+      continue;
     report.places.push_back(std::move(place));
     if (report.places.size() == kMostPlaces) break;
   }
@@ -390,8 +393,9 @@ ComfortLevel worst_level(const ComfortReport& report) {
 std::string direction_text(double azimuth, double elevation) {
   const auto around = std::lround(std::abs(azimuth)), above = std::lround(std::abs(elevation));
   const bool is_side = around != 0 && around != 180;
-  std::string text = is_side ? fmt::format("{} degrees {}", around, azimuth < 0.0 ? "left" : "right")
-                             : around == 0 ? "ahead" : "behind";
+  std::string text = is_side       ? fmt::format("{} degrees {}", around, azimuth < 0.0 ? "left" : "right")
+                     : around == 0 ? "ahead"
+                                   : "behind";
   if (above > 0) text += fmt::format(", {}{} {}", above, is_side ? "" : " degrees", elevation < 0.0 ? "down" : "up");
   return text;
 }

@@ -54,14 +54,14 @@ struct StrainedPlace {
 };
 
 struct ComfortReport {
-  std::array<double, 4> share{};      // of what the picture shows and is known, by solid angle, at each ComfortLevel
-  std::array<double, 4> looked{};     // likewise, weighted by where people look: looked_at()
+  std::array<double, 4> share{};   // of what the picture shows and is known, by solid angle, at each ComfortLevel
+  std::array<double, 4> looked{};  // likewise, weighted by where people look: looked_at()
   std::array<double, std::size(kStrains)> most{};  // of each Strain
-  std::vector<StrainedPlace> places;  // worst first
-  double nearest = 0.0;               // metres; infinite if there is nothing
-  double unknown = 0.0;               // share of pixels without a depth
-  float largest_ipd = 0.0f;           // of the picture, with which nothing is more than a caution
-  Image level;                        // 1 channel: the ComfortLevel of each pixel, as a number
+  std::vector<StrainedPlace> places;               // worst first
+  double nearest = 0.0;                            // metres; infinite if there is nothing
+  double unknown = 0.0;                            // share of pixels without a depth
+  float largest_ipd = 0.0f;                        // of the picture, with which nothing is more than a caution
+  Image level;                                     // 1 channel: the ComfortLevel of each pixel, as a number
 };
 
 // Throws Error(kInput) if no pixel has a depth. Precondition: the depth has 1 channel, `things` its size or none.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/comfort/matched.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -11,6 +12,8 @@
 #include <numbers>
 #include <utility>
 
+#include "ods/base/error.h"
+#include "ods/camera/projection.h"
 #include "ods/disparity/alignment.h"
 #include "ods/disparity/dense_match.h"
 #include "ods/picture/picture.h"
@@ -66,8 +69,8 @@ float depth_of_parallax(const Camera& camera, int eye, vec2 uv, float around) {
   const vec3 from = ray.origin - camera.center;
   const glm::dvec2 origin(dot(from, camera.right), dot(from, camera.back));
   const glm::dvec2 along(dot(ray.direction, camera.right), dot(ray.direction, camera.back));
-  const double azimuth = std::atan2(double{look.direction.x}, -double{look.direction.z}) +
-                         0.5 * double{eye_side(eye)} * double{around};
+  const double azimuth =
+      std::atan2(double{look.direction.x}, -double{look.direction.z}) + 0.5 * double{eye_side(eye)} * double{around};
   const glm::dvec2 line(std::sin(azimuth), -std::cos(azimuth));
   const auto cross = [](glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; };
   const double depth = -cross(origin, line) / cross(along, line);
@@ -97,6 +100,15 @@ MatchedEyes match_views_for_depth(std::vector<GrayView> views, const StereoCamer
   }
   matched.grey = std::move(views);
   return matched;
+}
+
+void check_matchable(const ProjectionSetting& projection, int width, const std::string& name) {
+  constexpr double kLeastAround = 256.0;  // pixels
+  const double around = 2.0 * std::numbers::pi * pixels_per_radian(projection, width);
+  if (around >= kLeastAround) return;
+  throw Error(
+      ErrorKind::kInput,
+      fmt::format("'{}' has no depth, and its eyes have {:.0f} pixels around: too few to be matched", name, around));
 }
 
 MatchedEyes match_eyes_for_depth(const std::vector<Image>& eyes, const StereoCamera& camera, bool is_float, int width) {

@@ -5,6 +5,7 @@
 // must converge.
 #pragma once
 #include <array>
+#include <string>
 #include <vector>
 
 #include "ods/comfort/comfort.h"
@@ -14,18 +15,22 @@ namespace ods {
 
 inline constexpr int kMatchedWidth = 1024;  // of the views that are matched: 21 minutes of arc a pixel
 
+// Throws Error(kInput) if an eye this wide has too few pixels to be matched. name: of the file.
+void check_matchable(const ProjectionSetting& projection, int width, const std::string& name);
+
 struct MatchedEyes {
   std::vector<SeenDepth> seen;  // of the left and the right eye: lat-long; unknown where nothing could be matched
   std::vector<Image> grey;      // the views
   double share = 0.0;           // of what the picture shows, by solid angle: matched
   double precision = 0.0;       // of parallax, minutes of arc
-  // How much higher one eye sees what is within 30 degrees of the horizon, at most, minutes of arc: a raise, pitch, roll
-  // or zoom of one eye's picture. It is taken out before the eyes are matched.
+  // How much higher one eye sees what is within 30 degrees of the horizon, at most, minutes of arc: a raise, pitch,
+  // roll or zoom of one eye's picture. It is taken out before the eyes are matched.
   double apart = 0.0;
 };
 
 // eyes: left and right, as grey_eyes() returns them. The camera says how they were seen; where the picture does not
-// tell its eye distance, distances are as if it were the camera's. Of eyes that do not show the same nothing is matched.
+// tell its eye distance, distances are as if it were the camera's. Of eyes that do not show the same nothing is
+// matched.
 MatchedEyes match_eyes_for_depth(const std::vector<Image>& eyes, const StereoCamera& camera, bool is_float,
                                  int width = kMatchedWidth);
 

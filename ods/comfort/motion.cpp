@@ -40,12 +40,12 @@ float depth_at(const Image& depth, double theta, double phi) {
 void add_place(const Match& match, double nearness, std::vector<Equation>& equations) {
   const double theta = static_cast<double>(match.theta), phi = static_cast<double>(match.phi);
   const glm::dvec3 u = direction_of(theta, phi);
-  const glm::dvec3 moved = direction_of(theta - static_cast<double>(match.around), phi - static_cast<double>(match.down)) - u;
+  const glm::dvec3 moved =
+      direction_of(theta - static_cast<double>(match.around), phi - static_cast<double>(match.down)) - u;
   const glm::dvec3 right(std::cos(theta), 0.0, std::sin(theta)), up = glm::cross(right, u);
   for (const glm::dvec3& tangent : {right, up}) {
     const glm::dvec3 turned = -glm::cross(u, tangent), carried = -nearness * tangent;
-    equations.push_back(
-        {{turned.x, turned.y, turned.z, carried.x, carried.y, carried.z}, glm::dot(moved, tangent)});
+    equations.push_back({{turned.x, turned.y, turned.z, carried.x, carried.y, carried.z}, glm::dot(moved, tangent)});
   }
 }
 
@@ -102,9 +102,10 @@ ViewerMotion motion_between(const GrayView& before, const GrayView& after, const
     solution = solve(equations, solution, spread);
   }
   const double alike = 3.0 * least;
-  motion.places = static_cast<int>(std::ranges::count_if(
-                      equations, [&](const Equation& each) { return std::abs(rest_of(each, solution)) < alike; }) /
-                  2);
+  motion.places =
+      static_cast<int>(std::ranges::count_if(
+                           equations, [&](const Equation& each) { return std::abs(rest_of(each, solution)) < alike; }) /
+                       2);
   if (motion.places < kLeastPlaces) return motion;
   motion.turn = glm::dvec3(solution[0], solution[1], solution[2]) / seconds;
   motion.velocity = glm::dvec3(solution[3], solution[4], solution[5]) / seconds;

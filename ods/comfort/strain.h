@@ -72,8 +72,8 @@ inline constexpr NameRow<ComfortLevel> kComfortLevelTable[] = {
 static_assert(has_every_member(kComfortLevelTable));
 inline constexpr auto kComfortLevels = members_of(kComfortLevelTable);
 
-// How much people look at this elevation, over the horizon's, by solid angle. Source: Sitzmann et al. 2018, "Saliency in
-// VR", have a Laplace distribution of elevations, 18.6 degrees wide; provisional, quoted from memory.
+// How much people look at this elevation, over the horizon's, by solid angle. Source: Sitzmann et al. 2018, "Saliency
+// in VR", have a Laplace distribution of elevations, 18.6 degrees wide; provisional, quoted from memory.
 double looked_at(double elevation);
 
 inline constexpr double kFusionLimit = 25.6;                     // minutes of arc: kVertical is a warning beyond

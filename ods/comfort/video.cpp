@@ -23,11 +23,11 @@ namespace ods {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr int kWidth = 512;          // of the views that are matched
-constexpr int kLeastMoments = 8;     // of a short video
-constexpr int kGlance = 256;         // the width of the views that tell a cut
-constexpr double kSameShot = 0.3;    // the least share of their tiles that two frames of a shot have in common
-constexpr int kMostCuts = 12;        // that are looked for
+constexpr int kWidth = 512;        // of the views that are matched
+constexpr int kLeastMoments = 8;   // of a short video
+constexpr int kGlance = 256;       // the width of the views that tell a cut
+constexpr double kSameShot = 0.3;  // the least share of their tiles that two frames of a shot have in common
+constexpr int kMostCuts = 12;      // that are looked for
 constexpr double kLeastMatched = 0.02;
 constexpr double kNearHorizon = 30.0 * kDegree;
 
@@ -69,6 +69,7 @@ class VideoJudge {
     if (video_.prototype.eyes.size() != 2) {
       throw Error(ErrorKind::kInput, fmt::format("'{}' has one eye: nothing in it tells how far things are", path));
     }
+    check_matchable(video_.prototype.camera.projection, video_.prototype.size.width, path);
   }
 
   VideoComfort run(const Progress& progress);
@@ -150,7 +151,8 @@ std::optional<VideoMoment> VideoJudge::look_at(double seconds) {
     add_motion(moment, *frame, matched);
     if (!report.places.empty()) worst = report.places[0];
     const auto rank = [](const ComfortReport& each) {
-      return each.places.empty() ? 0.0 : static_cast<double>(each.places[0].level) + 1.0 - 1.0 / (1.0 + each.places[0].value);
+      return each.places.empty() ? 0.0
+                                 : static_cast<double>(each.places[0].level) + 1.0 - 1.0 / (1.0 + each.places[0].value);
     };
     if (!result_.seen || rank(report) > rank(result_.report)) {
       result_.seen = std::move(matched.seen[0]), result_.grey = std::move(matched.grey[0]);
@@ -225,7 +227,8 @@ void VideoJudge::add_strains() {
       add({when, when, when, row.name, row.title, row.unit, value, level, {}});
     }
   }
-  std::ranges::stable_sort(result_.strains, [](const VideoStrain& a, const VideoStrain& b) { return a.level > b.level; });
+  std::ranges::stable_sort(result_.strains,
+                           [](const VideoStrain& a, const VideoStrain& b) { return a.level > b.level; });
   if (result_.strains.size() > 10) result_.strains.resize(10);
 }
 

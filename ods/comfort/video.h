@@ -38,17 +38,41 @@ struct RideRow {
 };
 inline constexpr double kNoLimit = 1e300;
 inline constexpr RideRow kRideTable[] = {
-    {Ride::kApart, "apart", "minutes of arc", "one eye sees things higher", {15.0, kFusionLimit, 60.0},
+    {Ride::kApart,
+     "apart",
+     "minutes of arc",
+     "one eye sees things higher",
+     {15.0, kFusionLimit, 60.0},
      "as of vertical disparity"},
-    {Ride::kTurn, "turn", "degrees a second", "the viewer is turned around", {10.0, 30.0, 60.0},
+    {Ride::kTurn,
+     "turn",
+     "degrees a second",
+     "the viewer is turned around",
+     {10.0, 30.0, 60.0},
      "So, Lo 1999: turning at 30 sickens; Hu et al. 1989: at 60 most; provisional"},
-    {Ride::kTilt, "tilt", "degrees a second", "the horizon rolls", {3.0, 10.0, 30.0},
+    {Ride::kTilt,
+     "tilt",
+     "degrees a second",
+     "the horizon rolls",
+     {3.0, 10.0, 30.0},
      "So, Lo 1999: roll and pitch sicken as yaw does; provisional"},
-    {Ride::kSpeed, "speed", "metres a second", "the viewer is carried fast", {3.0, 10.0, kNoLimit},
+    {Ride::kSpeed,
+     "speed",
+     "metres a second",
+     "the viewer is carried fast",
+     {3.0, 10.0, kNoLimit},
      "So, Lo, Ho 2001: nausea grows from 3 to 10 metres a second"},
-    {Ride::kAcceleration, "acceleration", "metres a second squared", "the viewer's speed changes", {0.5, 1.5, kNoLimit},
+    {Ride::kAcceleration,
+     "acceleration",
+     "metres a second squared",
+     "the viewer's speed changes",
+     {0.5, 1.5, kNoLimit},
      "provisional"},
-    {Ride::kCut, "cut", "degrees", "eyes must jump in depth at a cut", {1.84, 3.05, kNoLimit},
+    {Ride::kCut,
+     "cut",
+     "degrees",
+     "eyes must jump in depth at a cut",
+     {1.84, 3.05, kNoLimit},
      "Nagata 2002, limits of fusion of 392 people"},
 };
 static_assert(has_every_member(kRideTable));
@@ -60,15 +84,15 @@ constexpr const RideRow& ride_row(Ride ride) {
 // One frame that was looked at.
 struct VideoMoment {
   double seconds = 0.0;
-  double matched = 0.0;    // share of the picture
-  double nearest = 0.0;    // metres; infinite if nothing is
-  double vergence = 0.0;   // degrees: the most
-  double vertical = 0.0;   // minutes of arc: the worst
-  double middle = 0.0;     // degrees: the median vergence of what is within 30 degrees of the horizon
+  double matched = 0.0;     // share of the picture
+  double nearest = 0.0;     // metres; infinite if nothing is
+  double vergence = 0.0;    // degrees: the most
+  double vertical = 0.0;    // minutes of arc: the worst
+  double middle = 0.0;      // degrees: the median vergence of what is within 30 degrees of the horizon
   bool is_carried = false;  // speed, turn and tilt are known
   double speed = 0.0, turn = 0.0, tilt = 0.0, acceleration = 0.0;  // as Ride
-  std::optional<double> cut;  // there was one since the moment before: as Ride
-  double cut_at = 0.0;        // seconds
+  std::optional<double> cut;                                       // there was one since the moment before: as Ride
+  double cut_at = 0.0;                                             // seconds
   ComfortLevel level = ComfortLevel::kOk;
 };
 

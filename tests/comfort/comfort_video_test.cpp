@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A film of a hall whose camera moves as it is told, cut to a cave.
-#include "ods/comfort/video.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "ods/base/error.h"
+#include "ods/comfort/video.h"
 #include "ods/image/tone.h"
 #include "ods/picture/save.h"
 #include "ods/video/make_video.h"
@@ -25,7 +24,7 @@ class ComfortVideo : public ::testing::Test {
   }
 
   // Ten frames a second. degrees: that the camera turns to the right from one to the next; metres: that it goes ahead.
-  std::string make(int count, int cut, float degrees, float metres, bool stereo = true) {
+  std::string make(int count, int cut, float degrees, float metres, bool stereo = true, Extent eye_size = {512, 256}) {
     SaveOptions save;
     save.tone = ToneCurve::kLinear;
     const std::string name = stereo ? "f.##_TB.png" : "f.##.png";
@@ -36,7 +35,7 @@ class ComfortVideo : public ::testing::Test {
       const World world = frame < cut ? World::kHall : World::kCave;
       Picture picture;
       for (const int eye : stereo ? std::vector<int>{kLeft, kRight} : std::vector<int>{kMono}) {
-        picture.eyes.push_back({eye, seen_in(world, camera, eye, {512, 256}), {}, {}, {}});
+        picture.eyes.push_back({eye, seen_in(world, camera, eye, eye_size), {}, {}, {}});
       }
       save_picture(picture, save, frame_names(folder.path(name))->path(frame));
     }
@@ -109,6 +108,11 @@ TEST_F(ComfortVideo, TheNumberOfFramesIsBounded) {
 
 TEST_F(ComfortVideo, OneEyeTellsNothing) {
   const std::string path = make(3, 3, 0.0f, 0.0f, false);
+  EXPECT_THROW(judge_video(path), Error);
+}
+
+TEST_F(ComfortVideo, FewPixelsTellNothing) {
+  const std::string path = make(3, 3, 0.0f, 0.0f, true, {128, 64});
   EXPECT_THROW(judge_video(path), Error);
 }
 
