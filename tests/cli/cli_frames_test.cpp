@@ -8,6 +8,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "tests/support/cli_runner.h"
 #include "tests/support/moving_files.h"
@@ -164,7 +165,9 @@ TEST_F(SharedFrames, EachIsRenderedOnce) {
 
 TEST_F(SharedFrames, TheFrameOfAProcessThatDiedIsTakenOver) {
   Ods first(job("1024"));
-  first.wait_for("camera at");
+  while (!std::filesystem::exists(folder.path(".shot.1.png.claim"))) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));  // the test's own time limit ends this
+  }
   first.kill(SIGSTOP);
   Ods second(job("1"));
   second.wait_for("which is being made by process " + std::to_string(first.process()) + " on '");
