@@ -54,8 +54,7 @@ void print_table(std::span<const NamedSize> sizes) {
   }
   fmt::print(
       "\nH.264, HEVC, AV1, VP9: the smallest level that holds the file as a video, at {} pictures a second where fps\n"
-      "is empty; if there is none, players may refuse it. AA: the antialiasing of the source, off or POV-Ray's "
-      "threshold.\n",
+      "is empty; without one, players may refuse it. AA: the source's antialiasing, off or POV-Ray's threshold.\n",
       kStillFps);
 }
 
