@@ -81,7 +81,7 @@ TEST_F(ConvertDepth, MergesByDepth) {
   EXPECT_LE(worst_vertical("cured.exr"), 31.0);
   EXPECT_GE(worst_vertical("cured.exr"), 20.0);
   EXPECT_EQ(run(in_folder("convert @panorama.png --merge auto -o @no.png")), 0) << err;
-  EXPECT_NE(err.find("change nothing of one eye"), std::string::npos) << err;
+  EXPECT_NE(err.find("have no effect on one eye"), std::string::npos) << err;
   EXPECT_EQ(run(in_folder("convert @panorama.png --eyes both --merge auto -o @no.png")), 2);
 }
 
