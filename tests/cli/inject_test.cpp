@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <iterator>
 
+#include "cli/console/console.h"
 #include "ods/lint/players.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/video/container/apple.h"
@@ -349,7 +350,7 @@ TEST_F(Inject, ProbeAdvisesWhatInjectDoes) {
         }
         return text;
       };
-      const std::string text = warnings(ods::read_video_file(folder.path(each.name)));
+      const std::string text = with_options(warnings(ods::read_video_file(folder.path(each.name))));
       const size_t advice = text.find("(ods inject ");
       if (advice == std::string::npos) continue;
       advised++;
