@@ -58,7 +58,7 @@ static constexpr Extension kExtensions[] = {
     {"KHR_materials_subsurface", kNotRendered, "light scattered below a surface"},
     {"KHR_materials_transmission", kRendered, "glass"},
     {"KHR_materials_unlit", kRendered, "colours shown as they are"},
-    {"KHR_materials_variants", kRendered, "alternative materials: `variant` NAME chooses one"},
+    {"KHR_materials_variants", kRendered, "alternative materials, one of which is chosen by its name"},
     {"KHR_materials_volume", kRendered, "refraction and absorption in closed meshes"},
     {"KHR_materials_volume_scatter", kNotRendered, "light scattered below a surface"},
     {"KHR_mesh_quantization", kRendered, "vertices stored as integers"},
