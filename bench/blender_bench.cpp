@@ -171,21 +171,21 @@ double likeness(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 // By how many pixels two pictures are shifted to the side, for each block with strong edges, by correlation. A block
-// that is like itself a pixel aside has level edges only, which tell nothing of it.
+// that is as like the other picture wherever it is moved to has level edges only, which tell nothing of it.
 std::vector<double> shifts(const Image& theirs, const Image& ours) {
-  constexpr double kStrong = 0.25, kLevel = 0.99;
+  constexpr double kStrong = 0.25, kLevel = 0.05;
   std::vector<double> found;
   for (int y = kBlock; y + 2 * kBlock <= theirs.height; y += kBlock) {
     for (int x = 8; x + kBlock + kReach < theirs.width; x += kBlock) {
       const std::vector<double> block = block_of(theirs, x, y);
       if (dot(block, block) < kStrong * kStrong * double(block.size())) continue;
-      if (likeness(block, block_of(theirs, x + 1, y)) > kLevel) continue;
       std::array<double, 2 * kReach + 1> alike{};
       for (int shift = -kReach; shift <= kReach; shift++) {
         alike[size_t(shift + kReach)] = likeness(block, block_of(ours, x + shift, y));
       }
-      const auto best =
-          std::clamp<size_t>(size_t(std::max_element(alike.begin(), alike.end()) - alike.begin()), 1, 2 * kReach - 1);
+      const auto [least, most] = std::minmax_element(alike.begin(), alike.end());
+      if (*most - *least < kLevel) continue;
+      const auto best = std::clamp<size_t>(size_t(most - alike.begin()), 1, 2 * kReach - 1);
       const double left = alike[best - 1], middle = alike[best], right = alike[best + 1];
       const double part = 0.5 * (left - right) / (left - 2 * middle + right);
       found.push_back(double(best) - kReach + std::clamp(part, -1.0, 1.0));
