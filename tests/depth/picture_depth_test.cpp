@@ -42,6 +42,7 @@ float street_depth(vec3 d) {
 // Pillars are red, all else is green: edges of colour where edges of depth are.
 MadePicture street(Extent size, const std::vector<int>& eyes = {kMono}) {
   MadePicture made = make_picture(StereoCamera(), size, eyes);
+  made.picture.is_float = true;
   const Camera camera = make_camera(made.picture.camera);
   add_colour(made, [&](int, vec2 uv, float* out) {
     const vec3 d = camera_ray(camera, kMono, uv).direction;
