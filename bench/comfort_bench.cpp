@@ -57,12 +57,15 @@ void compare(const std::string& name, const Picture& picture, const StereoCamera
   }
   std::ranges::sort(off);
   const auto at = [&](double share) { return off[static_cast<size_t>(share * static_cast<double>(off.size() - 1))]; };
-  const auto wrong = static_cast<double>(off.end() - std::ranges::lower_bound(off, 60.0)) / static_cast<double>(off.size());
+  const auto wrong =
+      static_cast<double>(off.end() - std::ranges::lower_bound(off, 60.0)) / static_cast<double>(off.size());
   const ComfortReport a = judge_comfort(truth), b = judge_comfort(matched.seen[0]);
-  fmt::print("| {} | {:.0f} % | {:.1f} | {:.1f} | {:.1f} | {:.0f} | {:.1f} % | {:.2f}, {:.2f} | {}, {} | {:.1f}, {:.1f} % | {:.2f} |\n",
-             name, 100.0 * matched.share, matched.precision, at(0.5), at(0.9), at(0.99), 100.0 * wrong, a.nearest,
-             b.nearest, name_in(kComfortLevelTable, worst_level(a)), name_in(kComfortLevelTable, worst_level(b)),
-             100.0 * a.share[3], 100.0 * b.share[3], seconds);
+  fmt::print(
+      "| {} | {:.0f} % | {:.1f} | {:.1f} | {:.1f} | {:.0f} | {:.1f} % | {:.2f}, {:.2f} | {}, {} | {:.1f}, {:.1f} % | "
+      "{:.2f} |\n",
+      name, 100.0 * matched.share, matched.precision, at(0.5), at(0.9), at(0.99), 100.0 * wrong, a.nearest, b.nearest,
+      comfort_level_name(worst_level(a)), comfort_level_name(worst_level(b)), 100.0 * a.share[3], 100.0 * b.share[3],
+      seconds);
   std::fflush(stdout);
 }
 
@@ -84,7 +87,8 @@ void compare_file(const std::string& path) {
     EyeImage& eye = picture.eyes.emplace_back();
     eye.eye = stored.eyes[i].eye;
     eye.radiance = Image(stored.size.width, stored.size.height, 3);
-    read_colors(stored, i, [&](int y, const std::vector<float>& row) { std::ranges::copy(row, eye.radiance.at(0, y)); });
+    read_colors(stored, i,
+                [&](int y, const std::vector<float>& row) { std::ranges::copy(row, eye.radiance.at(0, y)); });
     eye.depth = depth_of_eye(stored, i);
   }
   compare(path.substr(path.rfind('/') + 1), picture, stored.camera);
@@ -94,7 +98,8 @@ void compare_file(const std::string& path) {
 
 int main(int argc, char** argv) {
   std::puts(
-      "| picture | matched | stated +-' | off by, median ' | 90 % | 99 % | by more than a degree | nearest m, exact and "
+      "| picture | matched | stated +-' | off by, median ' | 90 % | 99 % | by more than a degree | nearest m, exact "
+      "and "
       "matched | verdicts | error | CPU s |\n|---|---|---|---|---|---|---|---|---|---|---|");
   for (const char* name : {"room", "toys", "fractal", "mirrors"}) compare_scene(name);
   for (int i = 1; i < argc; i++) compare_file(argv[i]);

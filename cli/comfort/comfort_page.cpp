@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "ods/base/base64.h"
+#include "ods/base/quote.h"
 #include "ods/files/file_input.h"
 #include "ods/image/image_file.h"
 #include "ods/image/tone.h"
@@ -51,27 +52,6 @@ table { border-collapse: collapse; } td { padding: .15rem 1rem .15rem 0; vertica
 </style>
 )";
 
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else if (c == '&')
-      safe += "&amp;";
-    else if (c == '"')
-      safe += "&quot;";
-    else
-      safe += c;
-  }
-  return safe;
-}
-
-std::string_view level_name(ComfortLevel level) {
-  return ods::name_in(ods::kComfortLevelTable, level);
-}
-
 // As a JPEG that exists only for a moment, beside the page.
 std::string data_uri(const ods::Image& light, const std::string& path) {
   ods::AtomicFile file(path);
@@ -94,7 +74,7 @@ std::string data_uri(const ods::Image& light, const std::string& path) {
 
 std::string picture_html(const ods::Image& light, const std::string& words, const std::string& path) {
   return fmt::format("<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\">", data_uri(light, path), light.width,
-                     light.height, escaped(words));
+                     light.height, ods::xml_text(words));
 }
 
 std::string thing_html(const PageThing& thing, const std::string& path) {
@@ -102,8 +82,8 @@ std::string thing_html(const PageThing& thing, const std::string& path) {
       thing.crop.pixels.empty() ? "" : "<div class=\"crop\">" + picture_html(thing.crop, thing.title, path) + "</div>";
   return fmt::format(
       "<li{}>{}<div><p><b class=\"{}\">{}</b> {}</p><p class=\"soft\">{}</p><p>{}</p><p>{}</p></div></li>\n",
-      crop.empty() ? " class=\"bare\"" : "", crop, level_name(thing.level), level_name(thing.level),
-      escaped(thing.title), escaped(thing.where), escaped(thing.what), escaped(thing.cure));
+      crop.empty() ? " class=\"bare\"" : "", crop, comfort_level_name(thing.level), comfort_level_name(thing.level),
+      ods::xml_text(thing.title), ods::xml_text(thing.where), ods::xml_text(thing.what), ods::xml_text(thing.cure));
 }
 
 // A curve over time with its limits as dashed lines. A break in it is a value that is unknown.
@@ -119,7 +99,7 @@ std::string curve_html(const PageCurve& curve) {
   const auto x_of = [&](double seconds) { return kLeft + (kWidth - kLeft - kRight) * seconds / end; };
   const auto y_of = [&](double value) { return kHeight - kBottom - (kHeight - kTop - kBottom) * value / most; };
   std::string svg = fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}, {}\">", kWidth, kHeight,
-                                escaped(curve.title), escaped(curve.unit));
+                                ods::xml_text(curve.title), ods::xml_text(curve.unit));
   for (const auto& [level, value] : {std::pair{ComfortLevel::kCaution, curve.limits.caution},
                                      {ComfortLevel::kWarning, curve.limits.warning},
                                      {ComfortLevel::kError, curve.limits.error}}) {
@@ -127,7 +107,7 @@ std::string curve_html(const PageCurve& curve) {
     svg += fmt::format(
         "<line class=\"{}\" x1=\"{}\" x2=\"{}\" y1=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"currentColor\" "
         "stroke-dasharray=\"4 4\"/>",
-        level_name(level), kLeft, kWidth - kRight, y_of(value), y_of(value));
+        comfort_level_name(level), kLeft, kWidth - kRight, y_of(value), y_of(value));
   }
   std::string path;
   bool draws = false;
@@ -144,15 +124,16 @@ std::string curve_html(const PageCurve& curve) {
   svg +=
       fmt::format("<text x=\"{}\" y=\"{}\">0 s</text><text x=\"{}\" y=\"{}\" text-anchor=\"end\">{:.3g} s</text></svg>",
                   kLeft, kHeight - 6.0, kWidth - kRight, kHeight - 6.0, end);
-  return fmt::format("<figure>{}<figcaption>{}, {}</figcaption></figure>\n", svg, escaped(curve.title),
-                     escaped(curve.unit));
+  return fmt::format("<figure>{}<figcaption>{}, {}</figcaption></figure>\n", svg, ods::xml_text(curve.title),
+                     ods::xml_text(curve.unit));
 }
 
 std::string bar_html(const ComfortPage& page) {
   std::string bar = "<div class=\"bar\">", words;
   for (const auto& [level, share] : page.shares) {
-    bar += fmt::format("<i class=\"{}\" style=\"flex:{:.5f}\"></i>", level_name(level), share);
-    words += fmt::format("<span class=\"{}\">{} {:.1f} %</span> ", level_name(level), level_name(level), 100.0 * share);
+    bar += fmt::format("<i class=\"{}\" style=\"flex:{:.5f}\"></i>", comfort_level_name(level), share);
+    words += fmt::format("<span class=\"{}\">{} {:.1f} %</span> ", comfort_level_name(level), comfort_level_name(level),
+                         100.0 * share);
   }
   return bar + "</div><p>" + words + "<small>of the picture, by solid angle</small></p>\n";
 }
@@ -162,23 +143,23 @@ std::string bar_html(const ComfortPage& page) {
 void write_page(const std::string& path, const ComfortPage& page) {
   std::string html = kHead;
   html += fmt::format("<title>{0}: {1}</title>\n</head>\n<body>\n<h1>{0}: <b class=\"{1}\">{1}</b></h1>\n",
-                      escaped(page.title), level_name(page.level));
-  for (const std::string& line : page.lines) html += "<p>" + escaped(line) + "</p>\n";
+                      ods::xml_text(page.title), comfort_level_name(page.level));
+  for (const std::string& line : page.lines) html += "<p>" + ods::xml_text(line) + "</p>\n";
   if (!page.shares.empty()) html += bar_html(page);
   for (const PagePicture& picture : page.pictures) {
     html += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
-                        picture_html(picture.light, picture.caption, path), escaped(picture.caption));
+                        picture_html(picture.light, picture.caption, path), ods::xml_text(picture.caption));
   }
   if (!page.things.empty()) html += "<h2>What strains most</h2>\n<ol>\n";
   for (const PageThing& thing : page.things) html += thing_html(thing, path);
   if (!page.things.empty()) html += "</ol>\n";
   if (!page.cures.empty()) html += "<h2>What would help</h2>\n";
-  for (const std::string& cure : page.cures) html += "<p>" + escaped(cure) + "</p>\n";
+  for (const std::string& cure : page.cures) html += "<p>" + ods::xml_text(cure) + "</p>\n";
   if (!page.curves.empty()) html += "<h2>Over time</h2>\n";
   for (const PageCurve& curve : page.curves) html += curve_html(curve);
   html += "<h2>Where the limits come from</h2>\n<table>\n";
   for (const auto& [what, source] : page.sources) {
-    html += fmt::format("<tr><td>{}</td><td class=\"soft\">{}</td></tr>\n", escaped(what), escaped(source));
+    html += fmt::format("<tr><td>{}</td><td class=\"soft\">{}</td></tr>\n", ods::xml_text(what), ods::xml_text(source));
   }
   html += "</table>\n</body>\n</html>\n";
   ods::write_file(path, html);

@@ -14,14 +14,10 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-std::string_view level_name(ComfortLevel level) {
-  return ods::name_in(ods::kComfortLevelTable, level);
-}
-
 std::string shares_text(const std::array<double, 4>& shares) {
   std::string text;
   for (const ComfortLevel level : ods::kComfortLevels) {
-    text += fmt::format("{}{} {}", level == ComfortLevel::kOk ? "" : ", ", level_name(level),
+    text += fmt::format("{}{} {}", level == ComfortLevel::kOk ? "" : ", ", comfort_level_name(level),
                         share_text(shares[static_cast<size_t>(level)]));
   }
   return text;
@@ -29,7 +25,7 @@ std::string shares_text(const std::array<double, 4>& shares) {
 
 void print_place(const StrainedPlace& place) {
   const ods::StrainRow& strain = ods::strain_row(place.strain);
-  fmt::print("{}: {}, {:.2f} m away, {} ({} of the picture): {}, {:.3g} {}; {}\n", level_name(place.level),
+  fmt::print("{}: {}, {:.2f} m away, {} ({} of the picture): {}, {:.3g} {}; {}\n", comfort_level_name(place.level),
              thing_text(place), place.distance, direction_text(place), share_text(place.share), strain.title,
              place.value, strain.unit, cure_text(place));
 }
@@ -37,14 +33,14 @@ void print_place(const StrainedPlace& place) {
 Json shares_json(const std::array<double, 4>& shares) {
   Json json;
   for (const ComfortLevel level : ods::kComfortLevels) {
-    json[level_name(level)] = shares[static_cast<size_t>(level)];
+    json[comfort_level_name(level)] = shares[static_cast<size_t>(level)];
   }
   return json;
 }
 
 Json place_json(const StrainedPlace& place) {
   return {{"name", place.name},
-          {"level", level_name(place.level)},
+          {"level", comfort_level_name(place.level)},
           {"strain", ods::strain_row(place.strain).name},
           {"value", place.value},
           {"unit", ods::strain_row(place.strain).unit},
@@ -99,13 +95,13 @@ std::vector<std::string> cure_lines(const ComfortJob& job, const Looked& looked,
 
 void print_text(const ComfortJob& job, const Looked& looked, const ComfortReport& report) {
   fmt::print("{}: {}; eyes {:.3g} m apart, nearest {:.2f} m\n", job.scene.name,
-             level_name(verdict(job, looked, report)), looked.camera.ipd, report.nearest);
+             comfort_level_name(verdict(job, looked, report)), looked.camera.ipd, report.nearest);
   if (looked.match) {
     fmt::print("by matching: +-{:.0f} minutes of arc; {:.0f} % of the picture could be matched\n",
                looked.match->precision, 100.0 * looked.match->share);
     if (const ComfortLevel level = apart_level(job, *looked.match); level > ComfortLevel::kOk) {
       fmt::print("{}: one eye sees things {:.0f} minutes of arc higher than the other: ods lint has the cure\n",
-                 level_name(level), looked.match->apart);
+                 comfort_level_name(level), looked.match->apart);
     }
   }
   fmt::print("{} of the picture, by solid angle; where people look: {}\n", shares_text(report.share),
@@ -117,7 +113,7 @@ void print_text(const ComfortJob& job, const Looked& looked, const ComfortReport
 void print_json(const ComfortJob& job, const Looked& looked, const ComfortReport& report) {
   const ods::Viewer& viewer = job.comfort.viewer;
   Json json = {{"path", job.scene.name},
-               {"level", level_name(verdict(job, looked, report))},
+               {"level", comfort_level_name(verdict(job, looked, report))},
                {"ipd", looked.camera.ipd},
                {"viewer_ipd", viewer.ipd},
                {"gaze", viewer.gaze_degrees}};

@@ -15,16 +15,12 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-std::string_view level_name(ods::ComfortLevel level) {
-  return ods::name_in(ods::kComfortLevelTable, level);
-}
-
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
 
 Json moment_json(const ods::VideoMoment& moment) {
-  Json json = {{"seconds", moment.seconds},   {"level", level_name(moment.level)},
+  Json json = {{"seconds", moment.seconds},   {"level", comfort_level_name(moment.level)},
                {"matched", moment.matched},   {"nearest", number(moment.nearest)},
                {"vergence", moment.vergence}, {"vertical", moment.vertical},
                {"middle", moment.middle}};
@@ -57,26 +53,26 @@ std::string strain_text(const ods::VideoStrain& strain) {
 void print_text(const ComfortJob& job, const ods::VideoComfort& video) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const ods::VideoMoment& moment : video.moments) nearest = std::min(nearest, moment.nearest);
-  fmt::print("{}: {}; eyes {:.3g} m apart, nearest {:.2f} m\n", job.scene.name, level_name(worst_level(video)),
+  fmt::print("{}: {}; eyes {:.3g} m apart, nearest {:.2f} m\n", job.scene.name, comfort_level_name(worst_level(video)),
              video.camera.ipd, nearest);
   fmt::print("{}\n", looked_text(video));
   for (const ods::VideoStrain& strain : video.strains) {
     const std::string place = strain.place ? fmt::format(", {:.2f} m away, {}; {}", strain.place->distance,
                                                          direction_text(*strain.place), cure_text(*strain.place))
                                            : "";
-    fmt::print("{}: {}: {}{}\n", level_name(strain.level), times_text(strain), strain_text(strain), place);
+    fmt::print("{}: {}: {}{}\n", comfort_level_name(strain.level), times_text(strain), strain_text(strain), place);
   }
 }
 
 void print_json(const ComfortJob& job, const ods::VideoComfort& video) {
-  Json json = {{"path", job.scene.name},       {"level", level_name(worst_level(video))},
+  Json json = {{"path", job.scene.name},       {"level", comfort_level_name(worst_level(video))},
                {"ipd", video.camera.ipd},      {"frames", video.frames},
                {"seconds", video.seconds},     {"every", video.every},
                {"precision", video.precision}, {"moments", Json::array()},
                {"strains", Json::array()}};
   for (const ods::VideoMoment& moment : video.moments) json["moments"].push_back(moment_json(moment));
   for (const ods::VideoStrain& strain : video.strains) {
-    Json each = {{"name", strain.name},   {"level", level_name(strain.level)},
+    Json each = {{"name", strain.name},   {"level", comfort_level_name(strain.level)},
                  {"from", strain.from},   {"to", strain.to},
                  {"worst", strain.worst}, {"value", strain.value},
                  {"unit", strain.unit}};

@@ -71,6 +71,9 @@ inline constexpr NameRow<ComfortLevel> kComfortLevelTable[] = {
 };
 static_assert(has_every_member(kComfortLevelTable));
 inline constexpr auto kComfortLevels = members_of(kComfortLevelTable);
+constexpr std::string_view comfort_level_name(ComfortLevel level) {
+  return name_in(kComfortLevelTable, level);
+}
 
 // How much people look at this elevation, over the horizon's, by solid angle. Source: Sitzmann et al. 2018, "Saliency
 // in VR", have a Laplace distribution of elevations, 18.6 degrees wide; provisional, quoted from memory.

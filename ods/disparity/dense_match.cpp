@@ -20,8 +20,8 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kHighest = 78.0 * kDegree;
 constexpr double kOutwards = 2.0 * kDegree, kInwards = 20.0 * kDegree;  // how far is searched
-constexpr int kAcross = 4, kDown = 3;  // of the transform's window, to either side
-constexpr int kUnseen = 24;            // the cost of what one eye does not show, of 62
+constexpr int kAcross = 4, kDown = 3;                                   // of the transform's window, to either side
+constexpr int kUnseen = 24;                                             // the cost of what one eye does not show, of 62
 constexpr int kSlope = 8;              // the cost of a step of one pixel to a neighbour
 constexpr int kJump = 90, kEdge = 30;  // the cost of a larger one; where the picture has an edge
 constexpr float kDetail = 0.03f;       // the least difference in a row of the window, of 0..1
@@ -41,9 +41,7 @@ struct Band {
     const int w = view.width;
     return *view.at(((x % w) + w) % w, std::clamp(top + y, 0, view.height - 1));
   }
-  double cosine(int y) const {
-    return std::cos(std::numbers::pi * ((top + y + 0.5) / view.height - 0.5));
-  }
+  double cosine(int y) const { return std::cos(std::numbers::pi * ((top + y + 0.5) / view.height - 0.5)); }
   int stride(int y) const { return static_cast<int>(std::lround(1.0 / cosine(y))); }
 };
 
@@ -101,7 +99,7 @@ class Volume {
   void sum_along_rows(int step);
   void sum_across_rows(int down, int aside);
   int jump(int x, int y, int from_x, int from_y) const;
-  Best best_of(const Cost* sums, ptrdiff_t stride) const;
+  Best best_of(const Cost* sums) const;
   std::vector<Best> best_shifts(int eye) const;
   std::vector<float> checked(int eye, const std::vector<Best>& own, const std::vector<Best>& other) const;
   void remove_specks(std::vector<float>& shifts) const;
@@ -212,17 +210,17 @@ void Volume::sum_paths() {
 }
 
 // A shift whose sum is clearly less than every other's, but for those beside it.
-Volume::Best Volume::best_of(const Cost* sums, ptrdiff_t stride) const {
+Volume::Best Volume::best_of(const Cost* sums) const {
   Best best;
   Cost least = kMost, second = kMost;
   for (int i = 0; i < shifts_; i++) {
-    if (sums[i * stride] < least) least = sums[i * stride], best.index = i;
+    if (sums[i] < least) least = sums[i], best.index = i;
   }
   for (int i = 0; i < shifts_; i++) {
-    if (std::abs(i - best.index) > 1) second = std::min(second, sums[i * stride]);
+    if (std::abs(i - best.index) > 1) second = std::min(second, sums[i]);
   }
   if (best.index <= 0 || best.index >= shifts_ - 1 || least >= 0.97 * second) return {};
-  const double before = sums[(best.index - 1) * stride], after = sums[(best.index + 1) * stride];
+  const double before = sums[best.index - 1], after = sums[best.index + 1];
   const double bend = before + after - 2.0 * least;
   best.shift = static_cast<float>(least_ + best.index + (bend > 0.0 ? 0.5 * (before - after) / bend : 0.0));
   return best;
@@ -241,7 +239,7 @@ std::vector<Volume::Best> Volume::best_shifts(int eye) const {
         }
         sums = row.data();
       }
-      best[pixel(x, y)] = best_of(sums, 1);
+      best[pixel(x, y)] = best_of(sums);
     }
   });
   return best;

@@ -16,13 +16,15 @@ namespace ods {
 
 struct DenseMatch {
   // Of the left eye's view and of the right one's: theta in the left eye minus theta in the right one, radians, as
-  // Match::around. NaN: the eyes differ, or nothing in the row tells places apart, or it is within 12 degrees of a pole.
+  // Match::around. NaN: the eyes differ, or nothing in the row tells places apart, or it is within 12 degrees of a
+  // pole.
   std::array<Image, 2> around;
   double share = 0.0;      // of what the left eye shows, by solid angle: matched
   double precision = 0.0;  // radians on the great circle: how far apart most matches there and back are
 };
 
-// The views must be two eyes of one picture: what is smooth matches something in any other. Parallax is found from 2 degrees outwards up to 20 degrees inwards. Precondition: both views have the same size.
+// The views must be two eyes of one picture: what is smooth matches something in any other. Parallax is found from 2
+// degrees outwards up to 20 degrees inwards. Precondition: both views have the same size.
 DenseMatch match_densely(const GrayView& left, const GrayView& right);
 
 }  // namespace ods
