@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// libFuzzer on what people say of lenses and bars (--circle, --front-and-back): any numbers are lenses of a picture, or
-// it is said why not; what a lens shows of a direction is a place in the picture or nothing, and what is converted from
-// it has no NaN.
+// libFuzzer on the options for lenses and bars (--circle, --front-and-back). Any numbers give lenses of the picture or
+// an error that says why not. A lens maps a direction to a place in the picture or to nothing, and the converted
+// picture has no NaN.
 //   cmake --preset fuzz && cmake --build --preset fuzz --target fuzz_lens_reader
 //   build/fuzz/fuzz_lens_reader -max_len=128 build/corpus
 #include <algorithm>

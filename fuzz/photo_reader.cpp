@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// libFuzzer on VR photos (.vr.jpg): any bytes that say to be one have two eyes of one size, or it is said why not.
+// libFuzzer on VR photos (.vr.jpg): any bytes give two eyes of one size or an error.
 //   cmake --preset fuzz && cmake --build --preset fuzz --target fuzz_photo_reader
 //   fuzz/picture_seeds.sh build/release/ods build/pictures
 //   build/fuzz/fuzz_photo_reader -max_len=16384 build/corpus build/pictures/photo
@@ -21,8 +21,8 @@ static void read_photo(const std::string& path) {
   if (picture.eyes.size() != 2) return;  // it says another layout, too
   for (const ods::StoredEye& eye : picture.eyes) {
     for (const ods::LayerPixels& layer : eye.layers) {
-      const std::byte* last = layer.first + (picture.size.height - 1) * layer.row_stride +
-                              (picture.size.width - 1) * layer.pixel_stride;
+      const std::byte* last =
+          layer.first + (picture.size.height - 1) * layer.row_stride + (picture.size.width - 1) * layer.pixel_stride;
       volatile std::byte seen = *layer.first;  // the sanitizer looks whether they are there
       seen = *last;
       static_cast<void>(seen);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Depth that lies beside what ods convert reads.
+// The depth file of a picture or video that ods convert reads.
 #pragma once
 #include <string>
 #include <vector>

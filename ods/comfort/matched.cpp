@@ -47,12 +47,6 @@ std::vector<std::vector<GrayView>> smaller_views(const std::vector<GrayView>& vi
   return scales;
 }
 
-bool goes_around(const GrayView& view) {
-  const float* row = view.at(0, view.height / 2);
-  const auto seen = std::count_if(row, row + view.width, [](float value) { return !std::isnan(value); });
-  return 10 * seen > 8 * view.width;
-}
-
 // Degrees.
 double height_apart(const Alignment& alignment) {
   const auto size = [&](AlignmentTerm term) { return std::abs(alignment.terms[term].value); };
@@ -113,7 +107,7 @@ void check_matchable(const ProjectionSetting& projection, int width, const std::
 
 MatchedEyes match_eyes_for_depth(const std::vector<Image>& eyes, const StereoCamera& camera, bool is_float, int width) {
   std::vector<GrayView> views = make_gray_views(eyes, camera.projection, is_float, width);
-  const Alignment alignment = find_alignment(smaller_views(views), !goes_around(views[0]));
+  const Alignment alignment = find_alignment(smaller_views(views), !(seen_around(views[0]) > 0.8));
   if (const EyeCorrection correction = correction_of(alignment); moves_pixels(correction)) {
     views[1] = corrected_view(views[1], correction);
   }

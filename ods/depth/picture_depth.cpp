@@ -49,12 +49,6 @@ void check_shape(const DepthNumbers& depth, Extent size) {
                           depth.path, depth.numbers.width, depth.numbers.height, size.width, size.height));
 }
 
-Image part_of(const Image& whole, int left, int top, Extent size) {
-  Image part(size.width, size.height, 1);
-  for (int y = 0; y < size.height; y++) std::copy_n(whole.at(left, top + y), size.width, part.at(0, y));
-  return part;
-}
-
 bool is_around(const ProjectionSetting& projection) {
   return projection.kind == kLatLong && projection.longitude.y - projection.longitude.x > 359.999f;
 }
@@ -138,13 +132,7 @@ std::vector<DepthNumbers> depth_of_eyes(DepthNumbers depth, const StoredPicture&
                             depth.path, whole.width, whole.height, layout_name(layout)));
   }
   std::vector<DepthNumbers> eyes;
-  for (int i = 0; i < 2; i++) {
-    const bool second = (i == 1) != arrangement_of(layout).right_first;
-    const bool beside = arrangement_of(layout).how == EyePacking::kBeside;
-    const int left = second && beside ? whole.width - size->width : 0;
-    const int top = second && !beside ? whole.height - size->height : 0;
-    eyes.push_back({part_of(depth.numbers, left, top, *size), depth.codes, depth.path});
-  }
+  for (Image& numbers : unpack(layout, depth.numbers)) eyes.push_back({std::move(numbers), depth.codes, depth.path});
   return eyes;
 }
 

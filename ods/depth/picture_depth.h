@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Gives a picture the depth that lies beside it in a file: as its layer Z, metres along each pixel's ray, as if a
-// renderer had written it. All that uses depth then works.
+// Adds the depth from a separate file to a picture: as its layer Z, metres along each pixel's ray, as a renderer writes
+// it. Everything that uses depth then works on the picture.
 #pragma once
 #include <optional>
 #include <string>

@@ -116,4 +116,9 @@ std::vector<GrayView> make_gray_views(const std::vector<Image>& eyes, const Proj
   return views;
 }
 
+double seen_around(const GrayView& view) {
+  const float* row = view.at(0, view.height / 2);
+  return static_cast<double>(std::count_if(row, row + view.width, [](float v) { return !std::isnan(v); })) / view.width;
+}
+
 }  // namespace ods

@@ -19,4 +19,7 @@ using GrayView = Image;
 std::vector<GrayView> make_gray_views(const std::vector<Image>& eyes, const ProjectionSetting& projection,
                                       bool is_float, int max_width);
 
+// The fraction of the horizon that a view covers.
+double seen_around(const GrayView& view);
+
 }  // namespace ods

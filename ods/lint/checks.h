@@ -55,9 +55,6 @@ void align(Subject& subject);
 // The terms that matter and are no noise; nothing if one of them is unsure.
 EyeCorrection significant_correction(const Alignment& alignment);
 
-// The fraction of the horizon that a view covers.
-double seen_around(const GrayView& view);
-
 // A command that corrects the file: "ods convert IN -o corrected.png --right-pitch 3.5", ready to be run.
 std::string convert_command(const Subject& subject, const std::string& options);
 

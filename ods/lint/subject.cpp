@@ -126,11 +126,6 @@ Subject load_subject(const std::string& path, const LintOptions& options) {
   return subject;
 }
 
-double seen_around(const GrayView& view) {
-  const float* row = view.at(0, view.height / 2);
-  return static_cast<double>(std::count_if(row, row + view.width, [](float v) { return !std::isnan(v); })) / view.width;
-}
-
 void make_views(Subject& subject) {
   for (const int width : {256, 512, 1024}) {
     subject.scales.push_back(make_gray_views(subject.eyes, subject.projection(), subject.info.is_float, width));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files whose words contradict each other, by the table "Which word wins" of docs/foreign.md: all of them are said, then
-// the strongest is left out, then the next one. (Right eyes and extended XMP: vr_photo_test; meshes: mesh_box_test.)
+// Files whose metadata, names and options contradict each other, by the table "Which word wins" of docs/foreign.md. Each
+// test gives all of them, then leaves out the strongest, then the next one. (Right eyes and extended XMP: vr_photo_test; meshes: mesh_box_test.)
 #include <gtest/gtest.h>
 
 #include <filesystem>
