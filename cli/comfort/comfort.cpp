@@ -27,7 +27,7 @@ void save_html(const ComfortJob& job, const ComfortPage& page) {
 }
 
 void judge_still(const ComfortJob& job) {
-  const Looked looked = is_picture(job) ? look_at_picture(job) : look_at_scene(job);
+  const Looked looked = job.input == ComfortInput::kPicture ? look_at_picture(job) : look_at_scene(job);
   std::vector<ods::ComfortReport> reports;
   for (const Judged& each : looked.eyes) reports.push_back(ods::judge_comfort(each.seen, job.comfort));
   if (reports[0].unknown > 0.0 && !looked.match) {
@@ -57,7 +57,7 @@ void judge_film(const ComfortJob& job) {
 void comfort(int argc, char** argv) {
   ComfortJob job;
   if (!read_comfort_job(job, argc, argv)) return;
-  is_film(job) ? judge_film(job) : judge_still(job);
+  job.input == ComfortInput::kVideo ? judge_film(job) : judge_still(job);
 }
 
 }  // namespace

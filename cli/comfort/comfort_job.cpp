@@ -84,21 +84,19 @@ void refuse_camera(const Options& options, const ComfortJob& job) {
   for (const GivenWord& word : options.given_words()) {
     if (std::ranges::find(own, word.name) != own.end()) continue;
     throw UsageError(fmt::format("{} is for scenes, and '{}' is a {}", word.name, job.scene.name,
-                                 is_film(job) ? "video" : "picture"));
+                                 job.input == ComfortInput::kVideo ? "video" : "picture"));
   }
 }
 
-}  // namespace
-
-bool is_picture(const ComfortJob& job) {
-  return ods::format_of_path(job.scene.name).has_value();
-}
-
-bool is_film(const ComfortJob& job) {
-  const std::string& path = job.scene.name;
+// A picture by its name.
+ComfortInput input_of(const std::string& path) {
+  if (ods::format_of_path(path)) return ComfortInput::kPicture;
   std::error_code ignored;
-  return !is_picture(job) && std::filesystem::is_regular_file(path, ignored) && ods::is_video(path);
+  const bool is_video = std::filesystem::is_regular_file(path, ignored) && ods::is_video(path);
+  return is_video ? ComfortInput::kVideo : ComfortInput::kScene;
 }
+
+}  // namespace
 
 bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
   ods::Viewer& viewer = job.comfort.viewer;
@@ -128,8 +126,9 @@ bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
   options.group("Console");
   add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
-  if (is_picture(job) || is_film(job)) {
-    if (is_film(job) && !job.heat.empty())
+  job.input = input_of(job.scene.name);
+  if (job.input != ComfortInput::kScene) {
+    if (job.input == ComfortInput::kVideo && !job.heat.empty())
       throw UsageError("--heat is for pictures and scenes: --html shows a video's");
     refuse_camera(options, job);
     if (options.given("--projection")) job.format.projection = job.camera.stereo.projection;

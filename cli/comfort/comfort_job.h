@@ -11,7 +11,10 @@
 #include "ods/comfort/comfort.h"
 #include "ods/picture/metadata/stereo_format.h"
 
+enum class ComfortInput { kScene, kPicture, kVideo };
+
 struct ComfortJob {
+  ComfortInput input = ComfortInput::kScene;
   SceneSource scene;  // its name is that of the input, which may be a picture
   CameraOptions camera;
   ods::ComfortOptions comfort;
@@ -22,10 +25,6 @@ struct ComfortJob {
   bool json = false;
   ProgressMode progress = ProgressMode::kAuto;  // of a video
 };
-
-// Whether the input is a picture by its name; whether it is a video. Else it is a scene.
-bool is_picture(const ComfortJob& job);
-bool is_film(const ComfortJob& job);
 
 // False if help was requested. Throws UsageError and ods::Error.
 bool read_comfort_job(ComfortJob& job, int argc, char** argv);

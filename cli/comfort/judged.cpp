@@ -16,6 +16,7 @@
 #include "ods/convert/unwrap.h"
 #include "ods/identify/identify.h"
 #include "ods/image/tone.h"
+#include "ods/kernel/surface.h"
 #include "ods/picture/cryptomatte.h"
 #include "ods/picture/load_eyes.h"
 #include "ods/picture/save.h"
@@ -166,7 +167,7 @@ ods::Image heat_of(const Judged& judged, const ods::ComfortReport& report) {
   ods::Image heat(judged.light.width, judged.light.height, 3);
   for (size_t k = 0; k < report.level.pixels.size(); k++) {
     const float* from = &judged.light.pixels[3 * k];
-    const float grey = 0.2126f * from[0] + 0.7152f * from[1] + 0.0722f * from[2];
+    const float grey = ods::luminance(ods::vec3(from[0], from[1], from[2]));
     const float light = grey > 0.0f ? 0.6f * std::min(grey, 1.0f) : 0.0f;
     const auto color = static_cast<size_t>(report.level.pixels[k]);
     for (int c = 0; c < 3; c++) {

@@ -70,6 +70,7 @@ class Judge {
   struct Point {
     bool is_known = false;  // it is in the picture, and has a depth or nothing there
     float solid_angle = 0.0f;
+    double looked = 0.0;  // looked_at() its elevation
     float distance = std::numeric_limits<float>::infinity();
     float vergence = 0.0f;
     Strains strains{};
@@ -160,9 +161,10 @@ void Judge::judge_pixel(int x, int y) {
   if (!point.is_known) return;
   const vec2 uv = middle_of(x, y);
   point.solid_angle = static_cast<float>(steradians_ * double{relative_solid_angle(camera_.projection, uv, uv)});
+  const double elevation = elevation_of(look);
+  point.looked = looked_at(elevation);
   const Place place = place_of(x, y, look);
   if (place.distance == kFar) return;
-  const double elevation = elevation_of(look);
   point.distance = static_cast<float>(place.distance);
   const double converged = vergence(place.half_parallax, elevation);
   point.vergence = static_cast<float>(converged);
@@ -358,7 +360,7 @@ ComfortReport Judge::report() {
       const Point& point = points_[pixel(x, y)];
       const auto level = static_cast<size_t>(point.level);
       unknown += !(*seen_.depth.at(x, y) > 0.0f);
-      const double solid = double{point.solid_angle}, gazed = solid * looked_at(elevation_of(look_at(x, y)));
+      const double solid = double{point.solid_angle}, gazed = solid * point.looked;
       all += solid, looked += gazed;
       report.share[level] += solid, report.looked[level] += gazed;
       report.nearest = std::min(report.nearest, double{point.distance});

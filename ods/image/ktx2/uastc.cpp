@@ -92,12 +92,15 @@ std::array<uint8_t, 16> read_subsets(size_t mode, BitReader& bits) {
   return subsets;
 }
 
+// Eight bits: the lowest `count` of them again and again.
+uint32_t repeated(uint32_t bits, size_t count) {
+  uint32_t value = bits << (8 - count);
+  for (size_t filled = count; filled < 8; filled *= 2) value |= value >> filled;
+  return value;
+}
+
 uint32_t color_of(const Quantizer& quantizer, uint32_t digit, uint32_t low) {
-  if (quantizer.base == 1) {  // the bits again and again
-    uint32_t value = low << (8 - quantizer.bits);
-    for (uint32_t filled = quantizer.bits; filled < 8; filled *= 2) value |= value >> filled;
-    return value;
-  }
+  if (quantizer.base == 1) return repeated(low, quantizer.bits);
   const uint32_t value = (digit * quantizer.digit_step + ((low >> 1) * quantizer.factor >> quantizer.shift)) >> 2;
   return low & 1 ? 255 - value : value;
 }
@@ -119,9 +122,7 @@ std::array<uint32_t, 18> read_colors(const Quantizer& quantizer, size_t count, B
 
 // Of 64: the bits again up to six, and one more in the upper half.
 uint32_t weight_of(uint32_t bits, size_t count) {
-  uint32_t value = bits << (8 - count);
-  for (size_t filled = count; filled < 8; filled *= 2) value |= value >> filled;
-  value >>= 2;
+  const uint32_t value = repeated(bits, count) >> 2;
   return value > 32 ? value + 1 : value;
 }
 
