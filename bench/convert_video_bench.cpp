@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // How fast videos are converted, over the ffmpeg program's v360 (lanczos) with the same encoder and settings, in turns
-// in the same run; and how near the pictures of both are to those of the world that the video shows, which is a formula.
-// over_v360: our CPU seconds over its; below 1 is faster. bare: decoded and converted, but not encoded.
+// in the same run; and how near the pictures of both are to those of the world that the video shows, which is a
+// formula. over_v360: our CPU seconds over its; below 1 is faster. bare: decoded and converted, but not encoded.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 

@@ -55,9 +55,7 @@ static double far_parallax(const Made& made) {
 
 void add_divergence(std::vector<PicturePlant>& plants) {
   const std::vector<double> angles{0.3, 0.7, 1.0, 2.0, 3.4};
-  const auto turn = [](Made& made, double s) {
-    made.target.right.yaw = -static_cast<float>(s + far_parallax(made));
-  };
+  const auto turn = [](Made& made, double s) { made.target.right.yaw = -static_cast<float>(s + far_parallax(made)); };
   plants.push_back({"divergence", {Fault::kEyesDiverge}, Check::kConvergence, "degrees", angles, turn});
   plants.push_back(
       {"divergence of vr180", {Fault::kEyesDiverge}, Check::kConvergence, "degrees", angles, [=](Made& made, double s) {

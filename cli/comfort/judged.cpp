@@ -27,8 +27,7 @@
 
 namespace {
 
-constexpr int kMostWidth = 2048;        // of what is judged
-constexpr double kLeastMatched = 0.02;  // of a picture without depth
+constexpr int kMostWidth = 2048;  // of what is judged
 
 // What rays from the circle's middle meet before they leave it.
 std::vector<std::string> hidden_in_circle(const ods::CpuRenderer& renderer, const ods::StereoCamera& camera,
@@ -95,7 +94,7 @@ Looked match_picture(const ods::StoredPicture& picture, const std::string& name)
   if (!picture.has_ipd) note("no word says how far apart its eyes are: distances are for 65 mm");
   ods::MatchedEyes matched = ods::match_eyes_for_depth(ods::grey_eyes(picture), picture.camera, picture.is_float);
   Looked looked{matched.seen[0].camera, {}, MatchQuality{matched.share, matched.precision, matched.apart}, {}};
-  if (matched.share < kLeastMatched) {
+  if (matched.share < ods::kLeastMatched) {
     throw ods::Error(ods::ErrorKind::kInput,
                      fmt::format("'{}' has no depth, and only {:.1f} % of its eyes could be matched: see what ods lint "
                                  "says of it, or say --layout",

@@ -9,10 +9,10 @@
 #include <filesystem>
 
 #include "cli/console/console.h"
+#include "cli/console/programs.h"
 #include "cli/farm/copy_inputs.h"
 #include "cli/farm/finished.h"
 #include "cli/farm/job_summary.h"
-#include "cli/console/programs.h"
 #include "cli/farm/queue.h"
 #include "cli/farm/submit_job.h"
 #include "ods/base/quote.h"

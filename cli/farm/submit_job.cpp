@@ -10,8 +10,8 @@
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "cli/console/spawn.h"
 #include "cli/console/programs.h"
+#include "cli/console/spawn.h"
 #include "ods/base/quote.h"
 #include "ods/files/atomic_file.h"
 
@@ -73,8 +73,7 @@ bool read_submit_job(SubmitJob& job, int argc, char** argv) {
   const auto end = std::find_if(argv, argv + argc, is_end);
   Options options("submit", kSummary, kExamples);
   std::vector<std::string> extras;
-  options.arguments("COMMAND", extras,
-                    "after all options of ods submit and --: the command, without the word ods");
+  options.arguments("COMMAND", extras, "after all options of ods submit and --: the command, without the word ods");
   add_options(options, job);
   if (!options.parse(static_cast<int>(end - argv), argv)) return false;
   if (!extras.empty()) {

@@ -44,7 +44,8 @@ void info(int argc, char** argv) {
   const vec3 position = place_camera(camera, scene).position;
   SceneInfo info = describe(scene, position);
   if (info.nearest_surface >= 0.0f) {
-    found.strain = strain_line(ods::CpuRenderer(scene), scene, place_camera(camera, scene), ods::ComfortLevel::kWarning);
+    found.strain =
+        strain_line(ods::CpuRenderer(scene), scene, place_camera(camera, scene), ods::ComfortLevel::kWarning);
   }
   info.has_environment |= wishes.given.radiance != vec3(0.0f);
   found.advice = with_options(found.advice), found.settled.unit_reason = with_options(found.settled.unit_reason);

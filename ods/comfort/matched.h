@@ -18,6 +18,8 @@ inline constexpr int kMatchedWidth = 1024;  // of the views that are matched: 21
 // Throws Error(kInput) if an eye this wide has too few pixels to be matched. name: of the file.
 void check_matchable(const ProjectionSetting& projection, int width, const std::string& name);
 
+inline constexpr double kLeastMatched = 0.02;  // MatchedEyes::share: with less, nothing is judged
+
 struct MatchedEyes {
   std::vector<SeenDepth> seen;  // of the left and the right eye: lat-long; unknown where nothing could be matched
   std::vector<Image> grey;      // the views

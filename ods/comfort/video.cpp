@@ -28,7 +28,6 @@ constexpr int kLeastMoments = 8;   // of a short video
 constexpr int kGlance = 256;       // the width of the views that tell a cut
 constexpr double kSameShot = 0.3;  // the least share of their tiles that two frames of a shot have in common
 constexpr int kMostCuts = 12;      // that are looked for
-constexpr double kLeastMatched = 0.02;
 constexpr double kNearHorizon = 30.0 * kDegree;
 
 // A frame as it is looked at.

@@ -299,7 +299,7 @@ static bool contains(const TexelBlock* block, int source_eye, const Cell& box) {
 
 // `texels` begin at the left top corner of a box of this width.
 ODS_WIDE static void mix_pixels(std::span<const TexelFilter> filters, const Four* texels, int left, int top, int width,
-                       int count, float* pixel, int stride) {
+                                int count, float* pixel, int stride) {
   for (const TexelFilter& filter : filters) {
     const Four* first = texels + (filter.down.first - top) * width + (filter.across.first - left);
     const Four value =

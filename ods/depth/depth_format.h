@@ -22,8 +22,10 @@ struct DepthKindRow {
 inline constexpr DepthKindRow kDepthKindTable[] = {
     {DepthKind::kMetres, "metres", "metres"},
     {DepthKind::kMillimetres, "millimetres", "millimetres"},
-    {DepthKind::kInverse, "inverse", "1 / metres; where the nearest is given, from far (black) to near (white) by 1 / metres"},
-    {DepthKind::kDisparity, "disparity", "in proportion to 1 / metres: 0 is infinitely far, the largest is the nearest"},
+    {DepthKind::kInverse, "inverse",
+     "1 / metres; where the nearest is given, from far (black) to near (white) by 1 / metres"},
+    {DepthKind::kDisparity, "disparity",
+     "in proportion to 1 / metres: 0 is infinitely far, the largest is the nearest"},
     {DepthKind::kRelative, "relative", "from the nearest (black) to the farthest (white) by metres"},
 };
 static_assert(has_every_member(kDepthKindTable));

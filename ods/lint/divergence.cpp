@@ -62,14 +62,14 @@ void check_divergence(const Subject& subject, double swapped, LintReport& report
            convert_command(subject, fmt::format("`right-yaw` {:.2f}", yaw))});
 }
 
-// --- the nearest thing, in one line: ods/comfort judges what it does to the eyes ---------------------------------------
+// --- the nearest thing -----------------------------------------------------------------------------------------------
 
-constexpr double kLeastMatched = 0.2;  // of the picture: less is no ground for a statement
+constexpr double kLeastSure = 0.2;  // of the picture matched: less is no ground for a statement
 
 void note_nearest(const Subject& subject, LintReport& report) {
   const std::vector<GrayView>& views = subject.scales[std::min<size_t>(1, subject.scales.size() - 1)];
   const MatchedEyes matched = match_views_for_depth(views, subject.format.camera);
-  if (matched.share < kLeastMatched) return;
+  if (matched.share < kLeastSure) return;
   const Image& depth = matched.seen[0].depth;
   float nearest = kFarDepth;
   size_t where = 0;
@@ -80,8 +80,9 @@ void note_nearest(const Subject& subject, LintReport& report) {
   const auto width = static_cast<size_t>(depth.width);
   const double azimuth = 360.0 * ((static_cast<double>(where % width) + 0.5) / depth.width - 0.5);
   const double elevation = 180.0 * (0.5 - (static_cast<double>(where / width) + 0.5) / depth.height);
-  report.notes.push_back(fmt::format("nearest thing about {:.2f} m away, {}, by matching the eyes: ods comfort judges it",
-                                     nearest, direction_text(azimuth, elevation)));
+  report.notes.push_back(
+      fmt::format("nearest thing about {:.2f} m away, {}, by matching the eyes: ods comfort judges it", nearest,
+                  direction_text(azimuth, elevation)));
 }
 
 }  // namespace ods

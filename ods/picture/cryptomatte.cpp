@@ -29,7 +29,8 @@ std::map<float, std::string> read_manifest(const std::string& text) {
   for (const auto& [name, value] : json.items()) {
     if (!value.is_string()) continue;
     const std::string& digits = value.get_ref<const std::string&>();
-    if (digits.empty() || digits.size() > 8 || digits.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos) {
+    if (digits.empty() || digits.size() > 8 ||
+        digits.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos) {
       continue;
     }
     names[std::bit_cast<float>(static_cast<uint32_t>(std::stoul(digits, nullptr, 16)))] = name;
@@ -110,7 +111,8 @@ void add_cryptomatte(PictureRows& rows, SaveOptions& save, std::vector<Image> nu
   save.attributes.push_back({key + "name", std::string(kOwnLayer)});
   save.attributes.push_back({key + "hash", std::string("MurmurHash3_32")});
   save.attributes.push_back({key + "conversion", std::string("uint32_to_float32")});
-  save.attributes.push_back({key + "manifest", manifest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)});
+  save.attributes.push_back(
+      {key + "manifest", manifest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)});
   const size_t before = count_channels(rows.layers);
   RowLayer layer{{}, LayerRule::kNearest, SampleType::kFloat};
   for (const char* channel : {"R", "G", "B", "A"}) layer.channels.push_back(fmt::format("{}00.{}", kOwnLayer, channel));

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What each pixel of a picture shows, by name: layers of numbers in an EXR, and the names that they stand for in its
-// header. Source: Friedman, Jones, "Cryptomatte Specification", version 1.2. Renderers and compositing programs know it;
-// ods render --object-layer writes it.
+// header. Source: Friedman, Jones, "Cryptomatte Specification", version 1.2. Renderers and compositing programs know
+// it; ods render --object-layer writes it.
 #pragma once
 #include <cstdint>
 #include <map>

@@ -70,8 +70,8 @@ static Scale scale_of(int bits, bool has_full_range) {
 }
 
 template <typename T>
-ODS_WIDE static void put_row(std::span<const float> row, const Weights& weights, const Scale& scale, T* out, Color& color,
-                    float share) {
+ODS_WIDE static void put_row(std::span<const float> row, const Weights& weights, const Scale& scale, T* out,
+                             Color& color, float share) {
   const size_t width = row.size() / 3;
   const float *red = row.data(), *green = red + width, *blue = green + width;
   for (size_t x = 0; x < width; x++) {
@@ -129,7 +129,8 @@ static void put_blocks(const CodeBands& bands, Extent size, const Planes& planes
 
 // One chroma plane at row y, columns first, first + 1, ..., as raw numbers.
 template <typename T>
-ODS_WIDE static void get_color(const Planes& planes, Extent size, size_t plane, int y, int first, std::span<float> out) {
+ODS_WIDE static void get_color(const Planes& planes, Extent size, size_t plane, int y, int first,
+                               std::span<float> out) {
   const Extent block = chroma_block(planes.chroma);
   const Extent whole{size.width / block.width, size.height / block.height};
   const auto row_of = [&](int row) {
@@ -166,7 +167,8 @@ ODS_WIDE static void get_color(const Planes& planes, Extent size, size_t plane, 
 }
 
 template <typename T>
-ODS_WIDE static void get_row(const Planes& planes, Extent size, const ColorCode& color, int y, int first, std::span<float> row) {
+ODS_WIDE static void get_row(const Planes& planes, Extent size, const ColorCode& color, int y, int first,
+                             std::span<float> row) {
   const size_t width = row.size() / 3;
   const std::span<float> red = row.first(width), green = row.subspan(width, width), blue = row.subspan(2 * width);
   get_color<T>(planes, size, 1, y, first, blue);

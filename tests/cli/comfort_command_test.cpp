@@ -94,7 +94,8 @@ TEST_F(ComfortCommand, TheHeatIsAPictureOfBothEyes) {
 
 // Without depth, by matching the eyes: the same verdict as with it, and how sure it is.
 TEST_F(ComfortCommand, APictureWithoutDepthIsMatched) {
-  const std::string words = "render room --width 512 --samples 4 --bounces 1 -q --position 1.9,0.5,0.4 --merge none -o ";
+  const std::string words =
+      "render room --width 512 --samples 4 --bounces 1 -q --position 1.9,0.5,0.4 --merge none -o ";
   ASSERT_EQ(run(words + folder.path("x.exr")), 0) << err;
   ASSERT_EQ(run("convert -q " + folder.path("x.exr") + " -o " + folder.path("x_360_TB.jpg")), 0) << err;
   const Json exact = judged(folder.path("x.exr"));

@@ -154,8 +154,8 @@ void turn_track(const TemporaryFolder& folder, const std::string& name, bool is_
   std::string video = folder.read(name);
   const size_t matrix = made::find(video, {"moov", "trak", "tkhd"}).at(0).begin + 40;
   const uint64_t one = 1u << 16, minus = 0xffff0000u;
-  const std::array<uint64_t, 4> turn = is_half ? std::array{minus, uint64_t{0}, uint64_t{0}, minus}
-                                               : std::array{uint64_t{0}, one, minus, uint64_t{0}};
+  const std::array<uint64_t, 4> turn =
+      is_half ? std::array{minus, uint64_t{0}, uint64_t{0}, minus} : std::array{uint64_t{0}, one, minus, uint64_t{0}};
   const std::array<size_t, 4> places = {0, 4, 12, 16};
   for (size_t i = 0; i < 4; i++) video.replace(matrix + places[i], 4, made::number(turn[i], 4));
   folder.write(name, video);
@@ -193,11 +193,11 @@ void PrintTo(const Row& row, std::ostream* out) {
 void make_mesh_film(const TemporaryFolder& folder, const std::string& name) {
   write_film(folder.path(name), both_eyes("fisheye", {512, 512}));
   const std::string none(4, '\0'), mesh = box_body({fisheye_mesh(41), fisheye_mesh(41)}, true);
-  add_entry_boxes(folder, name,
-                  made::box("st3d", none + made::number(2, 1)) +
-                      made::box("sv3d", made::box("svhd", none + std::string("camera\0", 7)) +
-                                            made::box("proj", made::box("prhd", std::string(16, '\0')) +
-                                                                  made::box("mshp", mesh))));
+  add_entry_boxes(
+      folder, name,
+      made::box("st3d", none + made::number(2, 1)) +
+          made::box("sv3d", made::box("svhd", none + std::string("camera\0", 7)) +
+                                made::box("proj", made::box("prhd", std::string(16, '\0')) + made::box("mshp", mesh))));
 }
 
 // The sensor is less high than the circles.
@@ -265,16 +265,21 @@ std::vector<Row> photo_rows() {
   return {
       {"VR photo", "ods convert IMG_0104.vr.jpg -o andes_180_LR.jpg", make_vr180_photo, {"vr180"}, ""},
       {"VR photo", "ods convert cardboard.vr.jpg -o andes_360_TB.jpg", make_cardboard_photo, {"lat-long"}, ""},
-      {"HEIC", "ods convert photo.heic -o photo_360.jpg",
+      {"HEIC",
+       "ods convert photo.heic -o photo_360.jpg",
        [=](const TemporaryFolder& folder, const std::string& name) { write_heif(folder, name, {lat_long()}); },
-       {"lat-long", 1}, "", true},
+       {"lat-long", 1},
+       "",
+       true},
       {"spatial photo", "ods convert spatial.heic -o window_LR.jpg", make_spatial_photo, {"perspective"}, "", true},
       {"photo stored turned", "ods convert held_360.jpg -o upright_360.jpg", make_turned_photo, {"lat-long", 1}, ""},
-      {"360 in black bars", "ods convert sent.jpg -o world_360.jpg",
+      {"360 in black bars",
+       "ods convert sent.jpg -o world_360.jpg",
        [=](const TemporaryFolder& folder, const std::string& name) {
          write_picture(folder.path(name), with_bars(lat_long(), 576));
        },
-       {"lat-long", 1}, ""},
+       {"lat-long", 1},
+       ""},
   };
 }
 
@@ -287,61 +292,80 @@ std::vector<Row> film_rows() {
       {"VR180 video with a mesh", "ods convert mirage.mp4 -o talk_180_LR.mp4", make_mesh_film, {"vr180"}, ""},
       {"pair of fisheyes", "ods convert canon.mov -o talk_180_LR.mp4", make_cut_circles, {"vr180"}, ""},
       {"fisheyes ahead", "ods convert gear360.mp4 -o world_360.mp4", make_two_lenses, {"lat-long", 1}, ""},
-      {"VR180 squeezed", "ods convert squeezed.mp4 -o talk_180_LR.mp4", film([=] { return of_height(vr180(), 720); }),
-       {"vr180"}, ""},
-      {"VR180 squeezed", "ods convert letterboxed.mp4 -o talk_180_LR.mp4", film([=] { return with_bars(vr180(), 720); }),
-       {"vr180"}, ""},
-      {"video stored turned", "ods convert held_360.mp4 -o upright_360.mp4",
+      {"VR180 squeezed",
+       "ods convert squeezed.mp4 -o talk_180_LR.mp4",
+       film([=] { return of_height(vr180(), 720); }),
+       {"vr180"},
+       ""},
+      {"VR180 squeezed",
+       "ods convert letterboxed.mp4 -o talk_180_LR.mp4",
+       film([=] { return with_bars(vr180(), 720); }),
+       {"vr180"},
+       ""},
+      {"video stored turned",
+       "ods convert held_360.mp4 -o upright_360.mp4",
        [=](const TemporaryFolder& folder, const std::string& name) {
          write_film(folder.path(name), half_turned(view(named("lat-long"), kMono, {1024, 512})));
          turn_track(folder, name, true);
        },
-       {"lat-long", 1}, ""},
+       {"lat-long", 1},
+       ""},
   };
 }
 
 std::vector<Row> refused_rows() {
   return {
-      {"anaglyph", "ods convert red_cyan.jpg -o eyes_LR.jpg",
+      {"anaglyph",
+       "ods convert red_cyan.jpg -o eyes_LR.jpg",
        [](const TemporaryFolder& folder, const std::string& name) {
          Image mixed = view(named("perspective"), kRight, {640, 480});
          const Image left = view(named("perspective"), kLeft, {640, 480});
          for (size_t i = 0; i < mixed.pixels.size(); i += 3) mixed.pixels[i] = left.pixels[i];
          write_picture(folder.path(name), mixed);
        },
-       {}, "anaglyph"},
-      {"strip of six faces", "ods convert skybox.png -o world_360.jpg",
+       {},
+       "anaglyph"},
+      {"strip of six faces",
+       "ods convert skybox.png -o world_360.jpg",
        [](const TemporaryFolder& folder, const std::string& name) {
          StereoCamera camera;
          camera.projection = named("cube-6x1"), camera.pitch = 90.0f;
          write_picture(folder.path(name), seen_in(kWorld, camera, kMono, {1536, 256}));
        },
-       {}, "faces of a cube"},
-      {"spatial video", "ods convert spatial.mov -o eyes_LR.mp4",
+       {},
+       "faces of a cube"},
+      {"spatial video",
+       "ods convert spatial.mov -o eyes_LR.mp4",
        [](const TemporaryFolder& folder, const std::string& name) {
          write_film(folder.path(name), view(named("perspective"), kLeft, {256, 192}));
          const std::string none(4, '\0');
          const std::string eyes = made::box("stri", none + std::string(1, '\3'));
          add_entry_boxes(folder, name, made::box("lhvC", "layers") + made::box("vexu", made::box("eyes", eyes)));
        },
-       {}, "ffmpeg"},
-      {"video stored turned", "ods convert phone.mp4 -o upright_360.mp4",
+       {},
+       "ffmpeg"},
+      {"video stored turned",
+       "ods convert phone.mp4 -o upright_360.mp4",
        [](const TemporaryFolder& folder, const std::string& name) {
          write_film(folder.path(name), view(named("lat-long"), kMono, {512, 256}));
          turn_track(folder, name, false);
        },
-       {}, "ffmpeg -i"},
-      {"raw photo", "ods convert raw.cr3 -o photo.jpg",
+       {},
+       "ffmpeg -i"},
+      {"raw photo",
+       "ods convert raw.cr3 -o photo.jpg",
        [](const TemporaryFolder& folder, const std::string& name) {
          folder.write(name, std::string("\0\0\0\x18", 4) + "ftypcrx " + std::string(20, '\0'));
        },
-       {}, "Canon"},
+       {},
+       "Canon"},
   };
 }
 
 std::vector<Row> all_rows() {
   std::vector<Row> rows;
-  for (const auto& some : {photo_rows(), film_rows(), refused_rows()}) rows.insert(rows.end(), some.begin(), some.end());
+  for (const auto& some : {photo_rows(), film_rows(), refused_rows()})
+    rows.insert(rows.end(), some.begin(), some.end());
   return rows;
 }
 
@@ -377,7 +401,8 @@ class ForeignFiles : public Cli, public testing::WithParamInterface<Row> {};
 TEST_P(ForeignFiles, GoToAHeadsetByOneCommand) {
   const Row& row = GetParam();
   if (row.needs_heif) {
-    if (const std::string why = missing("heif-enc", "heif-enc --help >/dev/null 2>&1"); !why.empty()) GTEST_SKIP() << why;
+    if (const std::string why = missing("heif-enc", "heif-enc --help >/dev/null 2>&1"); !why.empty())
+      GTEST_SKIP() << why;
   }
   std::smatch names;
   ASSERT_TRUE(std::regex_match(row.command, names, std::regex("ods convert (\\S+) -o (\\S+)")));

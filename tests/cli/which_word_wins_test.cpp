@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files whose metadata, names and options contradict each other, by the table "Which word wins" of docs/foreign.md. Each
-// test gives all of them, then leaves out the strongest, then the next one. (Right eyes and extended XMP: vr_photo_test; meshes: mesh_box_test.)
+// Files whose metadata, names and options contradict each other, by the table "Which word wins" of docs/foreign.md.
+// Each test gives all of them, then leaves out the strongest, then the next one. (Right eyes and extended XMP:
+// vr_photo_test; meshes: mesh_box_test.)
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -54,7 +55,8 @@ TEST_F(WhichWordWins, OfAPictureThatSaysItself) {
   camera.projection = named("fisheye");
   save_picture(one_eye(), camera, {}, folder.path("a_cube-3x2.exr"));
   save_picture(one_eye(), {}, folder.path("b_cube-3x2.exr"));
-  for (const char* name : {"a_cube-3x2.camera.json", "b_cube-3x2.camera.json"}) write_sidecar_of(name, "fisheye-equisolid");
+  for (const char* name : {"a_cube-3x2.camera.json", "b_cube-3x2.camera.json"})
+    write_sidecar_of(name, "fisheye-equisolid");
   FormatHint asked = seen();
   asked.projection = named("eac");
   EXPECT_EQ(projection("a_cube-3x2.exr", asked), "eac") << "options";
@@ -111,7 +113,8 @@ TEST_F(Circles, OutsideThePictureAreRefused) {
   save_picture(picture, options, folder.path("a.png"));
   const std::string input = folder.path("a.png"), output = folder.path("b.png");
   for (const char* circle : {"200,40,30", "48,-1,30", "48,48,1", "48,48,1000", "nan,48,30", "48,48,30,48,97,30"}) {
-    for (const std::string& command : {"convert " + input + " -o " + output, "lint " + input, "view --no-browser " + input}) {
+    for (const std::string& command :
+         {"convert " + input + " -o " + output, "lint " + input, "view --no-browser " + input}) {
       const int code = run(command + " --layout side-by-side --circle " + circle);
       EXPECT_TRUE(code == 2 || code == 3) << command << " " << circle << ": " << code;
       EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;

@@ -156,8 +156,8 @@ TEST_F(Unknown, ARoomOfTilesIsNotReadWrongly) {
     const Identity identity = identity_of(World::kTiles, truth);
     const Verdict verdict = verdict_on(identity, truth);
     EXPECT_TRUE(verdict != Verdict::kWrong && verdict != Verdict::kSureAndWrong)
-        << truth_text(truth) << ", but "
-        << (identity.readings.empty() ? "nothing" : reading_text(identity.best())) << " " << identity.reason;
+        << truth_text(truth) << ", but " << (identity.readings.empty() ? "nothing" : reading_text(identity.best()))
+        << " " << identity.reason;
   }
 }
 

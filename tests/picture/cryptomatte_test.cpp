@@ -61,7 +61,8 @@ TEST(Cryptomatte, HeadersOfOthersAndDamagedOnes) {
   info.text["cryptomatte/1234567/name"] = "ViewLayer.CryptoMaterial";
   info.text["cryptomatte/1234567/manifest"] = "{\"Steel\":\"3f800000\"}";
   info.text["cryptomatte/89abcde/name"] = "ViewLayer.CryptoObject";
-  info.text["cryptomatte/89abcde/manifest"] = "{\"Cube\":\"40000000\",\"bad\":\"xyz\",\"number\":5,\"long\":\"123456789\"}";
+  info.text["cryptomatte/89abcde/manifest"] =
+      "{\"Cube\":\"40000000\",\"bad\":\"xyz\",\"number\":5,\"long\":\"123456789\"}";
   const std::optional<Cryptomatte> matte = find_cryptomatte(info);
   ASSERT_TRUE(matte);
   EXPECT_EQ(matte->layer, "ViewLayer.CryptoObject");

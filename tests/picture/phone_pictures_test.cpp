@@ -181,7 +181,8 @@ TEST_F(Heif, BombsAreRefused) {
   }
   // Pictures 1, 2, ... each made of four of the next one; and one that is made of itself.
   const auto made_of = [&](uint64_t item, uint64_t part) {
-    return box("dimg", number(item, 2) + number(4, 2) + number(part, 2) + number(part, 2) + number(part, 2) + number(part, 2));
+    return box("dimg",
+               number(item, 2) + number(4, 2) + number(part, 2) + number(part, 2) + number(part, 2) + number(part, 2));
   };
   std::string nested = number(0, 4);
   for (uint64_t item = 1; item < 30; item++) nested += made_of(item, item + 1);

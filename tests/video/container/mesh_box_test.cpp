@@ -6,6 +6,7 @@
 #include "ods/video/container/mesh_box.h"
 
 #include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstring>
 
