@@ -21,7 +21,7 @@ using ods::CameraField, ods::StereoCamera, ods::Eyes, ods::Layout, ods::FootageK
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kConvertExamples =
     "  ods convert picture.png -o cubes.png --to cube-3x2\n"
     "  ods convert picture_TB.jpg -o headset.jpg --to vr180 --width 4096\n"
     "  ods convert picture.exr -o window.png --mono --to perspective --fov 70 --yaw 30 --pitch -10\n"
@@ -30,7 +30,7 @@ constexpr const char* kExamples =
     "  ods convert video_360_TB.mp4 -o headset_180_LR.mp4 --to vr180 --trim 0:10-0:20\n"
     "  ods convert 'shot_360_TB.####.png' -o 'cubes.####.png' --to cube-3x2";
 
-constexpr const char* kSummary =
+constexpr const char* kConvertSummary =
     "Converts a stereo 360 picture, frames or a video to another projection, layout, size or convergence, or to\n"
     "single eyes. Pictures with depth (.exr of ods render, or --depth) can also get another eye distance or pole "
     "merge,\n"
@@ -255,7 +255,7 @@ void refuse_impossible(const ConvertJob& job, const ods::StoredPicture& picture)
 
 bool read_convert_job(ConvertJob& job, int argc, char** argv) {
   job.arguments.assign(argv, argv + argc);
-  Options options("convert", kSummary, kExamples);
+  Options options("convert", kConvertSummary, kConvertExamples);
   Wishes wishes;
   wishes.size.width = 0;
   job.target.holes = ods::Holes::kFilled;

@@ -16,7 +16,7 @@
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kRigExamples =
     "  ods rig --width 4096 --nearest 0.8 -o rig.json\n"
     "  ods rig --scene room --max-error 0.25 -o rig.json --for blender,povray   scripts for these, beside it\n"
     "  ods rig --from picture.camera.json --slits 360      reports its error";
@@ -53,7 +53,7 @@ void add_slit_options(Options& options, RigJob& job) {
 bool read_options(RigJob& job, int argc, char** argv) {
   Options options("rig",
                   "Plans perspective cameras for other renderers; ods stitch combines their views into an ODS picture.",
-                  kExamples);
+                  kRigExamples);
   options.text("-o,--output", ValueKind::output_file(), job.output,
                "the rig as JSON, for ods stitch; by default only prints the plan");
   add_script_option(options, job.targets);

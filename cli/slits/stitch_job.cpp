@@ -9,7 +9,7 @@
 #include "cli/options/picture_options.h"
 #include "cli/options/time_options.h"
 
-static constexpr const char* kExamples =
+static constexpr const char* kStitchExamples =
     "  ods stitch rig.json 'views/####.exr' -o picture.exr\n"
     "  ods stitch rig.json 'views/####.exr' --list-missing       which views to render (again)\n"
     "  ods stitch rig.json 'views/####.png' -o preview.png --partial\n"
@@ -23,7 +23,8 @@ static void set_sheet(const std::string& word, ods::ViewFiles& views) {
 }
 
 bool read_stitch_job(StitchJob& job, int argc, char** argv) {
-  Options options("stitch", "Combines the views of a rig (made by ods rig) into a stereo 360 picture.", kExamples);
+  Options options("stitch", "Combines the views of a rig (made by ods rig) into a stereo 360 picture.",
+                  kStitchExamples);
   options.argument(ValueKind::input_file("RIG"), job.rig_file, "the rig file written by ods rig");
   options.argument(ValueKind::input_file("VIEWS"), job.views.names,
                    "the views' file names, with #### for the view's number; %V is the eye");

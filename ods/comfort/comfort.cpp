@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 
+#include "ods/base/angles.h"
 #include "ods/base/error.h"
 #include "ods/comfort/areas.h"
 #include "ods/picture/picture.h"
@@ -21,7 +22,6 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double kDegree = pi / 180.0, kArcMinute = kDegree / 60.0;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr size_t kMostPlaces = 10;
 constexpr double kBeside = 20.0 * kDegree;

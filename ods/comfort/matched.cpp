@@ -12,6 +12,7 @@
 #include <numbers>
 #include <utility>
 
+#include "ods/base/angles.h"
 #include "ods/base/error.h"
 #include "ods/camera/projection.h"
 #include "ods/disparity/alignment.h"
@@ -22,7 +23,6 @@ namespace ods {
 
 namespace {
 
-constexpr double kArcMinute = std::numbers::pi / 180.0 / 60.0;
 constexpr double kNearHorizon = 30.0;  // degrees
 constexpr int kLeastMatches = 15;      // of tiles, that two eyes of one picture have
 

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "ods/base/angles.h"
 #include "ods/picture/picture.h"
 
 namespace ods {
@@ -17,7 +18,6 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double kArcMinute = pi / 180.0 / 60.0;
 constexpr int kReach = 5;         // rows over which the curve is smoothed, to either side
 constexpr int kBetween = 2;       // rows more, for what lies between rows and between the pixels that were looked at
 constexpr float kSafety = 0.98f;  // eyes beside the middle see a little past the edges of what the middle sees

@@ -14,7 +14,7 @@
 
 namespace fs = std::filesystem;
 
-namespace {
+namespace ods::cli_confine_test {
 
 constexpr const char* kSecret = "root:x:0:0:secret";
 
@@ -218,4 +218,4 @@ TEST_F(Empty, EverythingIsScaledToNothing) {
   expect_nothing_to_render(file);
 }
 
-}  // namespace
+}  // namespace ods::cli_confine_test

@@ -13,7 +13,7 @@
 #include "tests/support/cli_runner.h"
 #include "tests/support/moving_files.h"
 
-namespace {
+namespace ods::cli_frames_test {
 
 class CliFrames : public Cli {
  protected:
@@ -238,4 +238,4 @@ TEST_F(CliFrames, MistakesAreExplained) {
   expect_one_error();
 }
 
-}  // namespace
+}  // namespace ods::cli_frames_test

@@ -6,7 +6,7 @@
 #include "tests/support/cli_runner.h"
 #include "tests/support/gltf_builder.h"
 
-namespace {
+namespace ods::cli_light_test {
 
 // A picture of a triangle of a file without light, which is an object on its own.
 class Light : public Cli {
@@ -145,4 +145,4 @@ TEST_F(Light, OfATransparentPictureThereIsNoGround) {
   EXPECT_EQ(pixels[3 * (32 * 14 + 16)], 0.0f) << "nothing below";
 }
 
-}  // namespace
+}  // namespace ods::cli_light_test

@@ -11,7 +11,7 @@
 #include "ods/video/container/video_file.h"
 #include "tests/support/cli_runner.h"
 
-namespace {
+namespace ods::cli_stitch_test {
 
 class CliStitch : public Cli {
  protected:
@@ -245,4 +245,4 @@ TEST_F(CliStitch, ExitCodesSayWhatWasWrong) {
   EXPECT_EQ(run("render axis --rig " + rig + " -o " + views + " --width 100"), 2);
 }
 
-}  // namespace
+}  // namespace ods::cli_stitch_test

@@ -14,7 +14,7 @@
 #include "tests/support/cli_runner.h"
 #include "tests/support/gltf_builder.h"
 
-namespace {
+namespace ods::comfort_command_test {
 
 using Json = nlohmann::json;
 
@@ -176,4 +176,4 @@ TEST_F(ComfortCommand, BadInputIsOneLine) {
   EXPECT_NE(err.find("--ipd is for scenes"), std::string::npos) << err;
 }
 
-}  // namespace
+}  // namespace ods::comfort_command_test

@@ -10,7 +10,7 @@
 #include "ods/picture/stored_picture.h"
 #include "tests/support/cli_runner.h"
 
-namespace {
+namespace ods::convert_depth_command_test {
 
 class ConvertDepth : public Cli {
  protected:
@@ -136,4 +136,4 @@ TEST_F(ConvertDepth, FramesAndVideos) {
   EXPECT_NE(err.find("ends before"), std::string::npos) << err;
 }
 
-}  // namespace
+}  // namespace ods::convert_depth_command_test

@@ -25,8 +25,7 @@
 #include "tests/support/programs.h"
 #include "tests/support/worlds.h"
 
-namespace ods {
-namespace {
+namespace ods::foreign_files_test {
 
 ProjectionSetting named(const std::string& name) {
   return find_projection(name)->setting;
@@ -464,5 +463,4 @@ TEST(ForeignPage, HasACommandInEveryRowAndATestForEachCommand) {
   EXPECT_EQ(printed.size(), all_rows().size());
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::foreign_files_test

@@ -15,7 +15,7 @@
 
 int ods_inject(int argc, char** argv);  // of the command
 
-namespace {
+namespace ods::inject_test {
 
 using namespace ods::made;
 using ods::SphericalMetadata, ods::VideoProjection, ods::VideoStereo;
@@ -371,4 +371,4 @@ TEST_F(Inject, ProbeAdvisesWhatInjectDoes) {
   EXPECT_GT(advised, 20);
 }
 
-}  // namespace
+}  // namespace ods::inject_test

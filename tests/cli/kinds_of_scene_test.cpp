@@ -14,8 +14,7 @@
 #include "tests/support/cli_runner.h"
 #include "tests/support/scene_file.h"
 
-namespace ods {
-namespace {
+namespace ods::kinds_of_scene_test {
 
 class KindsOfScene : public Cli, public ::testing::WithParamInterface<size_t> {
  protected:
@@ -84,5 +83,4 @@ INSTANTIATE_TEST_SUITE_P(All, KindsOfScene, ::testing::Range<size_t>(0, kinds_of
   return name;
 });
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::kinds_of_scene_test

@@ -8,7 +8,7 @@
 #include "tests/support/cli_runner.h"
 #include "tests/support/moving_files.h"
 
-namespace {
+namespace ods::scene_options_test {
 
 using ods::GltfBuilder, ods::Json;
 
@@ -158,4 +158,4 @@ TEST_F(SceneOptionsOf, WhatAppearsLaterIsRendered) {
   EXPECT_TRUE(has(err, "everything is hidden while the scene is at rest")) << err;
 }
 
-}  // namespace
+}  // namespace ods::scene_options_test

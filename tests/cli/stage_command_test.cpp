@@ -9,7 +9,7 @@
 #include "tests/support/cli_runner.h"
 #include "tests/support/gltf_builder.h"
 
-namespace {
+namespace ods::stage_command_test {
 
 // A file with a closed box of single walls that face inwards, `width` wide, or outwards: an object.
 class Stage : public Cli {
@@ -220,4 +220,4 @@ TEST_F(Stage, ThePolesAreMergedByDefault) {
   EXPECT_EQ(merge().find("cosine"), std::string::npos) << "another system's camera has that system's merge";
 }
 
-}  // namespace
+}  // namespace ods::stage_command_test

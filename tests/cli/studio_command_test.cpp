@@ -18,10 +18,11 @@
 #include "tests/support/gltf_builder.h"
 #include "tests/support/served.h"
 
-using Json = nlohmann::json;
 using namespace std::chrono_literals;
 
-namespace {
+namespace ods::studio_command_test {
+
+using Json = nlohmann::json;
 
 struct Frame {
   Json about;
@@ -117,8 +118,6 @@ std::array<double, 2> means_of_halves(const std::vector<float>& values) {
   for (double& sum : sums) sum /= static_cast<double>(values.size()) / 2.0;
   return sums;
 }
-
-}  // namespace
 
 TEST_F(StudioCommand, DescribesItsControls) {
   const Json studio = Json::parse(body_of(get("view.json")))["studio"];
@@ -446,3 +445,5 @@ TEST_F(StudioCommand, SaysWhatAClickMeets) {
   EXPECT_GT(ground["distance"], 0.1);
   EXPECT_GT(ground["disparity"], 0.0);
 }
+
+}  // namespace ods::studio_command_test

@@ -28,8 +28,7 @@
 #include "tests/support/stored_pictures.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::view_browser_test {
 
 using Json = nlohmann::json;
 
@@ -494,5 +493,4 @@ TEST_F(ViewBrowser, ShowsEachEyeItsPictureInAHeadset) {
   EXPECT_EQ(folder_.read("ended"), "null");
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::view_browser_test

@@ -16,7 +16,7 @@
 
 using namespace std::chrono_literals;
 
-namespace {
+namespace ods::view_command_test {
 
 class ViewCommand : public Served {
  protected:
@@ -28,8 +28,6 @@ class ViewCommand : public Served {
 
   std::string picture;
 };
-
-}  // namespace
 
 TEST_F(ViewCommand, ServesThePageAndWhatItShows) {
   const std::string page = get("");
@@ -386,3 +384,5 @@ TEST_F(View, SaysWhatItCannotShow) {
   EXPECT_EQ(run("view room --export " + folder.path("site")), 2);
   EXPECT_EQ(run("view"), 2);
 }
+
+}  // namespace ods::view_command_test

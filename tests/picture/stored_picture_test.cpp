@@ -23,8 +23,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tiff_files.h"
 
-namespace ods {
-namespace {
+namespace ods::stored_picture_test {
 
 void expect_eye(const StoredPicture& picture, const StoredEye& eye, FileFormat format) {
   const int columns = kWidth / picture.size.width, rows = kHeight / picture.size.height;
@@ -480,5 +479,4 @@ TEST(OpenPicture, ALargePictureIsNeverInMemory) {
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::stored_picture_test

@@ -8,8 +8,7 @@
 #include "ods/scene/motion.h"
 #include "tests/support/moving_files.h"
 
-namespace ods {
-namespace {
+namespace ods::sheet_glass_test {
 
 Material sheet_glass() {
   Material material = default_material();
@@ -143,5 +142,4 @@ TEST(SheetGlass, AnimatedMaterialsGoOn) {
   EXPECT_NE(scene.meshes[0].material, scene.meshes[1].material);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::sheet_glass_test

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "ods/base/json_reader.h"
 #include "ods/scene/gltf/gltf.h"
 
 namespace ods {
 
-using Json = nlohmann::json;
 using Binary = std::vector<unsigned char>;
 
 // Component types of glTF.

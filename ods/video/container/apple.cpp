@@ -17,10 +17,6 @@ enum StereoFlag : uint64_t { kHasLeft = 1, kHasRight = 2, kRightFirst = 8 };
 
 }  // namespace
 
-static VideoStereo stereo_of(const SphericalMetadata& metadata) {
-  return metadata.stereo.value_or(VideoStereo::kOneView);
-}
-
 bool fits_vexu(const SphericalMetadata& metadata) {
   const VideoStereo stereo = stereo_of(metadata);
   const bool is_known = stereo == VideoStereo::kOneView || arrangement_of(stereo).is_halves();

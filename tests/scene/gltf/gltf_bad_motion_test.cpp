@@ -12,8 +12,7 @@
 #include "tests/support/moving_files.h"
 #include "tests/support/scene_check.h"
 
-namespace ods {
-namespace {
+namespace ods::gltf_bad_motion_test {
 
 // What the reader says; a file that it takes is played.
 std::string answer(const Binary& bytes) {
@@ -182,5 +181,4 @@ TEST(GltfBadMotion, ManyNamesForTheSameNumbers) {
   EXPECT_NE(answer(morphed.glb()).find("far more"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::gltf_bad_motion_test

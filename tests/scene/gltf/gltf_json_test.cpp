@@ -10,8 +10,7 @@
 #include "ods/scene/gltf/json.h"
 #include "tests/support/gltf_builder.h"
 
-namespace ods {
-namespace {
+namespace ods::gltf_json_test {
 
 // Every whole number of a document written as a real: 3 becomes 3.0.
 void write_as_reals(Json& json) {
@@ -172,5 +171,4 @@ TEST(GltfJson, ObjectsWithManyMembersAreRefused) {
   EXPECT_NE(error_of(file.glb()).find("members"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::gltf_json_test

@@ -16,8 +16,7 @@
 #include "tests/support/gltf_builder.h"
 #include "tests/support/scene_check.h"
 
-namespace ods {
-namespace {
+namespace ods::gltf_test {
 
 void expect_near(vec3 actual, vec3 expected, float tolerance = 1e-5f) {
   for (int i = 0; i < 3; i++) EXPECT_NEAR(actual[i], expected[i], tolerance) << "component " << i;
@@ -459,5 +458,4 @@ TEST(Gltf, SharedScenes) {
   EXPECT_EQ(instanced_triangles(helmet), 15452u);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::gltf_test

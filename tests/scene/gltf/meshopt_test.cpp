@@ -14,8 +14,7 @@
 #include "tests/support/compressed_gltf.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::meshopt_test {
 
 GltfBuilder compressed_grid(const std::string& name = "EXT_meshopt_compression") {
   GltfBuilder file = make_grid(12);
@@ -252,5 +251,4 @@ TEST(GltfMeshoptDamage, FlippedBits) {
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::meshopt_test

@@ -18,8 +18,7 @@
 #include "tests/support/made_videos.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::mp4_file_test {
 
 SphericalMetadata stacked() {
   SphericalMetadata metadata;
@@ -423,5 +422,4 @@ TEST_F(Mp4Video, SamplesInOtherFilesAreRefused) {
   EXPECT_NE(error_of(video).find("other files"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::mp4_file_test
