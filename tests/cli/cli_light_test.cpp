@@ -90,7 +90,7 @@ TEST_F(Light, BackgroundIsSeenBehind) {
 TEST_F(Light, UnlitShowsColorsAsTheyArePainted) {
   ods::GltfBuilder painted = ods::make_triangle();
   painted.json["materials"] =
-      ods::Json::parse(R"([{"pbrMetallicRoughness": {"baseColorFactor": [0.25, 0.5, 0.125, 1]}}])");
+      ods::GltfJson::parse(R"([{"pbrMetallicRoughness": {"baseColorFactor": [0.25, 0.5, 0.125, 1]}}])");
   painted.primitive()["material"] = 0;
   write(painted);
   const std::vector<float> pixels = render("--unlit --background 0 --env 0 --filter box --denoise none");

@@ -141,9 +141,9 @@ TEST_F(Video, TheSceneIsOfTheJob) {
 // The files of a scene are known by what is in them, wherever they lie and however old they are.
 TEST_F(Video, ACopyOfTheSceneIsTheSameSceneAndAChangedFileIsNamed) {
   ods::GltfBuilder scene = ods::make_triangle();
-  scene.json["images"] = ods::Json::parse(R"([{"uri": "wood%20panel.png"}])");
-  scene.json["textures"] = ods::Json::parse(R"([{"source": 0}])");
-  scene.json["materials"] = ods::Json::parse(R"([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])");
+  scene.json["images"] = ods::GltfJson::parse(R"([{"uri": "wood%20panel.png"}])");
+  scene.json["textures"] = ods::GltfJson::parse(R"([{"source": 0}])");
+  scene.json["materials"] = ods::GltfJson::parse(R"([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])");
   scene.primitive()["material"] = 0;
   scene.json["buffers"] = {{{"byteLength", scene.binary.size()}, {"uri", "shape.bin"}}};
   const ods::Binary png = ods::small_png();

@@ -60,7 +60,7 @@ Brightness brightness_of(const Image& picture) {
 TEST_P(KindsOfScene, AreRecognisedAndLookGoodWithoutAnOption) {
   const std::string scene = write_scene(), picture = folder.path("picture.png");
   ASSERT_EQ(run("info --json " + scene), 0) << err;
-  const Json json = Json::parse(out);
+  const GltfJson json = GltfJson::parse(out);
   EXPECT_EQ(json["kind"], scene_kind_name(kind().kind));
   EXPECT_GE(json["nearest_surface"].get<double>(), double{kElbowRoom});
   const double height = json["bounds"]["high"][1].get<double>() - json["bounds"]["low"][1].get<double>();
