@@ -63,7 +63,8 @@ ods::VideoPlan plan_for(ConvertJob& job) {
 // Encoding costs quality and time: what only tags would change is for other commands.
 void refuse_copy(const ConvertJob& job, const ods::VideoPlan& plan) {
   const bool is_turned = job.footage && job.footage->stream().is_turned;
-  const bool is_same = !is_turned && (plan.layout == job.picture.layout || job.picture.eyes.size() == 1);
+  const bool has_layers = job.footage && job.footage->video().views != ods::Views::kFirst;
+  const bool is_same = !is_turned && !has_layers && (plan.layout == job.picture.layout || job.picture.eyes.size() == 1);
   if (job.trim.is_part() || !job.turns.empty() || job.has_packing || !is_same ||
       !is_same_picture(job.picture, job.target))
     return;

@@ -64,7 +64,7 @@ double median_vergence(const SeenDepth& seen) {
 class VideoJudge {
  public:
   VideoJudge(const std::string& path, const VideoComfortOptions& options)
-      : options_(options), video_(open_video(path, options.format)), decoder_(path, video_.track) {
+      : options_(options), video_(open_video(path, options.format)), decoder_(path, video_.track, video_.views) {
     if (video_.prototype.eyes.size() != 2) {
       throw Error(ErrorKind::kInput, fmt::format("'{}' has one eye: nothing in it tells how far things are", path));
     }

@@ -39,6 +39,12 @@ ViewItem open_view_item(const std::string& path, const FormatHint& known) {
                               "unwrap: ods convert makes a video of it that they show",
                               path));
     }
+    if (video.views != Views::kFirst) {
+      throw Error(ErrorKind::kInput,
+                  fmt::format("cannot show '{}': its eyes are layers of its stream (MV-HEVC), of which browsers show "
+                              "one: ods convert makes a video of it that they show",
+                              path));
+    }
     item.is_video = item.has_own_file = true;
     item.picture = video.prototype;
     item.fps = video.fps;

@@ -284,7 +284,7 @@ TEST_F(Inject, RemovingTakesAllWordsOut) {
   for (const Tagged& each : cases()) {
     SCOPED_TRACE(each.title + " " + each.name);
     folder.write(each.name, each.video);
-    const bool has_layers = largest(ods::read_video_file(folder.path(each.name))).has_layers;
+    const bool has_layers = largest(ods::read_video_file(folder.path(each.name))).layers.has_value();
     const std::optional<ods::VideoFile> after = inject(each, "--remove");
     ASSERT_TRUE(after) << err;
     const ods::VideoTrack& track = largest(*after);

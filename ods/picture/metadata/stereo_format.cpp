@@ -15,6 +15,7 @@
 #include "ods/image/format/xmp_file.h"
 #include "ods/image/image_file.h"
 #include "ods/picture/metadata/metadata.h"
+#include "ods/picture/metadata/phone_window.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/metadata/vr_photo.h"
 
@@ -262,15 +263,12 @@ static std::optional<StereoCamera> find_stated_camera(const FileInfo& info, cons
   return sidecar ? std::optional(sidecar->camera) : std::nullopt;
 }
 
-// Phones take pairs with two flat lenses, and may say how wide they see.
 static StereoCamera camera_of_pair(const FileInfo& info, std::vector<std::string>& guesses) {
-  constexpr float kUsualFov = 63.4f;
   const auto said = info.numbers.find("heif:fov");
+  std::optional<float> fov;
+  if (said != info.numbers.end()) fov = said->second[0];
   StereoCamera camera;
-  camera.projection = find_projection("perspective")->setting;
-  camera.projection.fov = said != info.numbers.end() ? said->second[0] : kUsualFov;
-  camera.projection.aspect = static_cast<float>(info.width) / static_cast<float>(std::max(info.height, 1));
-  if (said == info.numbers.end()) guesses.push_back(fmt::format("{} degrees across: it does not say", kUsualFov));
+  camera.projection = phone_window(fov, {info.width, info.height}, guesses);
   return camera;
 }
 

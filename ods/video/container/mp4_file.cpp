@@ -126,7 +126,17 @@ static std::optional<SphericalMetadata> read_vexu(const Box& entry) {
   }
 }
 
-// MV-HEVC.
+// MV-HEVC. A vexu that says nothing of its layers says nothing at all.
+static std::optional<EyeLayers> read_layers(const Box& entry) {
+  try {
+    return parse_layers(entry);
+  } catch (const MalformedFile&) {
+    EyeLayers silent;
+    silent.beside.stereo = VideoStereo::kSideBySide, silent.beside.projection = VideoProjection::kFlat;
+    return silent;
+  }
+}
+
 static bool has_layers(const Box& entry) {
   return find_child(entry, box_type("lhvC")) != nullptr;
 }
@@ -144,7 +154,7 @@ static VideoTrack read_video(Box& track, Box& moov) {
     if (!video.v2) video.v2 = parse_v2(entry);
     if (video.mesh.empty()) video.mesh = find_mesh(entry);
     if (!video.vexu) video.vexu = read_vexu(entry);
-    video.has_layers = video.has_layers || has_layers(entry);
+    if (!video.layers) video.layers = read_layers(entry);
   }
   for (const Box& box : track.children) {
     if (is_v1(box) && !video.v1) video.v1 = parse_v1(box.body.substr(kV1Id.size()));
