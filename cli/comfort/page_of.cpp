@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "cli/comfort/comfort_report.h"
+#include "cli/comfort/heat.h"
 #include "cli/comfort/video_report.h"
 
 using ods::ComfortReport, ods::Image, ods::Strain, ods::StrainedPlace, ods::vec2, ods::vec3;
@@ -23,8 +24,8 @@ constexpr float kDegree = 3.14159265f / 180.0f;
 Image crop_of(const Judged& judged, double azimuth, double elevation) {
   const ods::Camera camera = ods::make_camera(judged.seen.camera);
   const float theta = static_cast<float>(azimuth) * kDegree, phi = static_cast<float>(elevation) * kDegree;
-  const vec3 ahead(std::cos(phi) * std::sin(theta), std::sin(phi), -std::cos(phi) * std::cos(theta));
-  const vec3 right(std::cos(theta), 0.0f, std::sin(theta)), up = cross(right, ahead);
+  const vec3 ahead = ods::look_at_angles(theta, phi).direction;
+  const vec3 right = ods::look_at_angles(theta + 90.0f * kDegree, 0.0f).direction, up = cross(right, ahead);
   const float pixel = 2.0f * std::tan(0.5f * kCropAngle * kDegree) / kCropWidth;
   Image crop(kCropWidth, kCropHeight, 3);
   for (int y = 0; y < kCropHeight; y++) {

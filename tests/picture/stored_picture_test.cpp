@@ -117,6 +117,17 @@ TEST(OpenPicture, LayersHaveTheirRulesAndKindsOfNumber) {
     OpenOptions light_only;
     light_only.color_only = true;
     EXPECT_EQ(open_picture(folder.path("a.exr"), light_only).eyes[1].layers.size(), 1u);
+    const StoredPicture some = PictureReader(folder.path("a.exr")).read("", [](const std::string& name) {
+      return name == "Z" || name == "N.Y";
+    });
+    for (size_t i = 0; i < some.eyes.size(); i++) {
+      const StoredEye &whole = picture.eyes[i], &eye = some.eyes[i];
+      ASSERT_EQ(eye.layers.size(), 3u);
+      EXPECT_EQ(eye.layers[0].first, nullptr);
+      EXPECT_EQ(eye.layers[1].channels, std::vector<std::string>{"N.Y"});
+      EXPECT_EQ(value_at(eye.layers[1], 7, 5, 0), value_at(whole.layers[1], 7, 5, 1));
+      EXPECT_EQ(value_at(eye.layers[2], 5, 9, 0), value_at(whole.layers[2], 5, 9, 0));
+    }
   }
 }
 
