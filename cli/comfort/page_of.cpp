@@ -44,13 +44,18 @@ Image crop_of(const Judged& judged, double azimuth, double elevation) {
   return crop;
 }
 
+std::string cure_line(const StrainedPlace& place) {
+  const std::string cure = cure_text(place);
+  return cure.empty() ? "" : "Cure: " + cure;
+}
+
 PageThing thing_of(const StrainedPlace& place, const Judged& judged) {
   const ods::StrainRow& strain = ods::strain_row(place.strain);
   return {place.level,
           fmt::format("{}, {:.2f} m away", thing_text(place), place.distance),
           direction_text(place) + fmt::format("; {} of the picture", share_text(place.share)),
           fmt::format("{}: {:.3g} {}", strain.title, place.value, strain.unit),
-          "Cure: " + cure_text(place),
+          cure_line(place),
           crop_of(judged, place.azimuth, place.elevation)};
 }
 
@@ -99,7 +104,7 @@ ComfortPage page_of(const ComfortJob& job, const ods::VideoComfort& video) {
     PageThing thing{strain.level, times_text(strain), "", strain_text(strain), "", {}};
     if (strain.place) {
       thing.where = fmt::format("{:.2f} m away, {}", strain.place->distance, direction_text(*strain.place));
-      thing.cure = "Cure: " + cure_text(*strain.place);
+      thing.cure = cure_line(*strain.place);
       const bool is_shown = !video.report.places.empty() && video.report.places[0].azimuth == strain.place->azimuth;
       if (is_shown) thing.crop = crop_of(judged, strain.place->azimuth, strain.place->elevation);
     }

@@ -118,6 +118,8 @@ class Judge {
   double most_of(const Point& point) const;  // of its strains, in limits of a warning
   double rank_of(const Point& point) const;
   double circle_for(size_t pixel) const;
+  double circle_by_steps(const Point& point) const;
+  double circle_for_row(int y) const;
   StrainedPlace describe(size_t pixel, double share) const;
   std::vector<int> things_or_areas() const;
   void list_places(ComfortReport& report, double all) const;
@@ -287,13 +289,29 @@ double Judge::circle_for(size_t pixel) const {
     const double near = vergence_dioptres(vergence(half, elevation), options_.viewer);
     const double vertical = worst_vertical_disparity(half, elevation, gaze()) / kArcMinute;
     const double over = std::max(near / limit(Strain::kNear), vertical / limit(Strain::kVertical));
-    if (over <= 1.0 && over > 0.9999) break;
+    if (over <= 1.0 && (over > 0.9999 || share == 1.0)) break;
     share = std::min(1.0, share / over);
   }
+  return std::min(share, circle_by_steps(point));
+}
+
+double Judge::circle_by_steps(const Point& point) const {
+  double share = 1.0;
   for (const Strain strain : {Strain::kStep, Strain::kEdge}) {
     share = std::min(share, limit(strain) / std::max(double{point.strains[static_cast<size_t>(strain)]}, 1e-9));
   }
   return share;
+}
+
+// On an even row, the pixel for which the eyes converge most has the most of all but steps.
+double Judge::circle_for_row(int y) const {
+  size_t worst = pixel(0, y);
+  double share = 1.0;
+  for (size_t i = pixel(0, y); i < pixel(0, y + 1); i++) {
+    share = std::min(share, is_even_ ? circle_by_steps(points_[i]) : circle_for(i));
+    if (points_[i].vergence > points_[worst].vergence) worst = i;
+  }
+  return std::min(share, circle_for(worst));
 }
 
 // Strains go nearly as one over the distance.
@@ -378,9 +396,8 @@ ComfortReport Judge::report() {
     if (options_.rules == ComfortRules::kStrain) add_steps(y), add_edges(y);
     for (int x = 0; x < width_; x++) {
       rate(points_[pixel(x, y)]);
-      double& circle = circles[static_cast<size_t>(y)];
-      circle = std::min(circle, circle_for(pixel(x, y)));
     }
+    circles[static_cast<size_t>(y)] = circle_for_row(y);
   });
   ComfortReport report;
   report.level = Image(width_, height_, 1);
