@@ -108,10 +108,11 @@ static std::vector<FileShare> shares_of(Readers& readers, const std::string& pat
   const FileInfo& info = readers[0]->info();
   const ViewChannels left = channels_of_view(info, "left", false), right = channels_of_view(info, "right", false);
   const ViewChannels bare = channels_of_view(info, "left", true);
-  if (!bare.contains("R")) throw unreadable(path, "it has the colour of the right view only");
-  if (left.contains("R") || right.contains("R")) {
-    shares.push_back(make_share(*readers[0], path, channels_of_view(info, "left", !left.contains("R")), color_only));
-    shares.push_back(make_share(*readers[0], path, channels_of_view(info, "right", !right.contains("R")), color_only));
+  const auto has_color = [](ViewChannels channels) { return take_color(channels).has_value(); };
+  if (!has_color(bare)) throw unreadable(path, "it has the colour of the right view only");
+  if (has_color(left) || has_color(right)) {
+    shares.push_back(make_share(*readers[0], path, channels_of_view(info, "left", !has_color(left)), color_only));
+    shares.push_back(make_share(*readers[0], path, channels_of_view(info, "right", !has_color(right)), color_only));
     return shares;
   }
   throw unreadable(path, "it does not hold two views");
