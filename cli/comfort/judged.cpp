@@ -17,6 +17,7 @@
 #include "ods/convert/unwrap.h"
 #include "ods/depth/floor.h"
 #include "ods/files/atomic_file.h"
+#include "ods/files/scratch.h"
 #include "ods/identify/identify.h"
 #include "ods/image/tone.h"
 #include "ods/picture/cryptomatte.h"
@@ -206,6 +207,7 @@ Looked look_at_picture(const ComfortJob& job) {
     if (opened.matte) name_things(judged.seen, ods::matte_of_eye(picture, i, *opened.matte), chosen, *opened.matte);
     const ods::Image& depth = judged.seen.depth;
     if (opened.shows) judged.light = colors_of(picture, i, depth.width, depth.height);
+    if (picture.memory) picture.memory->release();
   }
   return looked;
 }
