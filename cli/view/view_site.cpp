@@ -12,6 +12,7 @@
 #include "cli/console/console.h"
 #include "cli/options/layout_options.h"
 #include "cli/options/projection_options.h"
+#include "cli/view/comfort_answers.h"
 #include "ods/view/page.h"
 
 using ods::ViewItem, ods::StoredPicture;
@@ -111,6 +112,10 @@ WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
   }
   if (item.is_video) return nothing_there();
   for (const int eye : {ods::kLeft, ods::kRight, ods::kMono}) {
+    if (path == fmt::format("item/{}/{}.heat.png", *number, ods::eye_name(eye))) {
+      const std::lock_guard<std::mutex> lock(one_at_a_time_);
+      return heat_answer(item.path, item.known, eye);
+    }
     if (path != fmt::format("item/{}/{}.jpg", *number, ods::eye_name(eye))) continue;
     const std::lock_guard<std::mutex> lock(one_at_a_time_);
     return {.type = std::string(ods::media_type(path)),

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ods/kernel/camera/project.h"
+#include "ods/kernel/counterpart.h"
 
 namespace ods {
 
@@ -47,9 +47,8 @@ RowWarp::RowWarp(const Mapping& mapping, const Reprojection& reprojection)
     : mapping_(&mapping), reprojection_(&reprojection) {
   const Projection &from = mapping.source.camera.projection, &to = mapping.camera.projection;
   const Extent size = mapping.source.picture->size;
-  const bool is_whole = from.span.x > 1.9999f * kPi;
   scale_ = density(from, size) / density(to, mapping.size);
-  period_ = is_whole ? static_cast<float>(size.width) / scale_ : 0.0f;
+  period_ = wraps_around(from) ? static_cast<float>(size.width) / scale_ : 0.0f;
   // A surface at a slant of 88 degrees, but no more than is_one_surface() allows.
   one_surface_ = std::clamp(25.0f / density(from, size), 0.01f, 0.1f);
 }

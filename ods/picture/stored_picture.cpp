@@ -32,6 +32,7 @@ using Readers = std::vector<std::unique_ptr<RowReader>>;  // of the files of a p
 // A layer of one view of a file, and where its pixels go.
 struct Plane : ChannelLayer {
   std::byte* to = nullptr;
+  bool is_read = true;
   size_t pixel_size() const { return channels.size() * bytes_of(sample); }
 };
 
@@ -104,10 +105,11 @@ static std::vector<FileShare> shares_of(Readers& readers, const std::string& pat
   const FileInfo& info = readers[0]->info();
   const ViewChannels left = channels_of_view(info, "left", false), right = channels_of_view(info, "right", false);
   const ViewChannels bare = channels_of_view(info, "left", true);
-  if (!bare.contains("R")) throw cannot_read(path, "it has the colour of the right view only");
-  if (left.contains("R") || right.contains("R")) {
-    shares.push_back(make_share(*readers[0], path, channels_of_view(info, "left", !left.contains("R")), color_only));
-    shares.push_back(make_share(*readers[0], path, channels_of_view(info, "right", !right.contains("R")), color_only));
+  const auto has_color = [](ViewChannels channels) { return take_color(channels).has_value(); };
+  if (!has_color(bare)) throw cannot_read(path, "it has the colour of the right view only");
+  if (has_color(left) || has_color(right)) {
+    shares.push_back(make_share(*readers[0], path, channels_of_view(info, "left", !has_color(left)), color_only));
+    shares.push_back(make_share(*readers[0], path, channels_of_view(info, "right", !has_color(right)), color_only));
     return shares;
   }
   throw cannot_read(path, "it does not hold two views");
@@ -146,6 +148,7 @@ static Packing packing_of(const FileInfo& info, const std::vector<FileShare>& sh
   for (const FileShare& share : shares) {
     if (share.reader != reader) continue;
     for (const Plane& plane : share.planes) {
+      if (!plane.is_read) continue;
       packing.count = std::max(packing.count, 1 + *std::max_element(plane.from.begin(), plane.from.end()));
     }
   }
@@ -206,7 +209,9 @@ static void read_file(RowReader& reader, const std::vector<FileShare>& shares, c
   std::vector<const Plane*> planes;
   for (const FileShare& share : shares) {
     if (share.reader != &reader) continue;
-    for (const Plane& plane : share.planes) planes.push_back(&plane);
+    for (const Plane& plane : share.planes) {
+      if (plane.is_read) planes.push_back(&plane);
+    }
   }
   std::vector<size_t> all(packing.count);
   std::iota(all.begin(), all.end(), size_t{0});
@@ -327,6 +332,7 @@ static std::shared_ptr<Scratch> make_room(std::vector<FileShare>& shares, const 
   std::vector<size_t> starts{0};
   for (FileShare& share : shares) {
     for (Plane& plane : share.planes) {
+      if (!plane.is_read) continue;
       planes.push_back(&plane);
       starts.push_back(starts.back() + plane_size(plane, info));
     }
@@ -421,6 +427,25 @@ PictureReader& PictureReader::operator=(PictureReader&& other) noexcept = defaul
 
 const StoredPicture& PictureReader::header() const {
   return state_->header;
+}
+
+static void leave_out_unwanted(std::vector<FileShare>& shares, const PictureReader::Wants& wants) {
+  for (FileShare& share : shares) {
+    for (Plane& plane : share.planes) {
+      std::vector<std::string> channels;
+      std::vector<size_t> from;
+      for (size_t c = 0; c < plane.channels.size(); c++) {
+        if (wants(plane.channels[c])) channels.push_back(plane.channels[c]), from.push_back(plane.from[c]);
+      }
+      plane.is_read = !channels.empty();
+      if (plane.is_read) plane.channels = std::move(channels), plane.from = std::move(from);
+    }
+  }
+}
+
+StoredPicture PictureReader::read(const std::string& scratch_folder, const Wants& wants) {
+  leave_out_unwanted(state_->shares, wants);
+  return read(scratch_folder);
 }
 
 StoredPicture PictureReader::read(const std::string& scratch_folder) {
