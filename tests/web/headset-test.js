@@ -1,0 +1,529 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The headset's panel in an emulated headset, against the server of ods view: everything that a hand, a pinch or a look can
+// do to it, and what the desk sees and does. testHeadset(name) runs a part, and throws what is wrong. What the wearer sees
+// is sent to result/NAME, both eyes side by side.
+import { Headset } from './headset.js';
+import { TEXT } from './headset-controls.js';
+import { DISTANCE } from './headset-panel.js';
+import { plus } from './headset-room.js';
+import { loadShader } from './panorama.js';
+import { placeOf, partsOf } from './places.js';
+import { Share } from './share.js';
+import { Viewer } from './viewer.js';
+
+const SMALL = [64, 32];
+const LARGE = [1024, 512];
+const sleep = (time) => new Promise((done) => setTimeout(done, time));
+const degrees = (radians) => (radians * 180) / Math.PI;
+
+function expect(is, what) {
+  if (!is) throw new Error(`headset: ${what}`);
+}
+
+async function until(is, what, step = () => sleep(20)) {
+  for (let i = 0; i < 500; i++) {
+    if (is()) return;
+    await step();
+  }
+  throw new Error(`headset: never ${what}`);
+}
+
+async function makeViewer(size) {
+  const canvas = document.createElement('canvas');
+  Object.assign(canvas.style, { width: `${size[0]}px`, height: `${size[1]}px`, display: 'block' });
+  document.body.append(canvas);
+  const viewer = new Viewer(canvas, await (await fetch('view.json')).json(), await loadShader(location.href), location.href);
+  return viewer;
+}
+
+// Somebody who wears the headset: a head and two hands.
+class Wearer {
+  static async create(size = SMALL) {
+    Object.defineProperties(window, { innerWidth: { value: size[0] }, innerHeight: { value: size[1] } }); // of the canvas
+    const { XRDevice, metaQuest3 } = await import('./iwer.module.js');
+    const device = new XRDevice(metaQuest3);
+    device.installRuntime({ forceInstall: true });
+    device.stereoEnabled = true;
+    device.fovy = Math.PI / 2;
+    device.position.set(3, 1.6, -2);
+    const wearer = Object.assign(new Wearer(), { device, viewer: await makeViewer(size) });
+    wearer.headset = new Headset(wearer.viewer, {});
+    return wearer;
+  }
+
+  async enter() {
+    this.look({});
+    await this.headset.toggle();
+    await until(() => this.panel?.head, 'has a panel');
+  }
+
+  get panel() {
+    return this.headset.panel;
+  }
+
+  // Our callback comes after the headset's, which was asked for before.
+  frames(count = 2) {
+    const { headset } = this;
+    return new Promise((done) => {
+      const next = () => (count-- > 0 && headset.session ? headset.session.requestAnimationFrame(next) : done());
+      next();
+    });
+  }
+
+  async wait(time) {
+    for (const end = performance.now() + time; performance.now() < end;) await this.frames(1);
+  }
+
+  look({ yaw = 0, pitch = 0 }, quaternion = this.device.quaternion) {
+    const [y, p] = [-yaw, pitch].map((angle) => (angle * Math.PI) / 360);
+    quaternion.set(Math.cos(y) * Math.sin(p), Math.sin(y) * Math.cos(p), -Math.sin(y) * Math.sin(p), Math.cos(y) * Math.cos(p));
+  }
+
+  // A place of the device's world, from one of the session's space.
+  place(at) {
+    const { x, y, z } = this.device.position;
+    return plus(plus([x, y, z], at), this.panel.head.at, -1);
+  }
+
+  // Of the panel or the handle: x and y in half axes.
+  spot(x, y) {
+    const { at, u, v } = this.panel.sheet;
+    return this.place(plus(plus(at, u, x), v, y));
+  }
+
+  middle(id, part = 0.5) {
+    const control = this.panel.content.controls.find((each) => each.id === id);
+    expect(control, `there is no ${id}`);
+    const [left, top, width, height] = control.box;
+    const { width: wide, height: high } = this.panel.canvas;
+    const x = control.drag ? left + 16 + part * (width - 32) : left + part * width;
+    return this.spot((2 * x) / wide - 1, 1 - (2 * (top + height / 2)) / high);
+  }
+
+  turnTo(to, from, quaternion) {
+    const [x, y, z] = plus(to, from, -1);
+    this.look({ yaw: degrees(Math.atan2(x, -z)), pitch: degrees(Math.atan2(y, Math.hypot(x, z))) }, quaternion);
+  }
+
+  async aim(to, hand = this.device.controllers.right) {
+    const { x, y, z } = this.device.position;
+    hand.position.set(x + 0.2, y - 0.4, z - 0.3);
+    this.turnTo(to, [x + 0.2, y - 0.4, z - 0.3], hand.quaternion);
+    await this.frames();
+  }
+
+  async gaze(to) {
+    const { x, y, z } = this.device.position;
+    this.turnTo(to, [x, y, z], this.device.quaternion);
+    await this.frames();
+  }
+
+  async press(is, hand = this.device.controllers.right, button = 'trigger') {
+    if (hand.updatePinchValue) hand.updatePinchValue(is);
+    else hand.updateButtonValue(button, is);
+    await this.frames();
+  }
+
+  async click(id, hand) {
+    await this.aim(this.middle(id), hand);
+    await this.press(1, hand);
+    await this.press(0, hand);
+  }
+
+  async hold(button, time, hand) {
+    await this.press(1, hand, button);
+    await this.wait(time);
+    await this.press(0, hand, button);
+  }
+
+  // What both eyes see, in more pixels than it is tested with.
+  async send(name) {
+    const { canvas } = this.viewer;
+    [canvas.width, canvas.height] = LARGE;
+    await this.frames();
+    await fetch(`result/${name}`, { method: 'POST', body: await new Promise((done) => canvas.toBlob(done)) });
+    [canvas.width, canvas.height] = SMALL;
+    await this.frames();
+  }
+
+  leave() {
+    return this.headset.session?.end();
+  }
+}
+
+// --- opening and closing ---
+
+async function testOpening(wearer) {
+  const { viewer, device } = wearer;
+  const { item } = viewer;
+  await wearer.hold('squeeze', 900);
+  expect(wearer.panel.isOpen, 'a held grip does not open the panel');
+  expect(viewer.item === item, 'a held grip goes to the next picture');
+  await wearer.aim(wearer.spot(1.5, 1.5));
+  await wearer.press(1);
+  await wearer.press(0);
+  expect(!wearer.panel.isOpen && viewer.item === item, 'a press beside the panel does not close it, and nothing else');
+  await wearer.press(1);
+  await wearer.press(0);
+  expect(viewer.item === item + 1, 'a press without a panel is not the next picture');
+  await wearer.hold('squeeze', 0, device.controllers.left);
+  await until(() => viewer.item === item && viewer.picture, 'goes back by the left grip');
+  await wearer.gaze(wearer.spot(0, 0));
+  expect(wearer.panel.isSeen && !wearer.panel.isOpen, 'who looks down sees no handle');
+  await wearer.send('handle');
+  await wearer.aim(wearer.spot(0, 0));
+  await wearer.press(1);
+  await wearer.press(0);
+  expect(wearer.panel.isOpen && viewer.item === item, 'the handle does not open the panel');
+  wearer.look({});
+  await wearer.click('close');
+  expect(!wearer.panel.isOpen, 'the panel does not close');
+}
+
+async function open(wearer) {
+  if (!wearer.panel.isOpen) wearer.panel.toggle();
+  await wearer.frames();
+  expect(wearer.panel.isOpen, 'the panel does not open');
+}
+
+// --- where it is ---
+
+async function testPlace(wearer) {
+  const { device, panel } = wearer;
+  await open(wearer);
+  const { sheet } = panel;
+  expect(Math.abs(Math.hypot(...plus(sheet.at, panel.head.at, -1)) - DISTANCE) < 1e-6, 'the panel is not as far away as it says');
+  const letters = 2 * degrees(Math.atan((TEXT / 2) * (Math.hypot(...sheet.u) * 2 / panel.canvas.width) / DISTANCE));
+  expect(letters >= 1.2, `letters are ${letters} degrees high`);
+  wearer.look({ yaw: 30, pitch: -20 });
+  device.position.set(3.1, 1.6, -2);
+  await wearer.wait(1300);
+  expect(Math.hypot(...plus(panel.sheet.at, sheet.at, -1)) < 1e-6, 'the panel is fixed to the head');
+  wearer.look({ yaw: 70 });
+  await wearer.wait(600);
+  expect(Math.hypot(...plus(panel.sheet.at, sheet.at, -1)) < 1e-6, 'the panel comes at once');
+  await wearer.wait(2500);
+  expect(Math.abs(degrees(panel.heading) - 70) < 3, 'the panel never comes');
+  expect(Math.abs(Math.hypot(...plus(panel.sheet.at, panel.head.at, -1)) - DISTANCE) < 0.03, 'the panel comes to another place');
+  wearer.look({});
+  device.position.set(3, 1.6, -2);
+  panel.close();
+  await open(wearer);
+}
+
+// --- its controls, by a controller's ray ---
+
+async function testControls(wearer) {
+  const { viewer, headset, panel } = wearer;
+  const { state } = viewer;
+  await open(wearer);
+  await wearer.aim(wearer.middle('swap'));
+  expect(panel.hovered.has('swap'), 'what is pointed at does not show it');
+  await wearer.click('swap');
+  expect(state.swap, 'the eyes are not swapped');
+  await wearer.click('swap');
+  expect(!state.swap, 'the eyes stay swapped');
+  for (const worn of ['left', 'right', 'stereo']) {
+    await wearer.click('mode');
+    expect(state.worn === worn, `the eyes see ${state.worn}, not ${worn}`);
+  }
+  await wearer.click('next');
+  await until(() => viewer.item === 1 && viewer.picture, 'shows the next picture');
+  await wearer.click('previous');
+  await until(() => viewer.item === 0 && viewer.picture, 'shows the previous picture');
+  await wearer.click('item-2');
+  await until(() => viewer.item === 2 && viewer.picture, 'shows the picture that is chosen');
+  await wearer.click('down');
+  expect(panel.content.controls.some(({ id }) => id === 'item-3'), 'the list does not turn');
+  await wearer.click('up');
+  expect(panel.content.controls.some(({ id }) => id === 'item-0'), 'the list does not turn back');
+  wearer.look({ yaw: 20 });
+  await wearer.click('recentre');
+  expect(Math.abs(degrees(headset.turn) + 20) < 0.5, 'recentre does not turn the picture');
+  wearer.look({});
+  headset.turn = 0;
+}
+
+async function testExposure(wearer, item) {
+  const { viewer, panel } = wearer;
+  await viewer.open(item);
+  await open(wearer);
+  const before = viewer.about.exposure ?? 0;
+  for (const id of ['brighter', 'brighter', 'darker']) await wearer.click(id);
+  await until(() => viewer.picture, 'shows the picture with another exposure');
+  expect(viewer.choice.exposure === before + 0.5, `the exposure is ${viewer.choice.exposure}`);
+  await wearer.frames();
+  expect(panel.content.controls.some(({ text }) => text === '+0.5'), 'the exposure is not said');
+}
+
+async function testFilm(wearer, item) {
+  const { viewer } = wearer;
+  await viewer.open(item);
+  if (!viewer.picture) return 'this browser plays no H.264';
+  await open(wearer);
+  const { picture } = viewer;
+  await wearer.aim(wearer.middle('seek', 0.25));
+  await wearer.press(1);
+  await wearer.aim(wearer.middle('seek', 0.75));
+  await wearer.press(0);
+  const wanted = Math.round(0.75 * (picture.frames - 1));
+  await until(() => Math.abs(picture.frame() - wanted) <= 1, 'seeks where it is dragged');
+  await wearer.send('film');
+  await wearer.click('play');
+  await until(() => !picture.video.paused, 'plays');
+  await wearer.click('play');
+  await until(() => picture.video.paused, 'pauses');
+  return 'ok';
+}
+
+// --- by gaze, hand, and by those who pinch what they look at ---
+
+async function testGaze(wearer) {
+  const { device, viewer: { state }, panel } = wearer;
+  panel.close();
+  for (const hand of Object.values(device.controllers)) hand.connected = false;
+  await wearer.frames(3);
+  await wearer.gaze(wearer.spot(0, 0));
+  await wearer.wait(600);
+  expect(!panel.isOpen && panel.dwell.for > 0, 'a look at the handle acts at once');
+  await wearer.send('dwell');
+  await until(() => panel.isOpen, 'opens by a long look', () => wearer.frames());
+  wearer.look({});
+  await wearer.frames();
+  await wearer.gaze(wearer.middle('swap'));
+  await until(() => state.swap, 'swaps by a long look', () => wearer.frames());
+  await wearer.wait(2000);
+  expect(state.swap, 'a look that stays acts again and again');
+  wearer.look({ pitch: 30 });
+  await wearer.frames();
+  await wearer.gaze(wearer.middle('swap'));
+  await until(() => !state.swap, 'swaps by another long look', () => wearer.frames());
+  for (const hand of Object.values(device.controllers)) hand.connected = true;
+  await wearer.frames(3);
+  await wearer.gaze(wearer.middle('mode'));
+  await wearer.wait(2000);
+  expect(state.worn === 'stereo', 'a look chooses where a hand could point');
+  wearer.look({});
+}
+
+async function testPinches(wearer) {
+  const { device, viewer: { state }, panel } = wearer;
+  device.primaryInputMode = 'hand';
+  await wearer.frames(3);
+  await open(wearer);
+  await wearer.click('swap', device.hands.right);
+  expect(state.swap, 'a pinch does not swap the eyes');
+  await wearer.click('swap', device.hands.left);
+  expect(!state.swap, 'a pinch of the left hand does not swap them back');
+  // As visionOS has it: a source while somebody pinches, whose ray begins where they look.
+  const { right, left } = device.hands;
+  Object.defineProperty(right.inputSource, 'targetRayMode', { value: 'transient-pointer' });
+  right.connected = left.connected = false;
+  await wearer.frames(3);
+  right.connected = true;
+  await wearer.click('swap', right);
+  right.connected = false;
+  await wearer.frames(3);
+  expect(state.swap, 'a look and a pinch do not swap the eyes');
+  await wearer.gaze(wearer.middle('swap'));
+  await wearer.wait(2000);
+  expect(state.swap, 'a look chooses for who pinches');
+  expect(panel.pointers.length === 0, 'something points without a hand');
+  state.swap = false;
+  device.primaryInputMode = 'controller';
+  wearer.look({});
+  await wearer.frames(3);
+}
+
+async function testHolding(wearer) {
+  const { headset, panel } = wearer;
+  panel.close();
+  wearer.look({ yaw: -40 });
+  await wearer.aim(wearer.place(plus(panel.head.at, [0, 2, -1])));
+  await wearer.hold('trigger', 900);
+  expect(Math.abs(degrees(headset.turn) - 40) < 0.5, 'a held trigger does not recentre');
+  headset.turn = 0;
+  wearer.look({});
+}
+
+// --- what the desk sees and does with the same page ---
+
+async function testMirror(wearer) {
+  const { viewer, viewer: { panorama: { gl }, canvas }, headset } = wearer;
+  const { prototype } = window.XRWebGLLayer;
+  const own = Object.getOwnPropertyDescriptor(prototype, 'framebuffer');
+  const target = gl.createFramebuffer(); // as a real headset has one of its own
+  gl.bindFramebuffer(gl.FRAMEBUFFER, target);
+  gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+  gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA8, ...LARGE);
+  gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, gl.getParameter(gl.TEXTURE_BINDING_2D), 0);
+  Object.defineProperty(prototype, 'framebuffer', { get: () => target, configurable: true });
+  wearer.look({ yaw: 25, pitch: 10 });
+  headset.panel.close();
+  viewer.set({ fov: 90 });
+  [canvas.width, canvas.height] = [256, 256];
+  await wearer.wait(400);
+  expect(Math.abs(viewer.state.yaw - 25) < 0.1 && Math.abs(viewer.state.pitch - 10) < 0.1, 'the desk looks elsewhere');
+  headset.mirrored = 0;
+  await wearer.frames();
+  await fetch('result/mirror', { method: 'POST', body: await new Promise((done) => canvas.toBlob(done)) });
+  Object.defineProperty(prototype, 'framebuffer', own);
+  [canvas.width, canvas.height] = SMALL;
+  await wearer.wait(200);
+  const { left, top, width, height } = canvas.getBoundingClientRect();
+  canvas.dispatchEvent(new PointerEvent('pointermove', { clientX: left + width / 2, clientY: top + height / 2 }));
+  expect(Math.abs(headset.marker.yaw - 25) < 0.5 && Math.abs(headset.marker.pitch - 10) < 0.5, 'the wearer sees nothing of the desk’s pointer');
+  await wearer.send('marker');
+  canvas.dispatchEvent(new PointerEvent('pointerleave'));
+  expect(!headset.marker, 'the mark stays');
+  wearer.look({});
+}
+
+async function testPictures(wearer) {
+  const { viewer, panel } = wearer;
+  await viewer.open(0);
+  panel.close();
+  await open(wearer);
+  await wearer.gaze(wearer.spot(0, 0));
+  await wearer.aim(wearer.middle('swap'));
+  await wearer.send('panel');
+  viewer.set({ worn: 'left' });
+  panel.close();
+  await wearer.send('left');
+  viewer.set({ worn: 'stereo' });
+  wearer.look({});
+}
+
+async function testLeaving(wearer) {
+  await open(wearer);
+  await wearer.click('leave');
+  expect(!wearer.headset.session && !wearer.viewer.session, 'the panel does not leave');
+  expect(wearer.viewer.state.roll === 0, 'the page stays tilted');
+}
+
+// --- the studio ---
+
+async function testStudio() {
+  const wearer = await Wearer.create();
+  const { viewer, headset } = wearer;
+  const { startStudio } = await import('./studio.js');
+  const page = { viewer, headset, toast() {}, fail() {} };
+  startStudio(page);
+  const { session } = page.studio;
+  await until(() => viewer.picture, 'shows the scene');
+  await wearer.enter();
+  await open(wearer);
+  const drag = async (id, from, to) => {
+    await wearer.aim(wearer.middle(id, from));
+    await wearer.press(1);
+    for (const part of [0.7 * from + 0.3 * to, 0.3 * from + 0.7 * to, to]) await wearer.aim(wearer.middle(id, part));
+    await wearer.press(0);
+  };
+  const steps = session.side.past.length;
+  await drag('merge-start', 0.2, 0.4);
+  expect(session.settings.sidecar.merge_top.start === 36, `the merge starts at ${session.settings.sidecar.merge_top.start}`);
+  await drag('merge-end', 0.9, 0.8);
+  const { merge_top: top, merge_bottom: bottom } = session.settings.sidecar;
+  expect(top.end === 72 && bottom.end === 72 && top.mode !== 'none', 'the merge does not end where it is dragged');
+  expect(session.side.past.length === steps + 2, 'a drag is many steps to undo');
+  await until(() => session.side.sent === session.settings, 'sends the merge');
+  expect(/--merge\S* \S*36/.test(session.side.command), `the command is ${session.side.command}`);
+  const { exposure } = session.settings;
+  await wearer.click('brighter');
+  expect(session.settings.exposure === exposure + 0.5, 'the exposure stays');
+  await wearer.aim(wearer.middle('sides'));
+  await wearer.send('studio');
+  await wearer.click('sides');
+  expect(session.active === 1, 'the settings are not B');
+  await wearer.leave();
+}
+
+// --- two pages of one server ---
+
+async function testSharing(items) {
+  const wearer = await Wearer.create();
+  const { viewer, headset } = wearer;
+  const desk = await makeViewer([160, 90]);
+  await viewer.open(0);
+  await desk.open(1);
+  await wearer.enter();
+  const worn = new Share({ viewer, headset });
+  await until(() => worn.spoke, 'says something');
+  const { pages } = await (await fetch('alive')).json();
+  expect(pages === 1, `the server knows ${pages} pages that share`);
+  const seen = new Share({ viewer: desk, headset: {} });
+  wearer.look({ yaw: 40, pitch: -15 });
+  await until(() => desk.item === 0 && desk.picture, 'shows the desk what is worn', () => wearer.frames());
+  expect(viewer.item === 0, 'who comes later changes what is worn');
+  await until(() => Math.abs(desk.state.yaw - 40) < 0.2 && Math.abs(desk.state.pitch + 15) < 0.2, 'looks where the wearer does', () => wearer.frames());
+  viewer.set({ swap: true });
+  await until(() => desk.state.swap, 'swaps at the desk', () => wearer.frames());
+  desk.set({ swap: false, worn: 'right' });
+  await until(() => !viewer.state.swap && viewer.state.worn === 'right', 'swaps back in the headset', () => wearer.frames());
+  desk.open(2);
+  await until(() => viewer.item === 2 && viewer.picture, 'loads what the desk loads', () => wearer.frames());
+  const direction = { yaw: 50, pitch: -10 };
+  const [x, y] = placeOf(desk, direction, partsOf(desk)[0]);
+  const { left, top } = desk.canvas.getBoundingClientRect();
+  const move = new PointerEvent('pointermove', { clientX: left + x, clientY: top + y });
+  await until(() => {
+    desk.canvas.dispatchEvent(move);
+    return headset.marker && Math.abs(headset.marker.yaw - 50) < 1 && Math.abs(headset.marker.pitch + 10) < 1;
+  }, 'marks what the desk points at', () => wearer.frames());
+  desk.canvas.dispatchEvent(new PointerEvent('pointerleave'));
+  await until(() => !headset.marker, 'forgets what the desk pointed at', () => wearer.frames());
+  desk.canvas.dispatchEvent(new PointerEvent('pointerdown'));
+  wearer.look({ yaw: -60 });
+  await wearer.wait(700);
+  expect(Math.abs(desk.state.yaw - 40) < 1, 'who looks elsewhere is taken along');
+  const button = document.getElementById('follow');
+  expect(button && !button.hidden && button.ariaPressed === 'false', 'there is no way back to the wearer');
+  button.click();
+  await until(() => Math.abs(desk.state.yaw + 60) < 0.2, 'comes back to the wearer', () => wearer.frames());
+  const film = await shareFilm(wearer, desk, items - 1);
+  await wearer.leave();
+  await until(() => button.hidden, 'notices that nobody wears the headset');
+  for (const share of [worn, seen]) share.end();
+  return film;
+}
+
+async function shareFilm({ viewer, ...wearer }, desk, item) {
+  await viewer.open(item);
+  if (!viewer.picture) return 'this browser plays no H.264';
+  await until(() => desk.item === item && desk.picture?.video, 'opens the film at the desk');
+  viewer.picture.seek(1.25);
+  await until(() => Math.abs(desk.picture.video.currentTime - viewer.picture.video.currentTime) < 0.01, 'shows the same frame');
+  desk.picture.toggle();
+  await until(() => !viewer.picture.video.paused, 'plays what the desk plays');
+  await sleep(300);
+  desk.picture.toggle();
+  await until(() => viewer.picture.video.paused && desk.picture.video.paused, 'pauses what the desk pauses');
+  await sleep(500);
+  expect(viewer.picture.video.paused && desk.picture.video.paused, 'goes on after a pause');
+  return 'ok';
+}
+
+async function testPanel() {
+  const wearer = await Wearer.create();
+  const { viewer } = wearer;
+  const { items } = viewer.view;
+  const named = (end) => items.findIndex(({ name }) => name.endsWith(end));
+  await viewer.open(0);
+  await wearer.enter();
+  for (const test of [testOpening, testPlace, testControls, testGaze, testPinches, testHolding, testMirror, testPictures]) {
+    await test(wearer);
+  }
+  await testExposure(wearer, named('.exr'));
+  const film = await testFilm(wearer, named('.mp4'));
+  await testLeaving(wearer);
+  return film;
+}
+
+// What it returns says whether films could be tested.
+export async function testHeadset(name) {
+  const tests = { panel: testPanel, studio: testStudio, sharing: async () => testSharing((await (await fetch('view.json')).json()).items.length) };
+  const film = await tests[name]();
+  await fetch('result/said', { method: 'POST', body: film ?? 'ok' });
+}
