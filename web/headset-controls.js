@@ -56,7 +56,7 @@ function listRows(panel, entries) {
   const last = Math.max(entries.length - LISTED, 0);
   panel.first = Math.min(panel.first, last);
   const by = (count) => () => (panel.first = Math.min(Math.max(panel.first + count, 0), last));
-  const turns = [{ id: 'up', icon: 'up', run: by(-LISTED) }, { text: `${last ? panel.first + 1 : ''}` }, { id: 'down', icon: 'down', run: by(LISTED) }];
+  const turns = [{ id: 'up', icon: 'up', run: by(-LISTED) }, { text: `${Math.ceil(panel.first / LISTED) + 1}/${Math.ceil(entries.length / LISTED)}` }, { id: 'down', icon: 'down', run: by(LISTED) }];
   return entries.slice(panel.first, panel.first + LISTED).map(({ name, on, run }, i) => {
     const row = [{ id: `item-${panel.first + i}`, text: name, on, run, share: 9, isName: true }];
     return last ? [...row, turns[i]] : row;
