@@ -449,18 +449,31 @@ async function testStudio() {
 
 // --- two pages of one server ---
 
+// The page of the desk, as index.html is.
+async function openPage() {
+  const page = new DOMParser().parseFromString(await (await fetch('index.html')).text(), 'text/html');
+  document.body.append(...page.body.childNodes);
+  const canvas = document.querySelector('canvas#picture, #player canvas');
+  if (canvas) Object.assign(canvas.style, { width: '160px', height: '90px' });
+  await import('./main.js');
+  await until(() => window.omnistereo?.viewer.picture, 'opens the page');
+  return window.omnistereo;
+}
+
 async function testSharing(items) {
+  const page = await openPage();
+  const desk = page.viewer;
   const wearer = await Wearer.create();
   const { viewer, headset } = wearer;
-  const desk = await makeViewer([160, 90]);
   await viewer.open(0);
   await desk.open(1);
+  await sleep(2500);
+  expect(!page.sharing, 'pages share though nobody wears a headset');
   await wearer.enter();
   const worn = new Share({ viewer, headset });
-  await until(() => worn.spoke, 'says something');
-  const { pages } = await (await fetch('alive')).json();
-  expect(pages === 1, `the server knows ${pages} pages that share`);
-  const seen = new Share({ viewer: desk, headset: {} });
+  await until(() => page.share, 'shares with who wears a headset', () => wearer.frames());
+  let pages;
+  await until(() => pages === 2, 'counts both pages', async () => ({ pages } = await (await fetch('alive')).json()));
   wearer.look({ yaw: 40, pitch: -15 });
   await until(() => desk.item === 0 && desk.picture, 'shows the desk what is worn', () => wearer.frames());
   expect(viewer.item === 0, 'who comes later changes what is worn');
@@ -492,7 +505,7 @@ async function testSharing(items) {
   const film = await shareFilm(wearer, desk, items - 1);
   await wearer.leave();
   await until(() => button.hidden, 'notices that nobody wears the headset');
-  for (const share of [worn, seen]) share.end();
+  for (const share of [worn, page.share]) share.end();
   return film;
 }
 
@@ -513,6 +526,61 @@ async function shareFilm({ viewer, ...wearer }, desk, item) {
   return 'ok';
 }
 
+// Plays a browser that has layers: the panel is above the picture's, and clear where nothing is.
+async function testLayers() {
+  const viewer = await makeViewer(SMALL);
+  const { gl } = viewer.panorama;
+  const textures = { equirect: gl.createTexture(), above: gl.createTexture() };
+  for (const [name, size] of [['equirect', [16, 8]], ['above', [8, 4]]]) {
+    gl.bindTexture(gl.TEXTURE_2D, textures[name]);
+    gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA8, ...size);
+  }
+  const box = (eye, width, height) => ({ x: eye === 'left' ? 0 : width, y: 0, width, height });
+  window.XRRigidTransform = class {};
+  window.XRWebGLBinding = class {
+    createEquirectLayer() { return { is: 'equirect' }; }
+
+    createProjectionLayer(init) { return { is: 'above', init }; }
+
+    getSubImage(layer, frame, eye) { return { colorTexture: textures.equirect, viewport: box(eye, 8, 8) }; }
+
+    getViewSubImage(layer, { eye }) { return { colorTexture: textures.above, viewport: box(eye, 4, 4) }; }
+  };
+  const { EyeLayers } = await import('./layers.js');
+  let asked = {};
+  const session = { renderState: {}, updateRenderState: (state) => (asked = state) }; // what is asked for comes with the next frame
+  const layers = new EyeLayers(session, gl, 'local');
+  const next = () => Object.assign(session, { renderState: asked });
+  const shown = () => session.renderState.layers?.map(({ is }) => is).join();
+  const pose = { views: [{ eye: 'left' }, { eye: 'right' }] };
+  await viewer.open(0);
+  expect(!layers.show(null, viewer, 0), 'draws into a layer that is not there yet');
+  next();
+  expect(layers.show(null, viewer, 0) && shown() === 'equirect', 'the picture has no layer');
+  const drawn = [];
+  const draw = (view, where, target) => {
+    drawn.push(`${view.eye} ${where}`);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, target);
+    gl.enable(gl.SCISSOR_TEST);
+    gl.scissor(where[0], 0, 1, 1);
+    gl.clearColor(0, 1, 0, 1);
+    gl.clear(gl.COLOR_BUFFER_BIT);
+    gl.disable(gl.SCISSOR_TEST);
+  };
+  layers.drawAbove(draw, pose);
+  expect(!drawn.length, 'draws into the layer above before it is there');
+  next();
+  layers.show(null, viewer, 0);
+  layers.drawAbove(draw, pose);
+  expect(shown() === 'equirect,above' && drawn.join('; ') === 'left 0,0,4,4; right 4,0,4,4', `draws ${drawn.join('; ')} above ${shown()}`);
+  const pixels = new Uint8Array(4 * 8);
+  gl.readPixels(0, 0, 8, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+  expect([...pixels.filter((x, i) => i % 4 === 3)].join() === '255,0,0,0,255,0,0,0', 'the layer above covers the picture');
+  layers.drawAbove(null, pose);
+  next();
+  expect(shown() === 'equirect', 'the layer above stays when nothing is there');
+}
+
 async function testPanel() {
   const wearer = await Wearer.create();
   const { viewer } = wearer;
@@ -531,7 +599,7 @@ async function testPanel() {
 
 // What it returns says whether films could be tested.
 export async function testHeadset(name) {
-  const tests = { panel: testPanel, studio: testStudio, sharing: async () => testSharing((await (await fetch('view.json')).json()).items.length) };
+  const tests = { panel: testPanel, studio: testStudio, layers: testLayers, sharing: async () => testSharing((await (await fetch('view.json')).json()).items.length) };
   const film = await tests[name]();
   await fetch('result/said', { method: 'POST', body: film ?? 'ok' });
 }
