@@ -38,11 +38,14 @@ export class HeadsetPanel {
   listen(viewer) {
     this.heard = new AbortController();
     const on = (target, event, run) => target.addEventListener(event, run, { signal: this.heard.signal });
-    on(viewer, 'failed', ({ detail }) => (this.message = detail));
+    on(viewer, 'failed', ({ detail }) => {
+      this.message = detail;
+      if (this.head && !this.isOpen) this.open();
+    });
     on(viewer, 'loading', ({ detail }) => (this.message = detail === null ? this.message : `Loading … ${Math.round(100 * detail)} %`));
     on(viewer, 'open', () => (this.message = ''));
-    on(viewer.canvas, 'pointermove', ({ offsetX, offsetY }) => (this.headset.marker = directionAt(viewer, offsetX, offsetY)));
-    on(viewer.canvas, 'pointerleave', () => (this.headset.marker = null));
+    on(viewer.canvas, 'pointermove', ({ offsetX, offsetY }) => this.headset.mark(directionAt(viewer, offsetX, offsetY)));
+    on(viewer.canvas, 'pointerleave', () => this.headset.mark(null));
   }
 
   free() {
@@ -52,6 +55,7 @@ export class HeadsetPanel {
   }
 
   open() {
+    this.first = Math.max(this.headset.viewer.item - 1, 0);
     Object.assign(this, { isOpen: true, painted: '', lostSince: 0, heading: headingOf(this.head), from: this.head.at });
     this.place();
   }
@@ -120,7 +124,8 @@ export class HeadsetPanel {
     const { session, space } = this.headset;
     const sources = [...session.inputSources].filter(({ targetRayMode }) => targetRayMode !== 'screen');
     this.pinchesLook ||= sources.some(({ targetRayMode }) => targetRayMode === 'transient-pointer');
-    const poses = sources.filter(({ targetRayMode }) => targetRayMode !== 'gaze').map((source) => [source, frame.getPose(source.targetRaySpace, space)]);
+    const isPointing = ({ targetRayMode, hand }) => targetRayMode !== 'gaze' && !(hand && targetRayMode === 'tracked-pointer' && this.pinchesLook);
+    const poses = sources.filter(isPointing).map((source) => [source, frame.getPose(source.targetRaySpace, space)]);
     this.pointers = poses.filter(([, where]) => where).map(([source, where]) => this.pointer(source, where));
     const isLed = this.pointers.length || this.pinchesLook;
     const gaze = this.pointer(null, pose);

@@ -24,6 +24,7 @@ export const BUTTONS = [
 const HOLD = 800; // milliseconds until a trigger or a pinch counts as held
 const STICK = 0.7; // of its way
 const MIRROR = 100; // milliseconds between pictures for the page
+const MARKED = 4000; // milliseconds that a mark of the desk stays
 
 export async function hasHeadset() {
   return (await navigator.xr?.isSessionSupported('immersive-vr').catch(() => false)) ?? false;
@@ -62,8 +63,12 @@ export const wornEye = ({ worn }, eye) => (worn === 'left' ? 0 : worn === 'right
 export class Headset {
   // wants.layers: equirect layers where the browser has them and the picture's form allows.
   constructor(viewer, wants = {}) {
-    Object.assign(this, { viewer, wants, session: null, turn: 0, pose: null, layers: null, panel: null, mirrored: 0 });
-    this.marker = null; // what the desk points at: { yaw, pitch, eye }
+    Object.assign(this, { viewer, wants, session: null, turn: 0, pose: null, layers: null, panel: null, marker: null });
+  }
+
+  // What somebody at the desk points at: { yaw, pitch, eye }, or null.
+  mark(marker) {
+    Object.assign(this, { marker, marked: performance.now() });
   }
 
   async toggle() {
@@ -88,6 +93,7 @@ export class Headset {
       if (this.session === session) this.panel = new HeadsetPanel(this);
     }, (error) => console.warn('No panel in the headset:', error.message));
     session.requestAnimationFrame((...next) => this.frame(...next));
+    this.mirror();
     return session;
   }
 
@@ -106,14 +112,16 @@ export class Headset {
     this.listen();
     this.pose = frame.getViewerPose(this.space) ?? this.pose;
     if (!this.pose || !this.session) return;
+    if (now - this.marked > MARKED) this.marker = null;
     this.panel?.update(frame, this.pose, now);
     const { picture, panorama } = viewer;
     const look = lookOf(this.pose.transform, this.turn);
     if (viewer.scene) viewer.steering?.head(look); // the studio's
+    if (!(now - this.looked < MIRROR)) this.lookAt(now, look);
     picture?.refresh?.();
     if (picture && !viewer.scene && this.layers?.show(frame, viewer, this.turn)) {
       this.layers.drawAbove(this.panel?.isSeen ? (view, box, target) => this.drawPanel(view, box, target) : null, this.pose);
-      return this.mirror(now, look);
+      return;
     }
     const layer = session.renderState.baseLayer;
     if (!layer) return;
@@ -126,7 +134,12 @@ export class Headset {
       if (picture) this.drawPicture(view, [x, y, width, height], layer.framebuffer);
       this.drawPanel(view, [x, y, width, height], layer.framebuffer);
     }
-    this.mirror(now, look, layer);
+  }
+
+  // The page looks where the head does.
+  lookAt(now, look) {
+    this.looked = now;
+    this.viewer.set(look);
   }
 
   drawPicture(view, box, target) {
@@ -143,14 +156,19 @@ export class Headset {
     this.panel?.draw({ rays: raysOfView(view, 0), eye: [x, y, z], index: indexOf(view), box, target });
   }
 
-  // The page looks where the head does, and shows it where the headset has a picture of its own: an emulated one draws
-  // into the page's canvas.
-  mirror(now, look, layer) {
-    if (now - this.mirrored < MIRROR) return;
-    this.mirrored = now;
-    const { viewer, viewer: { canvas, picture, panorama, state } } = this;
-    viewer.set(look);
-    if (layer && !layer.framebuffer) return;
+  // The page shows what the left eye sees, if anybody sees the page: then browsers give it frames of its own. An emulated
+  // headset draws into the page's canvas itself.
+  mirror() {
+    const { session } = this;
+    if (!session) return;
+    setTimeout(() => requestAnimationFrame((now) => {
+      if (this.pose && session.renderState.baseLayer?.framebuffer !== null) this.drawMirror(now);
+      this.mirror();
+    }), MIRROR);
+  }
+
+  drawMirror(now) {
+    const { viewer: { canvas, picture, panorama, state } } = this;
     const { x, y, z } = this.pose.views[0].transform.position;
     panorama.clear();
     for (const { at, eye, show } of modeOf(state.mode).parts(now)) {

@@ -74,7 +74,8 @@ export class Share {
     const text = JSON.stringify({ fields, look, point: session || !point ? undefined : round(point) });
     const now = performance.now();
     this.forget(now);
-    if (this.speaking || (text === this.said && now - this.spoke < SPEAK)) return;
+    const isHeard = Object.keys(this.others).length > 0;
+    if (this.speaking || ((text === this.said || !isHeard) && now - this.spoke < SPEAK)) return;
     Object.assign(this, { said: text, spoke: now, speaking: true });
     const body = JSON.stringify({ ...JSON.parse(text), time: this.viewer.picture?.video?.currentTime });
     fetch(`share?id=${this.id}`, { method: 'POST', body }).catch(() => {}).finally(() => (this.speaking = false));
@@ -132,19 +133,13 @@ export class Share {
       if (known?.text !== JSON.stringify(value)) FIELDS[name].take(this, value, time);
       this.note(name, clock, by);
     }
+    if (JSON.stringify(point) !== JSON.stringify(this.others[id]?.point)) this.headset.mark(point ?? null);
     this.others[id] = { look, point, at: performance.now() };
-    if (point || this.pointedBy === id) this.mark(point && id, point);
     if (look && !this.viewer.session) this.watch(look);
-  }
-
-  mark(by, point = null) {
-    this.pointedBy = by;
-    this.headset.marker = point;
   }
 
   forget(now) {
     for (const [id, { at }] of Object.entries(this.others)) if (now - at > GONE) delete this.others[id];
-    if (this.pointedBy && !this.others[this.pointedBy]) this.mark();
     if (this.button) this.button.hidden = !Object.values(this.others).some(({ look }) => look);
   }
 

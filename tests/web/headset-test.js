@@ -370,8 +370,7 @@ async function testMirror(wearer) {
   [canvas.width, canvas.height] = [128, 128];
   await wearer.wait(400);
   expect(Math.abs(viewer.state.yaw - 25) < 0.1 && Math.abs(viewer.state.pitch - 10) < 0.1, 'the desk looks elsewhere');
-  headset.mirrored = 0;
-  await wearer.frames();
+  await sleep(600);
   await fetch('result/mirror', { method: 'POST', body: await new Promise((done) => canvas.toBlob(done)) });
   Object.defineProperty(prototype, 'framebuffer', own);
   [canvas.width, canvas.height] = SMALL;
@@ -382,6 +381,9 @@ async function testMirror(wearer) {
   await wearer.send('marker');
   canvas.dispatchEvent(new PointerEvent('pointerleave'));
   expect(!headset.marker, 'the mark stays');
+  headset.mark({ yaw: 0, pitch: 0, eye: 'left' });
+  await wearer.wait(4500);
+  expect(!headset.marker, 'a mark stays for ever');
   wearer.look({});
 }
 
@@ -444,7 +446,24 @@ async function testStudio() {
   await wearer.send('studio');
   await wearer.click('sides');
   expect(session.active === 1, 'the settings are not B');
+  await testSharedSettings(wearer, session);
   await wearer.leave();
+}
+
+// A page at the desk, of which only what it shares is there.
+async function testSharedSettings({ viewer, headset }, session) {
+  const other = { settings: structuredClone(session.settings), use: (settings) => (other.settings = settings) };
+  const desk = {
+    item: -1, choice: {}, state: {}, view: viewer.view, canvas: document.createElement('canvas'), picture: null,
+    set: (state) => Object.assign(desk.state, state), steering: { studio: { session: other } },
+  };
+  const shares = [new Share({ viewer, headset }), new Share({ viewer: desk, headset: { mark() {} } })];
+  session.edit({ 'sidecar.ipd': 0.07 });
+  await until(() => other.settings.sidecar.ipd === 0.07, 'gives the desk the settings');
+  other.settings = { ...other.settings, exposure: 2 };
+  await until(() => session.settings.exposure === 2 && session.side.sent === session.settings, 'takes the settings of the desk');
+  expect(session.settings.sidecar.ipd === 0.07, 'loses what the wearer has set');
+  for (const share of shares) share.end();
 }
 
 // --- two pages of one server ---
