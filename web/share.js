@@ -125,7 +125,7 @@ export class Share {
     }
   }
 
-  take(id, { fields, look, point, time }) {
+  take(id, { fields = {}, look, point, time }) {
     for (const [name, { value, clock, by }] of Object.entries(fields)) {
       const known = this.known[name];
       if (!FIELDS[name] || clock < (known?.clock ?? 0) || (known && clock === known.clock && by <= known.by)) continue;

@@ -133,6 +133,16 @@ double disparity(const Image& left, const Image& right, int x0, int y0, int x1, 
   return best + 0.5 * (before - after) / (before - 2.0 * at + after);  // of a parabola
 }
 
+// Of the upper rows.
+double brightness(const Image& image) {
+  double sum = 0.0;
+  const int rows = image.height / 5;
+  for (int y = 0; y < rows; y++) {
+    for (int x = 0; x < image.width; x++) sum += double{image.at(x, y)[1]};
+  }
+  return sum / (rows * image.width);
+}
+
 // Every control does what it says, by ray, look, hand and pinch; the panel is where it says, and each eye sees it there.
 TEST_F(HeadsetBrowser, EveryControlOfThePanelDoesWhatItSays) {
   make_all();
@@ -142,6 +152,7 @@ TEST_F(HeadsetBrowser, EveryControlOfThePanelDoesWhatItSays) {
   // The head looks at its middle, 1.2 m away; iwer's eyes are 63 mm apart.
   EXPECT_NEAR(disparity(left, right, 206, 206, 306, 306), 256.0 * 0.063 / 1.2, 0.5);
   EXPECT_GT(likeness(seen("left", 0, {128, 128}), seen("left", 128, {128, 128})), 60.0) << "one eye's picture for both";
+  EXPECT_NEAR(brightness(left) / brightness(seen("left", 0, {128, 128})), 0.35, 0.03) << "the picture behind is dimmed";
   const auto expected = [this](const std::string& eye) {
     const std::string name = eye + ".png", mono = "-q --mono --to perspective --fov 90 --yaw 25 --pitch 10 --width 128 ";
     EXPECT_EQ(run("convert " + mono + "--eyes " + eye + " " + items[0].path + " -o " + folder.path(name)), 0) << err;

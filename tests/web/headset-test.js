@@ -352,6 +352,15 @@ async function testHolding(wearer) {
   wearer.look({});
 }
 
+async function testFailure(wearer) {
+  const { viewer, panel } = wearer;
+  panel.close();
+  viewer.say('failed', 'It is damaged');
+  await wearer.frames();
+  expect(panel.isOpen && panel.content.controls[0].text === 'It is damaged', 'who wears the headset hears of no failure');
+  viewer.say('open');
+}
+
 // --- what the desk sees and does with the same page ---
 
 async function testMirror(wearer) {
@@ -370,8 +379,15 @@ async function testMirror(wearer) {
   [canvas.width, canvas.height] = [128, 128];
   await wearer.wait(400);
   expect(Math.abs(viewer.state.yaw - 25) < 0.1 && Math.abs(viewer.state.pitch - 10) < 0.1, 'the desk looks elsewhere');
-  await sleep(600);
-  await fetch('result/mirror', { method: 'POST', body: await new Promise((done) => canvas.toBlob(done)) });
+  // The emulated headset clears what was bound last with each frame: taken as soon as it is drawn.
+  const mirror = new Promise((done) => {
+    headset.drawMirror = (now) => {
+      Headset.prototype.drawMirror.call(headset, now);
+      canvas.toBlob(done);
+    };
+  });
+  await fetch('result/mirror', { method: 'POST', body: await mirror });
+  delete headset.drawMirror;
   Object.defineProperty(prototype, 'framebuffer', own);
   [canvas.width, canvas.height] = SMALL;
   await wearer.wait(200);
@@ -528,7 +544,7 @@ async function testSharing(items) {
   return film;
 }
 
-async function shareFilm({ viewer, ...wearer }, desk, item) {
+async function shareFilm({ viewer }, desk, item) {
   await viewer.open(item);
   if (!viewer.picture) return 'this browser plays no H.264';
   await until(() => desk.item === item && desk.picture?.video, 'opens the film at the desk');
@@ -607,7 +623,7 @@ async function testPanel() {
   const named = (end) => items.findIndex(({ name }) => name.endsWith(end));
   await viewer.open(0);
   await wearer.enter();
-  for (const test of [testOpening, testPlace, testControls, testGaze, testPinches, testHolding, testMirror, testPictures]) {
+  for (const test of [testOpening, testPlace, testControls, testGaze, testPinches, testHolding, testFailure, testMirror, testPictures]) {
     await test(wearer);
   }
   await testExposure(wearer, named('.exr'));
