@@ -3,6 +3,8 @@
 //
 // The controls of the headset's panel, and how they are painted. A control has its box in pixels, a text or an icon, and
 // either run() or, as a slider, its part of the way 0..1 and drag(part, isLast).
+import { WORN } from './modes.js';
+
 export const WIDE = 1024; // pixels
 export const TEXT = 46; // pixels: the height of the letters' line
 const PAD = 24;
@@ -10,9 +12,6 @@ const GAP = 12;
 const HIGH = 84;
 const LISTED = 3; // files at a time
 const STEPS = 400; // of a slider
-
-// What both eyes of the wearer see.
-export const WORN = [['stereo', 'Both eyes'], ['left', 'Left eye'], ['right', 'Right eye']];
 
 const ICONS = {
   play: 'M8 5.5v13l10.5-6.5z', pause: 'M8 5.5h3v13H8zM14 5.5h3v13h-3z', previous: 'm14.5 6-6 6 6 6', next: 'm9.5 6 6 6-6 6',
@@ -99,7 +98,7 @@ export function controlsOf(headset, panel) {
   const { viewer } = headset;
   const { state } = viewer;
   const entries = entriesOf(headset);
-  const worn = Math.max(WORN.findIndex(([name]) => name === state.worn), 0);
+  const worn = Math.max(WORN.findIndex(({ name }) => name === state.worn), 0);
   const many = entries.length > 1;
   return lay([
     [{ text: panel.message || viewer.about?.name || '', share: 9, isName: true }, { id: 'close', icon: 'close', run: () => panel.close() }],
@@ -107,7 +106,7 @@ export function controlsOf(headset, panel) {
     ...filmRow(viewer),
     [
       ...(many ? [{ id: 'previous', icon: 'previous', run: () => viewer.go(-1) }, { id: 'next', icon: 'next', run: () => viewer.go(1) }] : []),
-      { id: 'mode', text: WORN[worn][1], on: worn > 0, share: 3, run: () => viewer.set({ worn: WORN[(worn + 1) % WORN.length][0] }) },
+      { id: 'mode', text: WORN[worn].label, on: worn > 0, share: 3, run: () => viewer.set({ worn: WORN[(worn + 1) % WORN.length].name }) },
       { id: 'swap', text: 'Swap eyes', on: state.swap, share: 3, run: () => viewer.set({ swap: !state.swap }) },
     ],
     ...exposureRow(headset),

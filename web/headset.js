@@ -4,7 +4,7 @@
 // The picture in a headset, by WebXR. Only the orientation of each eye's view counts: every direction shows exactly the
 // line of sight that the picture has there, wherever the head is. The panel (headset-panel.js) comes with the session. The
 // page's canvas shows what the left eye sees.
-import { boxOf, modeOf } from './modes.js';
+import { boxOf, modeOf, wornEye } from './modes.js';
 import { raysOf } from './panorama.js';
 
 // What the buttons do, for the page's help.
@@ -56,9 +56,6 @@ export function lookOf({ matrix: m }, turn) {
 }
 
 const indexOf = ({ eye }) => (eye === 'right' ? 1 : 0);
-
-// The picture's eye that an eye sees: one may be shown to both.
-export const wornEye = ({ worn }, eye) => (worn === 'left' ? 0 : worn === 'right' ? 1 : eye);
 
 export class Headset {
   // wants.layers: equirect layers where the browser has them and the picture's form allows.

@@ -4,7 +4,7 @@
 // The picture as WebXR equirect layers, which the headset's compositor samples by itself. The specification never says
 // which half of a stereo-top-bottom layer is the left eye's, and browsers differ; so each eye is asked for by name, and
 // drawn into what the browser answers.
-import { wornEye } from './headset.js';
+import { wornEye } from './modes.js';
 
 const LARGEST = 4096; // pixels of a layer around the horizon
 

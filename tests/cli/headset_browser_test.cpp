@@ -25,7 +25,7 @@ namespace ods {
 namespace {
 
 constexpr Extent kEye{512, 512};  // pixels of what is sent, 90 degrees wide
-constexpr auto kPatience = std::chrono::seconds(280);
+constexpr auto kPatience = std::chrono::seconds(290);
 
 class HeadsetBrowser : public Cli {
  protected:
