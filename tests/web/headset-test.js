@@ -16,7 +16,7 @@ import { Viewer } from './viewer.js';
 const PATIENCE = 60000; // milliseconds, of a machine that is busy
 const SMALL = [64, 32];
 const MEDIUM = [256, 128];
-const LARGE = [1024, 512];
+const LARGE = [512, 256];
 const sleep = (time) => new Promise((done) => setTimeout(done, time));
 const degrees = (radians) => (radians * 180) / Math.PI;
 
