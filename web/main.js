@@ -133,11 +133,14 @@ function watchAddress(page) {
   });
 }
 
-// Says when the server has ended, and goes on when the next one is there, which has the same address.
+// Says when the server has ended, and goes on when the next one is there, which has the same address; the studio does so
+// itself. Begins to share where somebody wears a headset.
 function watchServer(page) {
   let lost = false;
   setInterval(async () => {
-    const there = await fetch('alive').then((answer) => answer.ok, () => false);
+    const there = await fetch('alive').then((answer) => answer.ok && answer.json(), () => false);
+    if (there.pages || page.viewer.session) page.sharing ??= import('./share.js').then(({ Share }) => (page.share = new Share(page)));
+    if (page.viewer.view.studio) return;
     if (there && lost) location.reload();
     if (!there && !lost) page.fail('ods view has ended. Start it again, and this page goes on by itself.');
     lost = !there;
@@ -163,7 +166,7 @@ async function start() {
   watchIdle();
   watchGrid(viewer);
   watchAddress(page);
-  if (view.live && !view.studio) watchServer(page);
+  if (view.live) watchServer(page);
   hasHeadset().then((has) => (document.querySelector('#tools [data-action="headset"]').hidden = !has));
   find('starting').remove();
   find('picture').focus({ preventScroll: true });

@@ -126,8 +126,11 @@ WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
 
 WebAnswer ViewSite::answer(const WebRequest& request) {
   if (studio_ && request.path.starts_with("studio/")) return studio_->answer(request);
+  if (request.path == "share") return share_.answer(request);
   if (request.is_post) return nothing_there();
-  if (request.path == "alive") return {.type = "application/json", .body = "{}"};
+  if (request.path == "alive") {
+    return {.type = "application/json", .body = fmt::format("{{\"pages\":{}}}", share_.pages())};
+  }
   if (request.path == "view.json") {
     const ods::Json studio = studio_ ? studio_->description() : ods::Json();
     const std::lock_guard<std::mutex> lock(of_items_);

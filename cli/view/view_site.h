@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/http/http_server.h"
+#include "cli/view/share.h"
 #include "cli/view/studio.h"
 #include "ods/view/view_item.h"
 
@@ -19,8 +20,9 @@ class ViewSite {
   // scene: for the studio; none: no scene is shown. Throws as Studio.
   ViewSite(std::vector<ods::ViewItem> items, const std::optional<SceneSource>& scene);
 
-  // Thread-safe. "" is the page; alive says that we are; item/N/left.jpg takes exposure, tone, width, and layout and
-  // projection where the page's user knows better. Throws UsageError for a query that makes no sense.
+  // Thread-safe. "" is the page; alive says that we are, and how many pages share; item/N/left.jpg takes exposure, tone,
+  // width, and layout and projection where the page's user knows better. Throws UsageError for a query that makes no
+  // sense.
   WebAnswer answer(const WebRequest& request);
 
   // Of the studio, for studio/drop; null if there is none.
@@ -39,6 +41,7 @@ class ViewSite {
   std::vector<ods::ViewItem> items_;
   std::vector<std::vector<std::string>> files_;  // of each, behind all links
   std::unique_ptr<Studio> studio_;
+  Share share_;
   std::mutex one_at_a_time_;  // each uses all processors, and a picture's memory
   std::string opened_;
   std::shared_ptr<const ods::StoredPicture> picture_;
