@@ -97,7 +97,7 @@ export class Headset {
       const { x, y, width, height } = layer.getViewport(view);
       const options = {
         rays: raysOfView(view, this.turn), box: [x, y, width, height], eye: view.eye === 'right' ? 1 : 0,
-        swap: state.swap, grid: state.grid, fast: true, target: layer.framebuffer,
+        swap: state.swap, grid: state.grid, moves: true, target: layer.framebuffer,
       };
       panorama.draw(picture, options);
       steering?.draw(panorama, raysOfView(view, 0), this.pose, options);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Draws looks with the page's own modules and sends them to the server that asks for them: jobs.json is
-//   [{ item, choice, width, height, looks: [{ name, eye, yaw, pitch, fov, show, swap }] }, ...]
+//   [{ item, choice, width, height, looks: [{ name, eye, yaw, pitch, fov, show, swap, moves, cheap }] }, ...]
 // where item is an index of view.json. Every look is sent to result/NAME as PNG, the end, or what failed, to done.
 // Looks at a video may have its `frame`, and `step` where it is to be reached by so many steps from the last one.
 // The job { item, layers: NAME } sends the equirect layer of a picture, as a headset's browser would be given it.
@@ -34,10 +34,10 @@ async function draw(view, shader, { item, choice, width, height, looks }) {
   const { canvas } = panorama;
   Object.assign(canvas, { width, height });
   const picture = await openPicture(panorama, view, view.items[item], { choice });
-  for (const { name, eye = 0, show, swap, frame, step, ...look } of looks) {
+  for (const { name, eye = 0, show, swap, frame, step, moves, cheap, ...look } of looks) {
     if (frame !== undefined) await reach(picture, frame, step);
     picture.refresh?.();
-    panorama.draw(picture, { rays: raysOf(look, width / height), box: [0, 0, width, height], show, eye, swap });
+    panorama.draw(picture, { rays: raysOf(look, width / height), box: [0, 0, width, height], show, eye, swap, moves, cheap });
     await sendCanvas(canvas, name);
   }
   picture.free();
