@@ -93,6 +93,7 @@ export class Headset {
     gl.clearColor(0.1, 0.1, 0.1, 1);
     gl.clear(gl.COLOR_BUFFER_BIT);
     if (!picture) return;
+    const parts = [];
     for (const view of this.pose.views) {
       const { x, y, width, height } = layer.getViewport(view);
       const options = {
@@ -100,8 +101,10 @@ export class Headset {
         swap: state.swap, grid: state.grid, moves: true, target: layer.framebuffer,
       };
       panorama.draw(picture, options);
+      parts.push(options);
       steering?.draw(panorama, raysOfView(view, 0), this.pose, options);
     }
+    picture.pager?.follow(parts, performance.now());
   }
 
   // Turns the picture so that its middle is where the head points.

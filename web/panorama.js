@@ -72,6 +72,7 @@ export class Panorama {
   start() {
     const { gl } = this;
     this.background = gl.getExtension('KHR_parallel_shader_compile');
+    this.hasLight = Boolean(gl.getExtension('EXT_color_buffer_float')); // textures of halves can be drawn into
     this.programs = new Map();
     this.maps = new Map();
     gl.bindVertexArray(gl.createVertexArray());

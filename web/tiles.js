@@ -5,7 +5,7 @@
 // pictures may be larger than the GPU's largest texture, and no filter meets a seam.
 import { compile } from './panorama.js';
 
-const BORDER = 16; // texels, as in panorama.glsl: two of the filter at the smallest mip level that is used close by
+export const BORDER = 16; // texels, as in panorama.glsl: two of the filter at the smallest mip level that is used close by
 const LEVELS = 6; // of mip maps
 const STEP = 1 << (LEVELS - 1); // layers are a multiple of this, so that every level has whole texels
 const LARGEST = 4096 + 2 * STEP; // of a layer: larger ones gain nothing, and some browsers fail to fill them
@@ -37,6 +37,32 @@ void main() {
 }`;
 
 const upTo = (size, step) => Math.ceil(size / step) * step;
+
+// Draws what a tile of an eye shows, then repeats the edges outwards where the picture ends. The eye begins in the source
+// at x, y, the tile in the eye at left, top.
+export function paintTile({ layer, size: [whole, high], wraps }, context, source, x, y, left, top) {
+  const [width, height] = layer;
+  const first = wraps ? Math.floor(left / whole) : 0;
+  const last = wraps ? Math.floor((left + width - 1) / whole) : 0;
+  const [y0, y1] = [Math.max(top, 0), Math.min(top + height, high)];
+  for (let turn = first; turn <= last; turn++) {
+    const x0 = Math.max(left, turn * whole);
+    const x1 = Math.min(left + width, (turn + 1) * whole);
+    const size = [x1 - x0, y1 - y0];
+    context.drawImage(source, x + x0 - turn * whole, y + y0, ...size, x0 - left, y0 - top, ...size);
+  }
+  const { canvas } = context;
+  const repeat = (x0, x1, edge) => {
+    if (x1 > x0) context.drawImage(canvas, edge, 0, 1, height, x0, 0, x1 - x0, height);
+  };
+  if (!wraps) {
+    repeat(0, -left, -left);
+    repeat(whole - left, width, whole - left - 1);
+  }
+  if (top < 0) context.drawImage(canvas, 0, -top, width, 1, 0, 0, width, -top);
+  const bottom = high - top;
+  if (bottom < height) context.drawImage(canvas, 0, bottom - 1, width, 1, 0, bottom, width, height - bottom);
+}
 
 export class EyeTexture {
   // width, height: of the eye's picture. wraps: its right edge continues at its left edge. light: halves, scene-linear.
@@ -80,39 +106,13 @@ export class EyeTexture {
     const context = canvas.getContext('2d', { alpha: false, willReadFrequently: true });
     context.imageSmoothingEnabled = false;
     for (const [layer, origin] of this.tiles.entries()) {
-      this.paint(context, source, x, y, ...origin);
+      paintTile(this, context, source, x, y, ...origin);
       this.bind();
       gl.texSubImage3D(gl.TEXTURE_2D_ARRAY, 0, 0, 0, layer, width, height, 1, gl.RGBA, gl.UNSIGNED_BYTE, canvas);
       await new Promise((go) => setTimeout(go));
     }
     this.bind();
     gl.generateMipmap(gl.TEXTURE_2D_ARRAY);
-  }
-
-  // Draws what a tile shows, then repeats the edges outwards where the picture ends.
-  paint(context, source, x, y, left, top) {
-    const [width, height] = this.layer;
-    const [whole, high] = this.size;
-    const first = this.wraps ? Math.floor(left / whole) : 0;
-    const last = this.wraps ? Math.floor((left + width - 1) / whole) : 0;
-    const [y0, y1] = [Math.max(top, 0), Math.min(top + height, high)];
-    for (let turn = first; turn <= last; turn++) {
-      const x0 = Math.max(left, turn * whole);
-      const x1 = Math.min(left + width, (turn + 1) * whole);
-      const size = [x1 - x0, y1 - y0];
-      context.drawImage(source, x + x0 - turn * whole, y + y0, ...size, x0 - left, y0 - top, ...size);
-    }
-    const { canvas } = context;
-    const repeat = (x0, x1, edge) => {
-      if (x1 > x0) context.drawImage(canvas, edge, 0, 1, height, x0, 0, x1 - x0, height);
-    };
-    if (!this.wraps) {
-      repeat(0, -left, -left);
-      repeat(whole - left, width, whole - left - 1);
-    }
-    if (top < 0) context.drawImage(canvas, 0, -top, width, 1, 0, 0, width, -top);
-    const bottom = high - top;
-    if (bottom < height) context.drawImage(canvas, 0, bottom - 1, width, 1, 0, bottom, width, height - bottom);
   }
 
   free() {

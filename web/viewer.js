@@ -95,6 +95,7 @@ export class Viewer extends EventTarget {
     this.fit(this.pace.how.scale);
     this.picture?.refresh?.();
     this.paint(now, { moves: true, cheap: this.pace.how.cheap });
+    this.picture?.pager?.follow(this.parts(now), now);
     if (this.picture) this.rest = setTimeout(() => this.settle(), REST);
   }
 
@@ -125,6 +126,11 @@ export class Viewer extends EventTarget {
     const goesOn = () => this.settling === mark && this.picture && !this.session;
     const nextFrame = () => new Promise(requestAnimationFrame);
     if (this.fit()) this.paint(performance.now(), { moves: true });
+    const pager = this.picture?.pager;
+    while (goesOn() && pager?.look(this.parts(0), 2)) {
+      this.paint(performance.now(), { moves: true });
+      await nextFrame();
+    }
     const isReady = () => this.parts(0).every((options) => panorama.isReady(this.picture, options));
     while (goesOn() && !isReady()) await nextFrame();
     for (let y = 0, count = Math.ceil(canvas.height / 8); goesOn() && y < canvas.height;) {
@@ -134,7 +140,12 @@ export class Viewer extends EventTarget {
       if (took < 20) count *= 2;
       if (took > 50) count = Math.ceil(count / 2);
     }
-    if (goesOn()) this.say('settled');
+    let isBetter = false;
+    while (goesOn() && pager?.refine()) {
+      isBetter = true;
+      await nextFrame();
+    }
+    if (goesOn()) isBetter ? this.redraw() : this.say('settled');
   }
 
   get about() {
@@ -152,16 +163,9 @@ export class Viewer extends EventTarget {
     try {
       const picture = await openPicture(this.panorama, this.view, this.about, {
         base: this.base, choice, signal: loading.signal, progress: (part) => this.say('loading', part),
+        early: (preview) => this.take(preview, loading.signal),
       });
-      if (loading.signal.aborted) return picture.free();
-      this.close();
-      this.picture = picture;
-      picture.changed = () => {
-        this.redraw();
-        this.say('change');
-      };
-      this.redraw();
-      this.say('open');
+      this.take(picture, loading.signal);
     } catch (error) {
       if (loading.signal.aborted) return;
       this.close();
@@ -169,6 +173,18 @@ export class Viewer extends EventTarget {
       this.say('failed', error.message);
     }
     this.say('loading', null);
+  }
+
+  take(picture, signal) {
+    if (signal.aborted) return picture.free();
+    this.close();
+    this.picture = picture;
+    picture.changed = () => {
+      this.redraw();
+      this.say('change');
+    };
+    this.redraw();
+    this.say('open');
   }
 
   close() {
@@ -182,14 +198,21 @@ export class Viewer extends EventTarget {
     if (count > 1) this.open((this.item + by + count) % count, { exposure: this.choice.exposure, tone: this.choice.tone });
   }
 
-  // A change of layout, projection, exposure or tone: loads the picture anew, where it is in the video.
+  // A change of layout, projection, exposure or tone: loads the picture anew, where it is in the video. Light is developed
+  // here.
   async choose(changes) {
+    if (this.picture?.light && !('layout' in changes) && !('projection' in changes)) {
+      this.choice = { ...this.choice, ...changes };
+      this.picture.develop(this.choice);
+      this.redraw();
+      return this.say('open');
+    }
     const at = this.picture?.video?.currentTime;
     await this.open(this.item, { ...this.choice, ...changes });
     if (at) this.picture?.seek?.(at);
   }
 
-  // Where the server develops the picture: in stops, from what it is now.
+  // Of light: in stops, from what it is now.
   expose(by) {
     if (!this.about?.live) return false;
     const now = this.choice.exposure ?? this.about.exposure ?? 0;

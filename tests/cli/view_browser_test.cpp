@@ -91,17 +91,16 @@ void save_world(const StereoCamera& stereo, Layout layout, const std::string& pa
 }
 
 // A look's colours as a screen has them. The light of an EXR has been through the tone curve.
-Image shown(Image image, bool is_light) {
+Image shown(Image image, ToneCurve curve, float exposure = 0.0f) {
   for (size_t i = 0; i < image.pixels.size(); i += 3) {
     float* const pixel = image.pixels.data() + i;
-    const ToneCurve curve = is_light ? ToneCurve::kNeutral : ToneCurve::kLinear;
-    const vec3 light = tone_map(vec3(pixel[0], pixel[1], pixel[2]), 0.0f, curve);
+    const vec3 light = tone_map(vec3(pixel[0], pixel[1], pixel[2]), exposure, curve);
     for (int c = 0; c < 3; c++) pixel[c] = srgb_encode(light[c]);
   }
   return image;
 }
 
-Image converted(const StoredPicture& picture, int eye, const Look& look) {
+Image converted_light(const StoredPicture& picture, int eye, const Look& look) {
   ConvertTarget target = same_format(picture);
   target.camera.projection = projection_named("perspective");
   target.camera.projection.fov = look.fov;
@@ -110,7 +109,11 @@ Image converted(const StoredPicture& picture, int eye, const Look& look) {
   target.mono_from = eye;
   turn(target.camera, look.yaw, look.pitch, 0.0f);
   const Conversion conversion = convert(picture, target);
-  return shown(images_of(conversion.rows)[0], picture.is_float);
+  return images_of(conversion.rows)[0];
+}
+
+Image converted(const StoredPicture& picture, int eye, const Look& look) {
+  return shown(converted_light(picture, eye, look), picture.is_float ? ToneCurve::kNeutral : ToneCurve::kLinear);
 }
 
 // A part of a browser's PNG, from the column on.
@@ -288,6 +291,27 @@ TEST_F(ViewBrowser, ShowsEveryLayoutAsConvertDoes) {
   for (size_t i = 0; i < layouts.size(); i++) expect_looks(i, kAround, std::string(layout_name(layouts[i])));
 }
 
+// Large pictures: the tiles that a look needs are brought, others make room; a coarse picture serves what is small.
+TEST_F(ViewBrowser, ShowsLargePicturesByTiles) {
+  const std::vector<std::string> browser = chromium(folder_.path("profile"));
+  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  const std::vector<std::string> names = {"lat-long", "cube-3x2"};
+  for (const std::string& name : names) {
+    ask(add(name + ".png", camera_of(projection_named(name)), Layout::kTopBottom), looks_in(projection_named(name)));
+    jobs_.back()["paging"] = {{"tile", 128}, {"coarse", 256}, {"budget", 24 * 160 * 160 * 4 * 1.35}};
+  }
+  ASSERT_EQ(run(browser), "ok");
+  for (size_t i = 0; i < names.size(); i++) expect_looks(i, looks_in(projection_named(names[i])), names[i] + " by tiles");
+}
+
+TEST_F(ViewBrowser, IsExactAtRestAndQuickBefore) {
+  const std::vector<std::string> browser = chromium(folder_.path("profile"));
+  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  const size_t item = add("picture.png", camera_of(projection_named("lat-long")), Layout::kTopBottom);
+  jobs_.push_back({{"item", item}, {"rest", true}});
+  EXPECT_EQ(run(browser), "ok");
+}
+
 // What an EXR says of its camera: a lens of its own, and eyes that converge.
 TEST_F(ViewBrowser, ShowsTheFilesOwnCamera) {
   const std::vector<std::string> browser = chromium(folder_.path("profile"));
@@ -301,6 +325,37 @@ TEST_F(ViewBrowser, ShowsTheFilesOwnCamera) {
   ASSERT_EQ(run(browser), "ok");
   expect_looks(0, looks_in(lens.projection), "lens");
   expect_looks(1, kAround, "toe-in");
+}
+
+// Light comes as it is: the page applies exposure and tone curve as the library does, up to what is far above white, and
+// divides the file as another layout has it.
+TEST_F(ViewBrowser, DevelopsLightAsTheLibraryDoes) {
+  const std::vector<std::string> browser = chromium(folder_.path("profile"));
+  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  const size_t item = add("light.exr", camera_of(projection_named("lat-long")), Layout::kTopBottom);
+  ASSERT_TRUE(has_light(items_[item]));
+  const Look look = {30, -10, 60};
+  const float exposures[] = {-2.0f, 0.0f, 1.0f, 4.0f};
+  for (const ToneCurve tone : kToneCurves) {
+    for (const float exposure : exposures) {
+      const std::string name = fmt::format("{}_{}", tone_curve_name(tone), exposure);
+      const Json asked = {{"name", name}, {"eye", kRight}, {"yaw", look.yaw}, {"pitch", look.pitch}, {"fov", look.fov}};
+      const Json choice = {{"exposure", exposure}, {"tone", tone_curve_name(tone)}};
+      jobs_.push_back({{"item", item}, {"choice", choice}, {"width", kWindow}, {"height", kWindow}, {"looks", {asked}}});
+    }
+  }
+  jobs_.push_back(jobs_[0]);
+  jobs_.back()["choice"]["layout"] = "bottom-top";
+  jobs_.back()["looks"][0]["name"] = "swapped";
+  ASSERT_EQ(run(browser), "ok");
+  const Image right = converted_light(pictures_[item], kRight, look), left = converted_light(pictures_[item], kLeft, look);
+  for (const ToneCurve tone : kToneCurves) {
+    for (const float exposure : exposures) {
+      const std::string name = fmt::format("{}_{}", tone_curve_name(tone), exposure);
+      EXPECT_GE(likeness(drawn(folder_.path(name)), shown(right, tone, exposure)), kAlike) << name;
+    }
+  }
+  EXPECT_GE(likeness(drawn(folder_.path("swapped")), shown(left, ToneCurve::kNeutral, -2.0f)), kAlike);
 }
 
 // Forwards, backwards, across key frames and by single steps: every frame is as bright as none of its neighbours.
@@ -370,7 +425,7 @@ TEST_F(ViewBrowser, LaysThePictureOutForAHeadsetsCompositor) {
     target.eyes = {kMono};
     target.mono_from = eye;
     const Conversion conversion = convert(pictures_[item], target);
-    const Image wanted = shown(images_of(conversion.rows)[0], false);
+    const Image wanted = shown(images_of(conversion.rows)[0], ToneCurve::kLinear);
     EXPECT_GE(likeness(drawn(folder_.path("layer"), eye * size.width, size), wanted), kAlike) << eye;
     EXPECT_LT(likeness(drawn(folder_.path("layer"), (1 - eye) * size.width, size), wanted), kAlike) << eye;
   }

@@ -4,6 +4,8 @@
 // Draws looks with the page's own modules and sends them to the server that asks for them: jobs.json is
 //   [{ item, choice, width, height, looks: [{ name, eye, yaw, pitch, fov, show, swap, moves, cheap }] }, ...]
 // where item is an index of view.json. Every look is sent to result/NAME as PNG, the end, or what failed, to done.
+// A job may have `paging` (pages.js), as if its picture were too large for the GPU. The job { item, rest: true } throws
+// where the viewer does not become exact at rest.
 // Looks at a video may have its `frame`, and `step` where it is to be reached by so many steps from the last one.
 // The job { item, layers: NAME } sends the equirect layer of a picture, as a headset's browser would be given it.
 // A job with `headset` shows its looks in an emulated headset instead; both eyes are sent, side by side. Its looks may
@@ -28,16 +30,19 @@ function makeCanvas({ width, height }) {
 
 let drawing; // one for all pictures: software compiles the shader for seconds
 
-async function draw(view, shader, { item, choice, width, height, looks }) {
+async function draw(view, shader, { item, choice, width, height, looks, paging }) {
   drawing ??= new Panorama(makeCanvas({ width, height }), shader);
   const panorama = drawing;
   const { canvas } = panorama;
   Object.assign(canvas, { width, height });
-  const picture = await openPicture(panorama, view, view.items[item], { choice });
+  const picture = await openPicture(panorama, view, view.items[item], { choice, paging });
+  if (paging) while (picture.pager.refine());
   for (const { name, eye = 0, show, swap, frame, step, moves, cheap, ...look } of looks) {
     if (frame !== undefined) await reach(picture, frame, step);
     picture.refresh?.();
-    panorama.draw(picture, { rays: raysOf(look, width / height), box: [0, 0, width, height], show, eye, swap, moves, cheap });
+    const options = { rays: raysOf(look, width / height), box: [0, 0, width, height], show, eye, swap, moves, cheap };
+    while (picture.pager?.look([options], 4));
+    panorama.draw(picture, options);
     await sendCanvas(canvas, name);
   }
   picture.free();
@@ -142,11 +147,38 @@ async function wear(view, shader, job) {
   await post('result/ended', String(viewer.session));
 }
 
+// The viewer draws quickly at first, and at rest exactly what one exact drawing shows; a movement interrupts it.
+async function rest(view, shader, { item }) {
+  const canvas = makeCanvas({ width: 200, height: 150 });
+  const viewer = new Viewer(canvas, view, shader, location.href);
+  const settled = () => new Promise((done) => viewer.addEventListener('settled', done, { once: true }));
+  const pixels = () => {
+    const { gl } = viewer.panorama;
+    const bytes = new Uint8Array(4 * canvas.width * canvas.height);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+    return bytes.join();
+  };
+  for (const mode of ['left', 'side-by-side', 'anaglyph']) {
+    viewer.set({ mode, yaw: 20 });
+    if (!viewer.picture) await viewer.open(item);
+    await settled();
+    const atRest = pixels();
+    viewer.paint(0, {});
+    if (pixels() !== atRest) throw new Error(`${mode}: not exact at rest`);
+    viewer.set({ yaw: 40 });
+    await new Promise((done) => viewer.panorama.finished(() => new Promise(requestAnimationFrame)).then(done));
+    const moving = pixels();
+    viewer.paint(0, {});
+    if (pixels() === moving) throw new Error(`${mode}: exact while it moves`);
+  }
+}
+
 async function run() {
   const jobs = await json('jobs.json');
   if (jobs[0]?.studio) return (await import('./studio-test.js')).testStudio();
   const [view, shader] = [await json('view.json'), await loadShader(location.href)];
-  for (const job of jobs) await (job.headset ? wear : job.layers ? layOut : draw)(view, shader, job);
+  for (const job of jobs) await (job.headset ? wear : job.rest ? rest : job.layers ? layOut : draw)(view, shader, job);
 }
 
 run().then(() => post('done', 'ok'), (error) => post('done', `${error.message}\n${error.stack}`));
