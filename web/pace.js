@@ -10,7 +10,7 @@ const PATIENCE = 2000; // milliseconds from a step down to the next try; twice a
 export class Pace {
   // period: milliseconds of a frame that is in time.
   constructor(period = 1000 / 60) {
-    Object.assign(this, { period, level: 0, times: [], before: 0, until: 0, wait: PATIENCE });
+    Object.assign(this, { period, level: 0, times: [], before: 0, until: 0, wait: PATIENCE, stuck: 0 });
   }
 
   // scale: of the canvas; cheap: as panorama.js.
@@ -24,14 +24,11 @@ export class Pace {
     if (this.times.length < COUNT) return;
     const median = this.times.sort((a, b) => a - b)[COUNT / 2];
     this.times = [];
-    if (median > 1.7 * this.period) {
-      const helped = !this.before || median < 0.9 * this.before;
-      const by = helped ? Number(this.level + 1 < LEVELS.length) : -1;
-      this.before = by > 0 ? median : 0;
-      if (!by || (by > 0 && now < this.stuck)) return;
-      this.level += by;
-      if (by < 0) this.stuck = now + 5 * PATIENCE;
-      Object.assign(this, { until: now + this.wait, wait: Math.min(2 * this.wait, 32 * PATIENCE) });
+    const isLate = median > 1.7 * this.period;
+    if (isLate && this.before && median > 0.9 * this.before) {
+      Object.assign(this, { level: this.level - 1, before: 0, stuck: now + 5 * PATIENCE });
+    } else if (isLate && now >= this.stuck && this.level + 1 < LEVELS.length) {
+      Object.assign(this, { level: this.level + 1, before: median, until: now + this.wait, wait: Math.min(2 * this.wait, 32 * PATIENCE) });
     } else {
       this.before = 0;
       if (median < 1.2 * this.period && this.level && now > this.until) this.level--;

@@ -11,6 +11,7 @@
 // A job with `headset` shows its looks in an emulated headset instead; both eyes are sent, side by side. Its looks may
 // have `press` and `stick`: what a hand does to its controller first. The job { studio: true } runs studio-test.js instead.
 import { Headset } from './headset.js';
+import { Pace } from './pace.js';
 import { Panorama, loadShader, raysOf } from './panorama.js';
 import { openPicture } from './picture.js';
 import { Viewer } from './viewer.js';
@@ -147,8 +148,28 @@ async function wear(view, shader, job) {
   await post('result/ended', String(viewer.session));
 }
 
+// Steps down where frames are late, as far as it helps, and up again where there is time.
+function testPace() {
+  let now = 0;
+  const after = (pace, frames, time) => {
+    for (let i = 0; i < frames; i++) {
+      now += time(pace.how);
+      pace.took(time(pace.how), now);
+    }
+    return pace.level;
+  };
+  const pace = new Pace();
+  if (after(pace, 100, () => 17) !== 0) throw new Error('pace: steps down without need');
+  if (after(pace, 100, ({ scale, cheap }) => (cheap ? 40 : 80) * scale * scale + 2) !== 2) throw new Error('pace: does not find the first level in time');
+  if (after(pace, 1000, () => 17) !== 0) throw new Error('pace: does not step up again');
+  if (after(new Pace(), 200, () => 50) > 1) throw new Error('pace: goes on where it does not help');
+  const strange = new Pace();
+  for (let i = 0; i < 500; i++) if (after(strange, 1, () => 5 + ((i * 37) % 90)) > 3 || !strange.how) throw new Error('pace: no such level');
+}
+
 // The viewer draws quickly at first, and at rest exactly what one exact drawing shows; a movement interrupts it.
 async function rest(view, shader, { item }) {
+  testPace();
   const canvas = makeCanvas({ width: 200, height: 150 });
   const viewer = new Viewer(canvas, view, shader, location.href);
   const settled = () => new Promise((done) => viewer.addEventListener('settled', done, { once: true }));
