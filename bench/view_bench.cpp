@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a frame of the viewer costs, in CPU milliseconds of a Chromium whose GPU is software: while it moves, at rest, and
-// beside both the plainest shader for a lat-long picture, one bilinear look-up, in the same run.
+// What a frame of the viewer costs, in CPU milliseconds of a Chromium whose GPU is software: while it moves, at rest,
+// and beside both the plainest shader for a lat-long picture, one bilinear look-up, in the same run.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -188,9 +188,11 @@ const bool registered = [] {
   for (const Case& each : {Case{"lat-long", "lat-long", {4096, 2048}}, Case{"toe-in", "lat-long", {4096, 2048}, true},
                            Case{"cube", "cube-3x2", {3072, 2048}}, Case{"eac", "eac", {3072, 2048}},
                            Case{"vr180", "vr180", {2048, 2048}}, Case{"fisheye", "fisheye", {2048, 2048}}}) {
-    benchmark::RegisterBenchmark((std::string("frame/") + each.name).c_str(), [each](benchmark::State& state) {
-      frame(state, each.projection, each.eye, each.is_toed_in);
-    })->Iterations(1)->Unit(benchmark::kSecond);
+    benchmark::RegisterBenchmark(
+        (std::string("frame/") + each.name).c_str(),
+        [each](benchmark::State& state) { frame(state, each.projection, each.eye, each.is_toed_in); })
+        ->Iterations(1)
+        ->Unit(benchmark::kSecond);
   }
   return true;
 }();

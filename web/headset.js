@@ -3,6 +3,7 @@
 //
 // The picture in a headset, by WebXR. Only the orientation of each eye's view counts: every direction shows exactly the
 // line of sight that the picture has there, wherever the head is.
+import { Pace } from './pace.js';
 
 // What the buttons do, for the page's help.
 export const BUTTONS = [
@@ -16,6 +17,8 @@ export const BUTTONS = [
   ['A or X', 'swap the eyes'],
   ['B or Y', 'leave'],
 ];
+const RATE = 90; // frames per second, where the headset offers it
+const FOVEATION = 0.5; // how much coarser the edge of the view may be, 0..1: the middle is drawn pixel by pixel
 const HOLD = 800; // milliseconds until a trigger or a pinch counts as held
 const STICK = 0.7; // of its way
 
@@ -51,19 +54,24 @@ export class Headset {
     session.addEventListener('end', () => this.ended());
     await gl.makeXRCompatible();
     this.space = await session.requestReferenceSpace('local');
-    const layer = new XRWebGLLayer(session, gl, { alpha: false, antialias: false, depth: false, stencil: false });
+    const isQuick = session.supportedFrameRates?.includes(RATE);
+    if (isQuick) session.updateTargetFrameRate(RATE).catch(() => {});
+    const framebufferScaleFactor = XRWebGLLayer.getNativeFramebufferScaleFactor?.(session) ?? 1;
+    const layer = new XRWebGLLayer(session, gl, { alpha: false, antialias: false, depth: false, stencil: false, framebufferScaleFactor });
+    if (typeof layer.fixedFoveation === 'number') layer.fixedFoveation = FOVEATION;
     session.updateRenderState({ baseLayer: layer });
     session.addEventListener('selectstart', ({ inputSource }) => this.pressed.set(inputSource, performance.now()));
     session.addEventListener('select', ({ inputSource }) => this.select(inputSource));
     session.addEventListener('squeeze', ({ inputSource }) => this.viewer.go(inputSource.handedness === 'left' ? -1 : 1));
-    Object.assign(this, { session, turn: 0, held: new Map() });
+    Object.assign(this, { session, turn: 0, held: new Map(), last: 0 });
+    this.pace = new Pace(1000 / (isQuick ? RATE : (session.frameRate ?? RATE)));
     this.viewer.session = session;
     this.viewer.say('change');
     if (this.wants.layers) {
       const { EyeLayers, hasLayers } = await import('./layers.js');
       if (hasLayers(session)) this.layers = new EyeLayers(session, gl, this.space);
     }
-    session.requestAnimationFrame((now, frame) => this.frame(frame));
+    session.requestAnimationFrame((now, frame) => this.frame(frame, now));
     return session;
   }
 
@@ -76,9 +84,11 @@ export class Headset {
     this.viewer.say('change');
   }
 
-  frame(frame) {
+  frame(frame, now) {
     const { session, viewer } = this;
-    session.requestAnimationFrame((now, next) => this.frame(next));
+    session.requestAnimationFrame((then, next) => this.frame(next, then));
+    if (this.last) this.pace.took(now - this.last, now);
+    this.last = now;
     this.listen();
     this.pose = frame.getViewerPose(this.space) ?? this.pose;
     const { picture, panorama, state } = viewer;
@@ -95,16 +105,17 @@ export class Headset {
     if (!picture) return;
     const parts = [];
     for (const view of this.pose.views) {
+      view.requestViewportScale?.(this.pace.how.scale);
       const { x, y, width, height } = layer.getViewport(view);
       const options = {
         rays: raysOfView(view, this.turn), box: [x, y, width, height], eye: view.eye === 'right' ? 1 : 0,
-        swap: state.swap, grid: state.grid, moves: true, target: layer.framebuffer,
+        swap: state.swap, grid: state.grid, moves: true, cheap: this.pace.how.cheap, target: layer.framebuffer,
       };
       panorama.draw(picture, options);
       parts.push(options);
       steering?.draw(panorama, raysOfView(view, 0), this.pose, options);
     }
-    picture.pager?.follow(parts, performance.now());
+    picture.pager?.follow(parts, now);
   }
 
   // Turns the picture so that its middle is where the head points.

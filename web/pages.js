@@ -8,7 +8,7 @@ import { BORDER, EyeTexture, paintTile } from './tiles.js';
 
 const TILE = 1024; // texels, without the border
 const COARSE = 2048; // texels of the coarse picture around the horizon, at most
-export const BUDGET = 160e6; // bytes of an eye's tiles
+export const BUDGET = 120e6; // bytes of an eye's tiles
 const ASKED = [96, 54]; // pixels of a view that are asked which tiles they need
 const PAUSE = 100; // milliseconds between questions
 

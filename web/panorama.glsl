@@ -353,10 +353,10 @@ vec2 moved(vec2 move, vec3 label, vec3 label_move, vec2 size) {
   return move;
 }
 
-// texel: the size of one; dx, dy: as light_of(), in texels.
-vec3 sampled(sampler2DArray tiles, vec3 at, vec2 texel, vec2 dx, vec2 dy) {
-  if (!kCheap) return textureGrad(tiles, at, dx * texel, dy * texel).rgb;
-  return textureLod(tiles, at, 0.25 * log2(max(dot(dx, dx) * dot(dy, dy), 1.0))).rgb;
+// dx, dy: how far the place moves from pixel to pixel, as parts of a layer; square: of the texels that the pixel covers.
+vec3 sampled(sampler2DArray tiles, vec3 at, vec2 dx, vec2 dy, float square) {
+  if (!kCheap) return textureGrad(tiles, at, dx, dy).rgb;
+  return textureLod(tiles, at, 0.5 * log2(max(square, 1.0))).rgb;
 }
 
 // As light_of(), with the GPU's filter.
@@ -368,7 +368,7 @@ vec4 quick_light_of(int which, vec3 label) {
   float large = max(dot(dx, dx), dot(dy, dy));
   float inset = sqrt(clamp(large, 1.0, 256.0));
   if (is_cube(kKind)) place.at = clamp(place.at, place.low + inset - 0.5, place.high - inset + 0.5);
-  float square = max(min(dot(dx, dx), dot(dy, dy)), large / 16.0);
+  float square = max(min(dot(dx, dx), dot(dy, dy)), large / 9.0);
   if (kAsk) {
     vec2 cell = cell_of(which, clamp(place.at, vec2(0.0), eyes[which].size));
     return vec4(cell / 255.0, place.seen && !is_coarse(which, square * ask_scale * ask_scale) ? 1.0 : 0.0, 1.0);
@@ -377,12 +377,15 @@ vec4 quick_light_of(int which, vec3 label) {
   bool is_of_coarse = kPaged && spot.down > 0;
   vec2 layer = is_of_coarse ? coarse_size(which) : layer_size(which);
   vec3 at = vec3(spot.at / layer, float(spot.layer));
-  if (kPaged) dx *= exp2(-float(spot.down)), dy *= exp2(-float(spot.down));
+  float part = kPaged ? exp2(-float(spot.down)) : 1.0;
+  dx *= part / layer;
+  dy *= part / layer;
+  square *= part * part;
   vec3 light;
-  if (is_of_coarse && kBoth && which == 1) light = sampled(coarse_1, at, 1.0 / layer, dx, dy);
-  else if (is_of_coarse) light = sampled(coarse_0, at, 1.0 / layer, dx, dy);
-  else if (kBoth && which == 1) light = sampled(tiles_1, at, 1.0 / layer, dx, dy);
-  else light = sampled(tiles_0, at, 1.0 / layer, dx, dy);
+  if (is_of_coarse && kBoth && which == 1) light = sampled(coarse_1, at, dx, dy, square);
+  else if (is_of_coarse) light = sampled(coarse_0, at, dx, dy, square);
+  else if (kBoth && which == 1) light = sampled(tiles_1, at, dx, dy, square);
+  else light = sampled(tiles_0, at, dx, dy, square);
   return place.seen ? vec4(developed(light), cover_of(which, place)) : vec4(vec3(kNothing), kOver ? 0.0 : 1.0);
 }
 

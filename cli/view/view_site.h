@@ -22,7 +22,8 @@ class ViewSite {
   ViewSite(std::vector<ods::ViewItem> items, const std::optional<SceneSource>& scene);
 
   // Thread-safe. "" is the page; alive says that we are; item/N/left.jpg takes exposure, tone, width, and layout and
-  // projection where the page's user knows better; item/N/preview.jpg and item/N/thumbnail.jpg. Throws UsageError for a query that makes no sense.
+  // projection where the page's user knows better; item/N/preview.jpg and item/N/thumbnail.jpg. Throws UsageError for a
+  // query that makes no sense.
   WebAnswer answer(const WebRequest& request);
 
   // Of the studio, for studio/drop; null if there is none.
@@ -44,7 +45,8 @@ class ViewSite {
   std::vector<std::vector<std::string>> files_;  // of each, behind all links
   std::unique_ptr<Studio> studio_;
   std::mutex of_small_;  // they are made one at a time, beside the others
-  std::map<std::string, std::pair<std::filesystem::file_time_type::rep, std::string>> small_;  // and when the file was written
+  std::map<std::string, std::pair<std::filesystem::file_time_type::rep, std::string>>
+      small_;                 // and when the file was written
   std::mutex one_at_a_time_;  // each uses all processors, and a picture's memory
   std::string opened_;
   std::shared_ptr<const ods::StoredPicture> picture_;

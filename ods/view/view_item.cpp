@@ -213,7 +213,8 @@ static Image small_image(const std::string& path, int width, const std::array<do
         const std::byte* const from = band.data() + row * static_cast<size_t>(y - begin) +
                                       static_cast<size_t>(std::min(left + x, info.width - 1)) * channels * sample;
         for (size_t c = 0; c < 3; c++) {
-          image.at(x / divide, (y - top) / divide)[c] += sample_value(info.samples[0], from + (is_grey ? 0 : c * sample));
+          image.at(x / divide, (y - top) / divide)[c] +=
+              sample_value(info.samples[0], from + (is_grey ? 0 : c * sample));
         }
       }
     }

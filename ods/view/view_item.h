@@ -49,8 +49,8 @@ bool has_preview(const ViewItem& item, bool is_live);
 std::string preview_jpeg(const ViewItem& item);
 std::string thumbnail_jpeg(const ViewItem& item);
 
-// Whether an item's light is sent as it is, and what is sent: a PNG of both eyes, twice as wide. Its left half has the high
-// bytes of the halves of R, G and B, its right half the low ones. The eyes are as view.json's "light_layout" says.
+// Whether an item's light is sent as it is, and what is sent: a PNG of both eyes, twice as wide. Its left half has the
+// high bytes of the halves of R, G and B, its right half the low ones. The eyes are as view.json's "light_layout" says.
 bool has_light(const ViewItem& item);
 std::string light_png(const StoredPicture& picture);
 

@@ -404,7 +404,8 @@ TEST_F(View, ExportIsAFolderOfItsOwn) {
   ASSERT_EQ(run("convert " + picture + " -q -o " + light), 0) << err;
   EXPECT_EQ(run("view " + picture + " " + light + " --export " + site), 0) << err;
   EXPECT_EQ(out, site + "/view.json\n");
-  for (const char* file : {"index.html", "view.json", "item/0/picture.png", "item/1/left.jpg", "item/1/right.jpg", "item/0/thumbnail.jpg", "item/1/light.png"}) {
+  for (const char* file : {"index.html", "view.json", "item/0/picture.png", "item/1/left.jpg", "item/1/right.jpg",
+                           "item/0/thumbnail.jpg", "item/1/light.png"}) {
     EXPECT_TRUE(std::filesystem::exists(site + "/" + file)) << file;
   }
 }

@@ -112,6 +112,7 @@ async function wear(view, shader, job) {
   const { XRDevice, metaQuest3 } = await import('./iwer.module.js');
   const device = new XRDevice(metaQuest3);
   device.installRuntime({ forceInstall: true });
+  XRWebGLLayer.prototype.fixedFoveation = 0; // which the emulation lacks
   device.stereoEnabled = true;
   device.fovy = Math.PI / 2;
   device.position.set(3, 1.6, -2); // which must not matter
@@ -126,6 +127,10 @@ async function wear(view, shader, job) {
     const next = () => (count-- > 0 && headset.session ? headset.session.requestAnimationFrame(next) : done());
     next();
   });
+  await frames(2);
+  const { frameRate, renderState: { baseLayer } } = headset.session;
+  if (frameRate !== 90) throw new Error(`the headset shows ${frameRate} pictures per second`);
+  if (!(baseLayer.fixedFoveation > 0)) throw new Error('the edge of the view is drawn as finely as its middle');
   for (const { name, press, stick, ...look } of job.looks) {
     orient(device.quaternion, look);
     await frames(2);
