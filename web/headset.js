@@ -6,6 +6,7 @@
 // page's canvas shows what the left eye sees.
 import { boxOf, modeOf, wornEye } from './modes.js';
 import { raysOf } from './panorama.js';
+import { Pace } from './pace.js';
 
 // What the buttons do, for the page's help.
 export const BUTTONS = [
@@ -21,6 +22,8 @@ export const BUTTONS = [
   ['A or X', 'swap the eyes'],
   ['B or Y', 'leave'],
 ];
+const RATE = 90; // frames per second, where the headset offers it
+const FOVEATION = 0.5; // how much coarser the edge of the view may be, 0..1: the middle is drawn pixel by pixel
 const HOLD = 800; // milliseconds until a trigger or a pinch counts as held
 const STICK = 0.7; // of its way
 const MIRROR = 100; // milliseconds between pictures for the page
@@ -76,9 +79,14 @@ export class Headset {
     session.addEventListener('end', () => this.ended());
     await gl.makeXRCompatible();
     this.space = await session.requestReferenceSpace('local');
-    const layer = new XRWebGLLayer(session, gl, { alpha: false, antialias: false, depth: false, stencil: false });
+    const isQuick = session.supportedFrameRates?.includes(RATE);
+    if (isQuick) session.updateTargetFrameRate(RATE).catch(() => {});
+    const framebufferScaleFactor = XRWebGLLayer.getNativeFramebufferScaleFactor?.(session) ?? 1;
+    const layer = new XRWebGLLayer(session, gl, { alpha: false, antialias: false, depth: false, stencil: false, framebufferScaleFactor });
+    if (typeof layer.fixedFoveation === 'number') layer.fixedFoveation = FOVEATION;
     session.updateRenderState({ baseLayer: layer });
-    Object.assign(this, { session, turn: 0, held: new Map(), pressed: new Map(), gripped: new Map() });
+    Object.assign(this, { session, turn: 0, held: new Map(), pressed: new Map(), gripped: new Map(), last: 0 });
+    this.pace = new Pace(1000 / (isQuick ? RATE : (session.frameRate ?? RATE)));
     this.listenToHands();
     this.viewer.session = session;
     this.viewer.say('change');
@@ -106,6 +114,8 @@ export class Headset {
   frame(now, frame) {
     const { session, viewer } = this;
     session.requestAnimationFrame((...next) => this.frame(...next));
+    if (this.last) this.pace.took(now - this.last, now);
+    this.last = now;
     this.listen();
     this.pose = frame.getViewerPose(this.space) ?? this.pose;
     if (!this.pose || !this.session) return;
@@ -126,11 +136,14 @@ export class Headset {
     gl.bindFramebuffer(gl.FRAMEBUFFER, layer.framebuffer);
     gl.clearColor(0.1, 0.1, 0.1, 1);
     gl.clear(gl.COLOR_BUFFER_BIT);
+    const parts = [];
     for (const view of this.pose.views) {
+      view.requestViewportScale?.(this.pace.how.scale);
       const { x, y, width, height } = layer.getViewport(view);
-      if (picture) this.drawPicture(view, [x, y, width, height], layer.framebuffer);
+      if (picture) parts.push(this.drawPicture(view, [x, y, width, height], layer.framebuffer));
       this.drawPanel(view, [x, y, width, height], layer.framebuffer);
     }
+    picture?.pager?.follow(parts, now);
   }
 
   // The page looks where the head does.
@@ -142,10 +155,12 @@ export class Headset {
   drawPicture(view, box, target) {
     const { viewer, viewer: { picture, panorama, state } } = this;
     const options = {
-      rays: raysOfView(view, this.turn), box, eye: wornEye(state, indexOf(view)), swap: state.swap, grid: state.grid, fast: true, target,
+      rays: raysOfView(view, this.turn), box, eye: wornEye(state, indexOf(view)), swap: state.swap, grid: state.grid,
+      moves: true, cheap: this.pace.how.cheap, target,
     };
     panorama.draw(picture, options);
     if (viewer.scene) viewer.steering?.draw(panorama, raysOfView(view, 0), this.pose, options);
+    return options;
   }
 
   drawPanel(view, box, target) {
@@ -171,7 +186,7 @@ export class Headset {
     for (const { at, eye, show } of modeOf(state.mode).parts(now)) {
       const box = boxOf(at, canvas);
       const rays = (turn) => raysOf({ ...state, yaw: state.yaw - degrees(turn) }, box[2] / box[3]);
-      if (picture) panorama.draw(picture, { rays: rays(0), box, eye, show, swap: state.swap, grid: state.grid, fast: true });
+      if (picture) panorama.draw(picture, { rays: rays(0), box, eye, show, swap: state.swap, grid: state.grid, moves: true });
       this.panel?.draw({ rays: rays(this.turn), eye: [x, y, z], index: 0, box, target: null });
     }
   }

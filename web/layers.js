@@ -70,7 +70,7 @@ export class EyeLayers {
       const { x, y, width, height } = part.viewport;
       panorama.draw(picture, {
         rays: [1, 0, 0, 0, 1, 0, 0, 0, -1], box: [x, y, width, height], eye: wornEye(state, eye), swap: state.swap, grid: state.grid,
-        target: this.target, all: true,
+        target: this.target, all: true, moves: Boolean(picture.video),
       });
     }
     return true;

@@ -85,7 +85,7 @@ class Stereo360 extends HTMLElement {
     const answer = await fetch(table);
     if (!answer.ok) throw new Error(`${table.pathname} did not load (${answer.status}). Export it with ods view --export.`);
     const view = await answer.json();
-    view.items.forEach((item) => ['image', 'left', 'right'].forEach((file) => item[file] && (item[file] = new URL(item[file], table).href)));
+    view.items.forEach((item) => ['image', 'left', 'right', 'light', 'preview', 'thumbnail'].forEach((file) => item[file] && (item[file] = new URL(item[file], table).href)));
     const viewer = new Viewer(this.canvas, view, await loadShader(), document.baseURI);
     followPointer(viewer);
     viewer.addEventListener('failed', ({ detail }) => this.fail(detail));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/view/export_site.h"
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "ods/files/atomic_file.h"
@@ -27,6 +28,10 @@ static void write_eyes(const ViewItem& item, const std::vector<std::string>& fil
   options.format = item.known;
   options.color_only = true;
   const ods::StoredPicture picture = ods::open_picture(item.path, options);
+  if (has_light(item)) {
+    const std::string beside = std::filesystem::path(files[0]).parent_path().string();
+    ods::write_file(folder + "/" + beside + "/light.png", light_png(picture));
+  }
   for (size_t i = 0; i < files.size(); i++) {
     ods::write_file(folder + "/" + files[i], eye_jpeg(picture, picture.eyes[i].eye, {}));
   }
@@ -39,6 +44,9 @@ std::string export_site(const std::vector<ViewItem>& items, const std::string& f
   }
   for (size_t i = 0; i < items.size(); i++) {
     const std::vector<std::string> files = item_files(items[i], i);
+    const std::string beside = folder + "/" + std::filesystem::path(files[0]).parent_path().string();
+    if (has_preview(items[i], false)) ods::write_file(beside + "/preview.jpg", preview_jpeg(items[i]));
+    ods::write_file(beside + "/thumbnail.jpg", thumbnail_jpeg(items[i]));
     items[i].has_own_file ? copy_file(items[i].path, folder + "/" + files[0]) : write_eyes(items[i], files, folder);
   }
   const std::string view = folder + "/view.json";

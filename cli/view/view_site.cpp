@@ -102,6 +102,15 @@ std::shared_ptr<const StoredPicture> ViewSite::open(const ViewItem& item, const 
   return picture_;
 }
 
+std::string ViewSite::kept_jpeg(const std::string& path, const ViewItem& item, std::string (*make)(const ViewItem&)) {
+  std::error_code fault;  // of a pair, which has no file of this name: it is made anew with ods view
+  const auto written = std::filesystem::last_write_time(item.path, fault).time_since_epoch().count();
+  const std::lock_guard<std::mutex> lock(of_small_);
+  auto& [when, jpeg] = small_[path];
+  if (jpeg.empty() || when != written) jpeg = make(item), when = written;
+  return jpeg;
+}
+
 WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
   const std::optional<size_t> number = item_number(path);
   const std::optional<ViewItem> found = number ? item_at(*number) : std::nullopt;
@@ -110,7 +119,17 @@ WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
   if (item.has_own_file && path == item_files(item, *number)[0]) {
     return {.type = std::string(ods::media_type(path)), .file = item.path};
   }
+  for (const auto make : {ods::preview_jpeg, ods::thumbnail_jpeg}) {
+    const bool is_preview = make == ods::preview_jpeg;
+    if (path != fmt::format("item/{}/{}.jpg", *number, is_preview ? "preview" : "thumbnail")) continue;
+    if (is_preview && !ods::has_preview(item, true)) return nothing_there();
+    return {.type = std::string(ods::media_type(path)), .body = kept_jpeg(path, item, make)};
+  }
   if (item.is_video) return nothing_there();
+  if (ods::has_light(item) && path == fmt::format("item/{}/light.png", *number)) {
+    const std::lock_guard<std::mutex> lock(one_at_a_time_);
+    return {.type = std::string(ods::media_type(path)), .body = light_png(*open(item, request))};
+  }
   for (const int eye : {ods::kLeft, ods::kRight, ods::kMono}) {
     if (path == fmt::format("item/{}/{}.heat.png", *number, ods::eye_name(eye))) {
       const std::lock_guard<std::mutex> lock(one_at_a_time_);

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <thread>
 
+#include "ods/image/image_file.h"
 #include "tests/support/programs.h"
 #include "tests/support/served.h"
 
@@ -43,6 +44,35 @@ TEST_F(ViewCommand, ServesThePageAndWhatItShows) {
   EXPECT_EQ(status_of(part), 206);
   EXPECT_TRUE(part.ends_with("\r\n\r\nPNG"));
   EXPECT_NE(get("item/0/left.jpg?width=64").find("\xff\xd8\xff"), std::string::npos);
+  EXPECT_NE(view.find("\"thumbnail\":\"item/0/thumbnail.jpg\""), std::string::npos);
+  EXPECT_NE(get("item/0/thumbnail.jpg").find("\xff\xd8\xff"), std::string::npos);
+  EXPECT_EQ(status_of(get("item/0/preview.jpg")), 404) << "the picture is small";
+}
+
+// Of a large JPEG a small one is there at once.
+TEST_F(ViewCommand, ServesSmallCopies) {
+  const std::string large = folder.path("large_360_TB.jpg"), light = folder.path("light.exr");
+  ASSERT_EQ(run("testcard -q --width 2048 -o " + large), 0) << err;
+  ASSERT_EQ(run("convert " + picture + " -q -o " + light), 0) << err;
+  Served::TearDown();
+  serve({large, light, picture});
+  const std::string view = get("view.json");
+  EXPECT_NE(view.find("\"preview\":\"item/0/preview.jpg\""), std::string::npos);
+  EXPECT_EQ(view.find("\"preview\":\"item/1/"), std::string::npos);
+  EXPECT_NE(view.find("\"light\":\"item/1/light.png\""), std::string::npos);
+  const auto size_of = [this](const std::string& path) {
+    folder.write("copy", body_of(get(path)));
+    const ods::FileInfo info = ods::read_info(folder.path("copy"));
+    return std::pair(info.width, info.height);
+  };
+  EXPECT_EQ(size_of("item/0/preview.jpg"), std::pair(1024, 1024));
+  EXPECT_EQ(size_of("item/0/thumbnail.jpg"), std::pair(256, 128));
+  EXPECT_EQ(size_of("item/1/thumbnail.jpg"), std::pair(256, 128));
+  EXPECT_EQ(size_of("item/1/light.png"), std::pair(512, 256));
+  EXPECT_EQ(status_of(get("item/0/light.png")), 404);
+  EXPECT_EQ(size_of("item/2/thumbnail.jpg"), std::pair(256, 128));
+  ASSERT_EQ(run("testcard -q --width 128 -o " + picture), 0) << err;
+  EXPECT_EQ(size_of("item/2/thumbnail.jpg"), std::pair(128, 64)) << "the file was written anew";
 }
 
 TEST_F(ViewCommand, AnswersNobodyElse) {
@@ -408,7 +438,8 @@ TEST_F(View, ExportIsAFolderOfItsOwn) {
   ASSERT_EQ(run("convert " + picture + " -q -o " + light), 0) << err;
   EXPECT_EQ(run("view " + picture + " " + light + " --export " + site), 0) << err;
   EXPECT_EQ(out, site + "/view.json\n");
-  for (const char* file : {"index.html", "view.json", "item/0/picture.png", "item/1/left.jpg", "item/1/right.jpg"}) {
+  for (const char* file : {"index.html", "view.json", "item/0/picture.png", "item/1/left.jpg", "item/1/right.jpg",
+                           "item/0/thumbnail.jpg", "item/1/light.png"}) {
     EXPECT_TRUE(std::filesystem::exists(site + "/" + file)) << file;
   }
 }
