@@ -21,8 +21,7 @@
 #include "tests/support/cli_runner.h"
 #include "tests/support/picture_rows.h"
 
-namespace ods {
-namespace {
+namespace ods::headset_browser_test {
 
 constexpr Extent kEye{256, 256};  // pixels of what is sent, 90 degrees wide
 constexpr auto kPatience = std::chrono::seconds(290);
@@ -196,5 +195,4 @@ TEST(HeadsetPanel, IsAsFarAwayAsEyesLikeIt) {
   EXPECT_LT(std::abs(1.0 / metres - 1.0 / double{viewer.focus}), 0.1) << "dioptres between converging and focusing";
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::headset_browser_test
