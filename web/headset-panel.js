@@ -131,7 +131,10 @@ export class HeadsetPanel {
     const gaze = this.pointer(null, pose);
     if (!isLed) this.pointers = [gaze];
     this.stay(!isLed || !this.isOpen ? gaze : { control: null }, seconds);
-    for (const { source, hit } of this.pointers) if (hit && this.held.has(source)) this.drag(this.held.get(source), hit, false);
+    for (const { source, hit } of this.pointers) {
+      const held = this.held.get(source);
+      if (hit && held?.drag) this.drag(Object.assign(held, { hit }), hit, false);
+    }
   }
 
   // Once per look, or again and again where that makes sense.
@@ -158,18 +161,18 @@ export class HeadsetPanel {
     if (!pose) return false;
     const { hit, control } = this.pointer(source, pose);
     if (!hit?.isInside || !(this.isOpen || this.isSought)) return false;
-    this.held.set(source, control ?? {});
+    this.held.set(source, { ...control, hit });
     if (control?.drag) this.drag(control, hit, false);
     return true;
   }
 
-  // isDone: the source was let go, and not taken away.
+  // isDone: the source was let go, and not taken away. Its pose may be gone with it: then its last one counts.
   release(source, pose, isDone) {
     const held = this.held.get(source);
     this.held.delete(source);
-    if (!held || !pose) return;
-    const { hit, control } = this.pointer(source, pose);
-    if (held.drag && hit) this.drag(held, hit, true);
+    if (!held) return;
+    const { hit, control } = pose ? this.pointer(source, pose) : held;
+    if (held.drag) this.drag(held, hit ?? held.hit, true);
     else if (isDone && held.run && (control?.id === held.id || source.targetRayMode === 'transient-pointer')) held.run();
   }
 

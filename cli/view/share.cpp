@@ -71,6 +71,5 @@ WebAnswer Share::wait(const std::string& id, uint64_t after) {
   };
   forget_the_silent();
   came_.wait_for(lock, kPatience, gather);
-  return {.type = "application/json",
-          .body = fmt::format("{{\"number\":{},\"messages\":{{{}}}}}", number_, messages)};
+  return {.type = "application/json", .body = fmt::format("{{\"number\":{},\"messages\":{{{}}}}}", number_, messages)};
 }

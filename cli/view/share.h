@@ -15,8 +15,8 @@
 
 class Share {
  public:
-  // A POST with a page's message, a JSON object, or a GET that waits a few seconds for messages of other pages than `id`
-  // that came `after` a number. Thread-safe. Throws UsageError and Error(kInput) for what makes no sense.
+  // A POST with a page's message, a JSON object, or a GET that waits a few seconds for messages of other pages than
+  // `id` that came `after` a number. Thread-safe. Throws UsageError and Error(kInput) for what makes no sense.
   WebAnswer answer(const WebRequest& request);
 
   // How many pages share at present.

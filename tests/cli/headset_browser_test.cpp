@@ -39,7 +39,8 @@ class HeadsetBrowser : public Cli {
   }
 
   void make_all() {
-    for (const char* name : {"first_360_TB.png", "second_360_TB.png", "third_360_TB.png", "fourth_360_TB.png"}) make(name);
+    for (const char* name : {"first_360_TB.png", "second_360_TB.png", "third_360_TB.png", "fourth_360_TB.png"})
+      make(name);
     make("light.exr");
     make("film_360_TB.mp4", "--video --duration 5 --fps 10 --width 256");
   }
@@ -142,7 +143,8 @@ double brightness(const Image& image) {
   return sum / (rows * image.width);
 }
 
-// Every control does what it says, by ray, look, hand and pinch; the panel is where it says, and each eye sees it there.
+// Every control does what it says, by ray, look, hand and pinch; the panel is where it says, and each eye sees it
+// there.
 TEST_F(HeadsetBrowser, EveryControlOfThePanelDoesWhatItSays) {
   make_all();
   ASSERT_EQ(run_part("panel"), "ok");
@@ -153,7 +155,8 @@ TEST_F(HeadsetBrowser, EveryControlOfThePanelDoesWhatItSays) {
   EXPECT_GT(likeness(seen("left", 0, {128, 128}), seen("left", 128, {128, 128})), 60.0) << "one eye's picture for both";
   EXPECT_NEAR(brightness(left) / brightness(seen("left", 0, {128, 128})), 0.35, 0.03) << "the picture behind is dimmed";
   const auto expected = [this](const std::string& eye) {
-    const std::string name = eye + ".png", mono = "-q --mono --to perspective --fov 90 --yaw 25 --pitch 10 --width 128 ";
+    const std::string name = eye + ".png",
+                      mono = "-q --mono --to perspective --fov 90 --yaw 25 --pitch 10 --width 128 ";
     EXPECT_EQ(run("convert " + mono + "--eyes " + eye + " " + items[0].path + " -o " + folder.path(name)), 0) << err;
     return seen(name, 0, {128, 128});
   };

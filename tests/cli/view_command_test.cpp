@@ -218,9 +218,9 @@ TEST_F(ViewCommand, SharesNothingThatIsNoMessage) {
     EXPECT_EQ(status_of(get(fmt::format("share?id={}", id))), 400) << id;
   }
   const std::string deep = std::string(8000, '[') + std::string(8000, ']');
-  for (const std::string& wrong : {std::string(), std::string("[]"), std::string("{"), std::string("{}{}"),
-                                   std::string("1"), "{\"a\":" + deep + "}", std::string("{\"a\":1e999}"),
-                                   "{\"a\":\"" + std::string(20'000, 'a') + "\"}"}) {
+  for (const std::string& wrong :
+       {std::string(), std::string("[]"), std::string("{"), std::string("{}{}"), std::string("1"),
+        "{\"a\":" + deep + "}", std::string("{\"a\":1e999}"), "{\"a\":\"" + std::string(20'000, 'a') + "\"}"}) {
     EXPECT_EQ(status_of(post("share?id=a", wrong)), 400) << wrong.substr(0, 40);
   }
   EXPECT_EQ(status_of(post("share?id=a", std::string(1 << 20, 'a'))), 413);
