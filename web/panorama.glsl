@@ -47,7 +47,7 @@ void main() {
   screen = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
   if (cells > 0) screen = vec2(gl_VertexID % (cells + 1), gl_VertexID / (cells + 1)) * (2.0 / float(cells)) - 1.0;
   label_0 = label_of(0, rays * vec3(screen, 1.0));
-  label_1 = label_of(1, rays * vec3(screen, 1.0));
+  label_1 = ODS_BOTH ? label_of(1, rays * vec3(screen, 1.0)) : label_0;
   gl_Position = vec4(screen, 0.0, 1.0);
 }
 

@@ -4,7 +4,7 @@
 // Draws stereo panoramas with WebGL 2. panorama.glsl finds the texels with the formulas of the renderer itself; this
 // file makes a program of it for each projection, sets its uniforms and knows no formula.
 const TOE_IN = 1; // of the kernel's convergences: the only one whose lines of sight are not linear across the view
-const CELLS = 64; // of the mesh for those, each way
+const CELLS = 32; // of the mesh for those, each way
 const VERTICES = `#version 300 es
 out vec2 screen;
 void main() {
@@ -73,6 +73,7 @@ export class Panorama {
     const { gl } = this;
     this.background = gl.getExtension('KHR_parallel_shader_compile');
     this.hasLight = Boolean(gl.getExtension('EXT_color_buffer_float')); // textures of halves can be drawn into
+    this.cheap = null;
     this.programs = new Map();
     this.maps = new Map();
     gl.bindVertexArray(gl.createVertexArray());
@@ -80,6 +81,17 @@ export class Panorama {
     const row = CELLS + 1;
     const corners = Array.from({ length: CELLS * CELLS }, (_, i) => i + Math.floor(i / CELLS));
     gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, new Uint16Array(corners.flatMap((i) => [i, i + 1, i + row, i + row, i + 1, i + row + 1])), gl.STATIC_DRAW);
+  }
+
+  // A slow GPU need not mix two mip levels.
+  bindSamplers(cheap) {
+    const { gl } = this;
+    if (cheap && !this.cheap) {
+      this.cheap = gl.createSampler();
+      gl.samplerParameteri(this.cheap, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_NEAREST);
+      for (const axis of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.samplerParameteri(this.cheap, axis, gl.CLAMP_TO_EDGE);
+    }
+    for (const unit of [0, 1]) gl.bindSampler(unit, cheap ? this.cheap : null);
   }
 
   // The program for a picture and options of drawOne(), compiled when it is first asked for.
@@ -166,7 +178,7 @@ export class Panorama {
   // canvas. clip: a part of the box, for all that is drawn. all: the whole sphere as a lat-long picture instead. ask: which
   // tiles are needed instead, for a view that is askScale times as wide.
   drawOne(picture, options) {
-    const { rays, box, clip = box, show = 'eye', eye = 0, swap = false, moves = false, target = null, all = false, askScale = 1 } = options;
+    const { rays, box, clip = box, show = 'eye', eye = 0, swap = false, moves = false, cheap = false, target = null, all = false, askScale = 1 } = options;
     const { gl } = this;
     const shown = show === 'eye' ? [eye, eye] : [0, 1];
     const eyes = shown.map((side) => picture.eyes[swap ? 1 - side : side]);
@@ -182,6 +194,7 @@ export class Panorama {
       gl.activeTexture(gl.TEXTURE0 + i);
       gl.bindTexture(gl.TEXTURE_2D_ARRAY, each.texture);
     });
+    this.bindSamplers(cheap);
     if (picture.pager) this.bindPages(eyes);
     this.bindMap(2, picture.camera.merge_map);
     this.bindMap(3, picture.camera.head_tilt_map);
@@ -193,6 +206,7 @@ export class Panorama {
     });
     if (cells) gl.drawElements(gl.TRIANGLES, 6 * cells * cells, gl.UNSIGNED_SHORT, 0);
     else gl.drawArrays(gl.TRIANGLES, 0, 3);
+    this.bindSamplers(false);
     gl.disable(gl.SCISSOR_TEST);
     gl.disable(gl.BLEND);
   }

@@ -267,7 +267,8 @@ std::string light_png(const StoredPicture& picture) {
 }
 
 std::string preview_jpeg(const ViewItem& item) {
-  return small_jpeg(item.path, kPreviewWidth, {0.0, 0.0, 1.0, 1.0});
+  const double eye = eye_part(item.picture.layout, static_cast<int>(item.picture.eyes.size()), 0)[2];
+  return small_jpeg(item.path, static_cast<int>(std::lround(kPreviewWidth / eye)), {0.0, 0.0, 1.0, 1.0});
 }
 
 std::string thumbnail_jpeg(const ViewItem& item) {

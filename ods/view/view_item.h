@@ -38,7 +38,7 @@ std::string view_json(std::span<const ViewItem> items, bool is_live, const Json&
 // and item/0/right.jpg.
 std::vector<std::string> item_files(const ViewItem& item, size_t index);
 
-constexpr int kPreviewWidth = 1024, kThumbnailWidth = 256;  // pixels, at least and at most twice as much
+constexpr int kPreviewWidth = 1024, kThumbnailWidth = 256;  // pixels of an eye, up to twice as many
 
 // Whether there is a preview, which view.json names: a small copy of a file that browsers read, both eyes as they are.
 // is_live: as view_json().
