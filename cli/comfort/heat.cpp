@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "cli/console/console.h"
+#include "ods/base/median.h"
 #include "ods/files/atomic_file.h"
 #include "ods/files/file_input.h"
 #include "ods/files/private_folder.h"
@@ -17,11 +19,27 @@
 static constexpr ods::vec3 kColors[] = {{0, 0, 0}, {1.0f, 0.75f, 0.05f}, {1.0f, 0.22f, 0.0f}, {0.75f, 0.0f, 0.03f}};
 static constexpr float kHot = 0.7f;  // how much of a pixel's colour is its level's
 
+static float grey_of(const ods::Image& light, size_t pixel) {
+  const float* from = &light.pixels[3 * pixel];
+  return ods::luminance(ods::vec3(from[0], from[1], from[2]));
+}
+
+// What makes half of the picture darker than a middle grey, and half lighter.
+static float exposure_of(const ods::Image& light) {
+  constexpr size_t kStep = 7;
+  constexpr float kMiddle = 0.18f, kMost = 64.0f;
+  std::vector<float> greys;
+  for (size_t k = 0; k < light.pixels.size() / 3; k += kStep) {
+    if (const float grey = grey_of(light, k); grey > 0.0f) greys.push_back(grey);
+  }
+  return greys.empty() ? 1.0f : std::min(kMiddle / ods::median(std::move(greys)), kMost);
+}
+
 ods::Image heat_of(const Judged& judged, const ods::ComfortReport& report) {
+  const float exposure = exposure_of(judged.light);
   ods::Image heat(judged.light.width, judged.light.height, 3);
   for (size_t k = 0; k < report.level.pixels.size(); k++) {
-    const float* from = &judged.light.pixels[3 * k];
-    const float grey = ods::luminance(ods::vec3(from[0], from[1], from[2]));
+    const float grey = exposure * grey_of(judged.light, k);
     const float light = grey > 0.0f ? 0.6f * std::min(grey, 1.0f) : 0.0f;
     const auto color = static_cast<size_t>(report.level.pixels[k]);
     for (int c = 0; c < 3; c++) {

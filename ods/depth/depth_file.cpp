@@ -29,6 +29,7 @@ namespace {
 // A word of the header, which one blank ends.
 std::string next_word(const std::string& head, size_t& at) {
   const auto is_blank = [](char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; };
+  at = std::min(at, head.size());  // a word before was the last
   while (at < head.size() && is_blank(head[at])) at++;
   const size_t start = at;
   while (at < head.size() && !is_blank(head[at])) at++;

@@ -149,6 +149,7 @@ TEST_F(ConvertDepth, MistakesHaveTheirExitCodes) {
   folder.write("zero.pfm", "Pf\n4 2\n-1\n" + std::string(32, '\0'));
   folder.write("square.pfm", "Pf\n2 2\n-1\n" + std::string(16, 'A'));
   folder.write("broken.npy", "\x93NUMPY");
+  folder.write("broken.pfm", "Pf\n16" + std::string(250, 'x'));
   const std::tuple<const char*, int, const char*> kFaults[] = {
       {"@panorama.png --eyes both", 2, "--depth FILE"},
       {"@panorama.png --ipd 0.06 --eyes both", 2, "--depth FILE"},
@@ -157,6 +158,7 @@ TEST_F(ConvertDepth, MistakesHaveTheirExitCodes) {
       {"@panorama.png --depth @zero.pfm", 3, "0 everywhere"},
       {"@panorama.png --depth @square.pfm", 3, "another shape"},
       {"@panorama.png --depth @broken.npy", 3, "broken.npy"},
+      {"@panorama.png --depth @broken.pfm", 3, "broken.pfm"},
       {"@panorama.png --depth @panorama.png", 3, "colours"},
       {"@panorama.png --depth @depth.exr --depth-kind relative", 2, "both ends"},
       {"@panorama.png --depth @depth.exr --depth-along axis", 2, "no axis"},

@@ -230,38 +230,6 @@ TEST(SaveRows, EveryCodeValueComesBack) {
   }
 }
 
-// Two views in layers that have names, as Blender writes stereo.
-TEST(OpenPicture, ReadsBothViewsOfBlender) {
-  const TemporaryFolder folder;
-  ExrForm form;
-  form.width = 64, form.height = 32, form.channels.clear();
-  for (const std::string view : {"left", "right"}) {
-    for (const std::string channel : {"A", "B", "G", "R"})
-      form.channels.push_back("Scene.Combined." + view + "." + channel);
-    form.channels.push_back("Scene.CryptoObject00." + view + ".r");
-    form.channels.push_back("Scene.Depth." + view + ".Z");
-  }
-  form.types.assign(form.channels.size(), Imf::FLOAT);
-  std::vector<float> values;
-  for (int i = 0; i < 64 * 32; i++) {
-    for (size_t c = 0; c < form.channels.size(); c++) values.push_back(static_cast<float>(c) + 1.0f);
-  }
-  write_exr_of(folder.path("a.exr"), form, values);
-  const StoredPicture picture = open_picture(folder.path("a.exr"));
-  EXPECT_EQ(picture.layout, Layout::kMultiview);
-  ASSERT_EQ(picture.eyes.size(), 2u);
-  for (size_t eye = 0; eye < 2; eye++) {
-    const std::vector<LayerPixels>& layers = picture.eyes[eye].layers;
-    ASSERT_EQ(layers.size(), 3u);
-    const float first = 6.0f * static_cast<float>(eye);
-    EXPECT_EQ(value_at(layers[0], 5, 7, 0), first + 4.0f) << "R";
-    EXPECT_EQ(layers[1].channels, std::vector<std::string>{"Scene.CryptoObject00.r"});
-    EXPECT_EQ(layers[2].channels, std::vector<std::string>{"Scene.Depth.Z"});
-    EXPECT_EQ(value_at(layers[2], 5, 7, 0), first + 6.0f);
-    EXPECT_EQ(layers[2].rule, LayerRule::kNearest);
-  }
-}
-
 TEST(OpenPicture, ReadsWhatOthersWrite) {
   const TemporaryFolder folder;
   std::vector<float> values;
