@@ -67,8 +67,9 @@ void Converter::fill_stretch(const Row& row, const Stretch& stretch, const Texel
     vec2 places[kAlike];
     for (int k = 0; k < alike; k++) places[k] = stretch.at(static_cast<float>(i + k) * stretch.per_pixel);
     const float middle = static_cast<float>(i) + 0.5f * static_cast<float>(alike - 1);
-    const Footprint footprint = stretch.footprint(middle * stretch.per_pixel);
-    const bool together = run.add(texel_tents(footprint), {places, static_cast<size_t>(alike)}, pixel_of(row, x + i));
+    const std::optional<TexelTents> tents =
+        stretch.is_sharp ? TexelTents() : texel_tents(stretch.footprint(middle * stretch.per_pixel));
+    const bool together = run.add(tents, {places, static_cast<size_t>(alike)}, pixel_of(row, x + i));
     for (int k = 0; k < alike; k++) {
       if (!together) fill_alone(run, row, stretch, i + k);
       resampler_.finish({stretch.source_eye, places[k], true}, pixel_of(row, x + i + k));
@@ -85,6 +86,7 @@ void Converter::fill_alone(PixelRun& run, const Row& row, const Stretch& stretch
   const int x = stretch.x + i;
   float* pixel = pixel_of(row, x);
   if (run.add(texel_tents(footprint), {&place.at, 1}, pixel)) return;
+  std::fill_n(pixel, channels_, 0.0f);
   std::vector<FilterPoint> points;
   filter_points(footprint, points);
   const bool is_near = points.size() == 1 || stays_in_cell(place, stretch.cell, points);
@@ -103,6 +105,7 @@ void Converter::fill_alone(PixelRun& run, const Row& row, const Stretch& stretch
 
 void Converter::fill_single(const Row& row, const RowPlan& plan, const SinglePixel& single) const {
   float* pixel = pixel_of(row, single.x);
+  std::fill_n(pixel, channels_, 0.0f);
   for (size_t i = single.first; i < single.first + single.count; i++) {
     const WeightedPlace& at = plan.places[i];
     resampler_.add(at.place, mapping_.source_cell(at.place), at.weight, pixel);
@@ -130,7 +133,9 @@ class BlockBounds {
     for (const float t : {0.0f, 0.5f * end, end}) {
       const vec2 at = stretch.at(t);
       const Footprint footprint = stretch.footprint(t);
-      const vec2 reach = abs(footprint.dx) + abs(footprint.dy) + 3.0f;
+      const float kCubic = 2.0f, kBetween = 0.25f;  // how far places may be beyond these three
+      const vec2 tents = stretch.is_sharp ? vec2(0.0f) : abs(footprint.dx) + abs(footprint.dy);
+      const vec2 reach = tents + kCubic + kBetween;
       low_ = min(low_, at - reach), high_ = max(high_, at + reach);
     }
   }
@@ -159,6 +164,13 @@ class BlockBounds {
 Converter::Converter(const ConversionPlan& plan, const TexelReader& reader)
     : plan_(plan), mapping_(plan.mapping), resampler_(plan.mapping.source, reader), channels_(resampler_.channels()) {}
 
+// Whether every pixel of a row of this width is filled.
+static bool covers(const RowPlan& plan, int width) {
+  size_t pixels = plan.singles.size();
+  for (const Stretch& stretch : plan.stretches) pixels += static_cast<size_t>(stretch.count);
+  return pixels == static_cast<size_t>(width);
+}
+
 void Converter::fill_band(int index, int y, int count, std::span<float> rows) const {
   constexpr int kColumns = 64;
   constexpr size_t kMostRows = 32;
@@ -170,7 +182,9 @@ void Converter::fill_band(int index, int y, int count, std::span<float> rows) co
   const auto row_of = [&](int i) { return Row{index, y + i, rows.subspan(static_cast<size_t>(i) * width, width)}; };
   thread_local TexelBlock block;
   std::array<size_t, kMostRows> begin{}, end{};  // of each row's stretches in the columns
-  std::fill(rows.begin(), rows.end(), 0.0f);
+  for (int i = 0; i < count; i++) {
+    if (!covers(plan_of(i), mapping_.size.width)) clear(row_of(i).pixels);
+  }
   for (int column = kColumns; column < mapping_.size.width + kColumns; column += kColumns) {
     BlockBounds bounds;
     for (int i = 0; i < count; i++) {

@@ -62,6 +62,9 @@ static std::optional<Stretch> find_stretch(const Node& first, const Node& middle
   const float most = pixels > 2 * kShortStretch ? 8.0f / static_cast<float>(pixels) : 1.0f;
   if (length(stretch.bend) > most * (1.0f + 0.1f * texels) || turn > most * (0.25f + 0.25f * length(stretch.down[1])))
     return {};
+  // Between two sharp footprints all are: those whose ellipse is within a circle are a convex set.
+  const auto is_sharp = [&](float t) { return texel_tents(stretch.footprint(t)) == TexelTents(); };
+  stretch.is_sharp = is_sharp(0.0f) && is_sharp(1.0f) && is_sharp(2.0f);
   return stretch;
 }
 

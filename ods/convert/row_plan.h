@@ -19,9 +19,10 @@ struct Stretch {
   Cell cell;        // in the source
   float per_pixel;  // step of t from one pixel to the next
   vec2 start;
-  vec2 step;     // from the start to the middle
-  vec2 bend;     // difference between the second step and the first
-  vec2 down[3];  // offset to the place one pixel below, for each of the three
+  vec2 step;              // from the start to the middle
+  vec2 bend;              // difference between the second step and the first
+  vec2 down[3];           // offset to the place one pixel below, for each of the three
+  bool is_sharp = false;  // the picture is only interpolated everywhere (TexelTents())
 
   // `t`: 0 at the start, 1 in the middle, 2 at the end. Footprints change slowly.
   vec2 at(float t) const { return start + step * t + bend * (0.5f * t * (t - 1.0f)); }

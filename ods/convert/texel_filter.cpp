@@ -182,11 +182,13 @@ struct Axis {
 ODS_WIDE static void interpolate(const Axis& axis) {
   Position positions[kMaxAlike];
   for (size_t i = 0; i < kMaxAlike; i++) positions[i] = split(axis.places[i]);
+  Four weights = cubic_weights(positions[0].beyond);
   for (size_t i = 0; i < axis.filters.size(); i++) {
     TexelWeights& to = axis.filters[i].*axis.weights;
     to.first = positions[i].texel - 1;
     to.count = 4;
-    const Four weights = cubic_weights(positions[i].beyond);
+    // A row that is level in the picture has the same weights everywhere.
+    if (i > 0 && positions[i].beyond != positions[i - 1].beyond) weights = cubic_weights(positions[i].beyond);
     std::memcpy(to.weights, &weights, sizeof weights);
   }
 }

@@ -38,6 +38,8 @@ void filter_points(const Footprint& footprint, std::vector<FilterPoint>& points)
 struct TexelTents {
   float across = 0.0f;  // squared radius of the tents, in texels; 0: the picture is only interpolated
   float down = 0.0f;
+
+  bool operator==(const TexelTents&) const = default;
 };
 
 // Empty for other footprints and for very large ones.

@@ -126,6 +126,26 @@ TEST(Filter, PixelsOfARowAreWhatTheyAreAlone) {
   }
 }
 
+// Of noise, where the cubic often leaves the range of a row, and the rows beside it decide how far it may go.
+TEST(Filter, PlacesOnARowOfTexelsAreWhatAllRowsGive) {
+  const MadePicture made = noisy_picture();
+  const Source source = make_source(made.picture);
+  const Resampler resampler(source);
+  std::vector<vec2> places;
+  std::vector<TexelFilter> filters(100);
+  for (size_t i = 0; i < filters.size(); i++) {
+    places.emplace_back(10.0f + 0.37f * static_cast<float>(i), 9.5f);
+    texel_filters({}, {&places[i], 1}, &filters[i]);
+  }
+  std::vector<float> row(filters.size() * 14);
+  resampler.fill(0, filters, row.data());
+  for (size_t i = 0; i < filters.size(); i++) {
+    std::vector<float> all(14);
+    resampler.add({0, places[i], true}, {0, 0, 64, 32}, 1.0f, all.data());
+    for (size_t c = 0; c < 14; c++) EXPECT_EQ(row[i * 14 + c], all[c]) << i << " " << c;
+  }
+}
+
 // Each point of a pixel's filter for itself, and all at once. Of a ramp, in which nothing is cut.
 TEST(Filter, ColumnsAndRowsAreThePointsTogether) {
   MadePicture made = make_picture(StereoCamera(), {64, 32}, {kMono});

@@ -158,9 +158,9 @@ std::shared_ptr<VideoFrame> FrameConverter::convert(const DecodedFrame& frame, c
       pixels.resize(out.size());
       converter.fill_band(i, y, count, pixels);
       if (corrects_colors(state.video.prototype, state.target, i)) correct_colors(state.target.right, 3, pixels);
-      if (!state.stream.words.is_hdr()) video_codes(pixels, pixels.data());
       for (size_t row = 0; row < static_cast<size_t>(count); row++) {
-        const float* pixel = &pixels[3 * width * row];
+        float* pixel = &pixels[3 * width * row];
+        if (!state.stream.words.is_hdr()) video_codes({pixel, 3 * width}, pixel);
         float* to = &out[3 * width * row];
         for (size_t x = 0; x < width; x++, pixel += 3)
           to[x] = pixel[0], to[x + width] = pixel[1], to[x + 2 * width] = pixel[2];
