@@ -40,6 +40,8 @@ uniform sampler2D merge_texels;
 uniform sampler2D head_tilt_texels;
 uniform mat3 rays;        // a pixel at (x, y), both -1..1, looks along rays * (x, y, 1) in the picture's frame
 uniform bool all_around;  // the view is a lat-long picture of the whole sphere instead
+uniform float bend;       // 0: perspective; 0.25: stereographic, a little planet
+uniform float shift;      // radians by which the left eye's picture turns to the left, the right eye's to the right
 uniform vec2 viewport;    // pixels
 uniform int mode;
 uniform int eye;          // for kOneEye
@@ -57,7 +59,14 @@ float camera_map_texel(Camera a_camera, int which, int i) {
 
 vec3 direction_at(vec2 at) {
   if (all_around) return look_at_angles(at.x * kPi, at.y * 0.5 * kPi).direction;
-  return rays * vec3(at, 1.0);
+  vec3 aside = rays * vec3(at, 0.0);
+  return aside + rays[2] * (1.0 - bend * dot(aside, aside));
+}
+
+// Where an eye's picture has what the view shows along a direction.
+vec3 shifted(int which, vec3 direction) {
+  float turn = which == kLeft ? shift : -shift;
+  return vec3(cos(turn) * direction.x - sin(turn) * direction.z, direction.y, sin(turn) * direction.x + cos(turn) * direction.z);
 }
 
 // --- where ----------------------------------------------------------------------------------------------------------
@@ -276,7 +285,7 @@ void main() {
   vec3 dy = direction_at(screen - vec2(0.0, 2.0 / viewport.y)) - direction;
   vec4 light[2];
   for (int i = 0; i < 2; i++) {
-    if (mode != kOneEye || i == eye) light[i] = light_of(i, direction, dx, dy);
+    if (mode != kOneEye || i == eye) light[i] = light_of(i, shifted(i, direction), shifted(i, dx), shifted(i, dy));
   }
   vec3 shown;
   if (mode == kOneEye) shown = encode(light[eye].rgb);

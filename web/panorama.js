@@ -37,15 +37,21 @@ export function compile(gl, fragment) {
   return program;
 }
 
+// Half of a view's width where what is straight ahead has the scale 1, and the angle of view of one.
+export const halfWidth = (fov, planet) => (planet ? 2 * Math.tan((fov * Math.PI) / 720) : Math.tan((fov * Math.PI) / 360));
+export const fovOf = (wide, planet) => (planet ? 4 * Math.atan(wide / 2) : 2 * Math.atan(wide)) * (180 / Math.PI);
+// Of the stereographic view (panorama.frag); 0: none.
+export const bendOf = ({ planet }) => (planet ? 0.25 : 0);
+
 // The columns of a matrix that turns a place on the screen (-1..1) into a direction. yaw to the right, pitch up, roll
-// clockwise, in degrees; fov: the horizontal angle of view; aspect: width over height.
-export function raysOf({ yaw = 0, pitch = 0, roll = 0, fov = 90 }, aspect) {
+// clockwise, in degrees; fov: the horizontal angle of view; aspect: width over height. planet: the view is stereographic.
+export function raysOf({ yaw = 0, pitch = 0, roll = 0, fov = 90, planet = false }, aspect) {
   const [y, p, r] = [yaw, pitch, roll].map((angle) => (angle * Math.PI) / 180);
   const [sy, cy, sp, cp, sr, cr] = [Math.sin(y), Math.cos(y), Math.sin(p), Math.cos(p), Math.sin(r), Math.cos(r)];
   const right = [cy, 0, sy];
   const up = [-sy * sp, cp, cy * sp];
   const ahead = [sy * cp, sp, -cy * cp];
-  const wide = Math.tan((fov * Math.PI) / 360);
+  const wide = halfWidth(fov, planet);
   const mix = (a, b, size) => right.map((x, i) => (x * a + up[i] * b) * size);
   return [...mix(cr, -sr, wide), ...mix(sr, cr, wide / aspect), ...ahead];
 }
@@ -118,8 +124,9 @@ export class Panorama {
 
   // Draws a view of a picture: `show` is eye, anaglyph or difference; `eye` is 0 for left, 1 for right.
   // rays: as raysOf(). box: x, y, width, height in pixels of the target, from its lower left corner. swap: exchanges
-  // the eyes. target: a framebuffer, or null for the canvas. clip: a part of the box, for all that is drawn.
-  drawOne(picture, { rays, box, clip = box, show = 'eye', eye = 0, swap = false, grid = false, fast = false, target = null, all = false }) {
+  // the eyes. target: a framebuffer, or null for the canvas. clip: a part of the box, for all that is drawn. bend: bendOf().
+  // shift: radians by which the left eye's picture turns to the left, and the right eye's to the right.
+  drawOne(picture, { rays, box, clip = box, show = 'eye', eye = 0, swap = false, grid = false, fast = false, target = null, all = false, bend = 0, shift = 0 }) {
     const { gl } = this;
     const eyes = swap ? [picture.eyes[1], picture.eyes[0]] : picture.eyes;
     gl.bindFramebuffer(gl.FRAMEBUFFER, target);
@@ -137,7 +144,7 @@ export class Panorama {
     this.bindMap(3, picture.camera.head_tilt_map);
     this.set({
       camera: picture.camera, merge_texels: 2, head_tilt_texels: 3, eyes: eyes.map((each) => each.uniforms), left_tiles: 0, right_tiles: 1, rays,
-      all_around: all, viewport: box.slice(2), mode: MODES[show], eye, mono: picture.mono, fast, grid,
+      all_around: all, viewport: box.slice(2), mode: MODES[show], eye, mono: picture.mono, fast, grid, bend, shift: picture.mono ? 0 : shift,
       over: Boolean(picture.below), below: picture.below ?? picture.camera.projection,
     });
     gl.drawArrays(gl.TRIANGLES, 0, 3);

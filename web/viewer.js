@@ -5,7 +5,7 @@
 // controls. Events: `change` (the state, or the video's), `loading` (detail: 0..1, null at the end), `open`, `failed`
 // (detail: one line for people).
 import { boxOf, modeOf } from './modes.js';
-import { Panorama, raysOf } from './panorama.js';
+import { Panorama, bendOf, raysOf } from './panorama.js';
 import { openPicture } from './picture.js';
 
 const KEEP = 64e6; // texels: a smaller picture stays on screen until the next one is there
@@ -18,7 +18,8 @@ export class Viewer extends EventTarget {
   constructor(canvas, view, shader, base) {
     super();
     Object.assign(this, { canvas, view, base, picture: null, item: -1, session: null });
-    this.state = { yaw: 0, pitch: 0, roll: 0, fov: 90, mode: 'left', swap: false, grid: false };
+    this.state = { yaw: 0, pitch: 0, roll: 0, fov: 90, mode: 'left', swap: false, grid: false, planet: false, shift: 0 };
+    this.compare = null; // compare.js
     this.scene = null; // of the studio: what is live instead of an item
     this.choice = {}; // layout, projection, exposure, tone, where they are not the item's own
     this.panorama = new Panorama(canvas, shader);
@@ -61,7 +62,8 @@ export class Viewer extends EventTarget {
     const { state } = this;
     state.yaw = wrapDegrees(state.yaw);
     state.pitch = clamp(state.pitch, -90, 90);
-    state.fov = clamp(state.fov, 5, 150);
+    state.fov = clamp(state.fov, 5, state.planet ? 330 : 150);
+    state.shift = clamp(state.shift, -5, 5);
     this.redraw();
     this.say('change');
   }
@@ -82,11 +84,16 @@ export class Viewer extends EventTarget {
     panorama.clear();
     if (!picture) return;
     picture.refresh?.();
+    this.compare?.before(picture);
+    const shift = (state.shift * Math.PI) / 360; // half of it for each eye
     for (const { at, eye, show } of modeOf(state.mode).parts(now)) {
       const box = boxOf(at, canvas);
       if (box[2] < 1 || box[3] < 1) continue;
-      panorama.draw(picture, { rays: raysOf(state, box[2] / box[3]), box, eye, show, swap: state.swap, grid: state.grid });
+      panorama.draw(picture, {
+        rays: raysOf(state, box[2] / box[3]), box, eye, show, swap: state.swap, grid: state.grid, bend: bendOf(state), shift,
+      });
     }
+    this.compare?.after(now);
   }
 
   get about() {
@@ -152,6 +159,6 @@ export class Viewer extends EventTarget {
   // What is on the canvas, as a PNG.
   async screenshot() {
     this.draw(performance.now());
-    return new Promise((done) => this.canvas.toBlob(done));
+    return new Promise((done) => (this.compare?.shown() ?? this.canvas).toBlob(done));
   }
 }

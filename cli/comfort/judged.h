@@ -9,6 +9,7 @@
 
 #include "cli/comfort/comfort_job.h"
 #include "ods/comfort/matched.h"
+#include "ods/picture/picture.h"
 
 struct Judged {
   ods::SeenDepth seen;
@@ -38,4 +39,5 @@ ods::Image light_of(const ods::Image& grey);
 ods::Image heat_of(const Judged& judged, const ods::ComfortReport& report);
 
 // reports: of each of the eyes.
+ods::Picture heat_picture(const Looked& looked, const std::vector<ods::ComfortReport>& reports);
 void save_heat(const std::string& path, const Looked& looked, const std::vector<ods::ComfortReport>& reports);

@@ -110,6 +110,9 @@ WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
     return {.type = std::string(ods::media_type(path)), .file = item.path};
   }
   if (item.is_video) return nothing_there();
+  if (path.ends_with("/comfort.json") || path.ends_with("/comfort-left.jpg") || path.ends_with("/comfort-right.jpg")) {
+    return comfort(item, path);
+  }
   for (const int eye : {ods::kLeft, ods::kRight, ods::kMono}) {
     if (path != fmt::format("item/{}/{}.jpg", *number, ods::eye_name(eye))) continue;
     const std::lock_guard<std::mutex> lock(one_at_a_time_);
@@ -117,6 +120,17 @@ WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
             .body = eye_jpeg(*open(item, request), eye, read_eye_options(request))};
   }
   return nothing_there();
+}
+
+WebAnswer ViewSite::comfort(const ViewItem& item, const std::string& path) {
+  const std::lock_guard<std::mutex> lock(one_at_a_time_);
+  if (judged_ != item.path) {
+    judged_.clear();
+    comfort_ = comfort_layer(item);
+    judged_ = item.path;
+  }
+  if (path.ends_with(".json")) return {.type = "application/json", .body = comfort_.json};
+  return {.type = "image/jpeg", .body = path.ends_with("left.jpg") ? comfort_.left : comfort_.right};
 }
 
 WebAnswer ViewSite::answer(const WebRequest& request) {

@@ -6,9 +6,6 @@
 // `ods view` itself, with its policy of what a page may load.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <condition_variable>
 #include <mutex>
@@ -23,6 +20,7 @@
 #include "ods/image/tone.h"
 #include "ods/video/make_video.h"
 #include "ods/view/page.h"
+#include "tests/support/browser.h"
 #include "tests/support/made_frames.h"
 #include "tests/support/picture_rows.h"
 #include "tests/support/stored_pictures.h"
@@ -133,70 +131,6 @@ Image drawn(const std::string& path, int column = 0, Extent size = {kWindow, kWi
 double likeness(const Image& a, const Image& b) {
   return compare_eyes({a}, {b}).whole.psnr;
 }
-
-// --- browsers -------------------------------------------------------------------------------------------------------
-
-std::string find_program(const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    std::istringstream path(std::getenv("PATH"));
-    for (std::string folder; std::getline(path, folder, ':');) {
-      if (access((folder + "/" + name).c_str(), X_OK) == 0) return folder + "/" + name;
-    }
-  }
-  return "";
-}
-
-std::vector<std::string> chromium(const std::string& profile) {
-  const std::string program =
-      find_program({"chromium", "chromium-browser", "google-chrome", "chromium-headless-shell"});
-  if (program.empty()) return {};
-  return {program,
-          "--headless",
-          "--no-sandbox",
-          "--use-angle=swiftshader",
-          "--enable-unsafe-swiftshader",
-          "--ignore-gpu-blocklist",
-          "--no-first-run",
-          "--disable-extensions",
-          "--user-data-dir=" + profile};
-}
-
-std::vector<std::string> firefox(const std::string& profile) {
-  const std::string program = find_program({"firefox-esr", "firefox"});
-  if (program.empty()) return {};
-  std::filesystem::create_directories(profile);
-  write_file(profile + "/user.js", "user_pref(\"webgl.force-enabled\", true);\n");  // in software
-  return {program, "--headless", "--no-remote", "--profile", profile};
-}
-
-// A browser and its children, until the end of its life.
-class Browser {
- public:
-  Browser(std::vector<std::string> words, const std::string& home, const std::string& address) {
-    words.push_back(address);
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    pid_ = fork();
-    if (pid_ != 0) return;
-    setpgid(0, 0);
-    setenv("HOME", home.c_str(), 1);
-    const int nowhere = open("/dev/null", O_WRONLY);
-    dup2(nowhere, STDOUT_FILENO);
-    dup2(nowhere, STDERR_FILENO);
-    execv(arguments[0], arguments.data());
-    _exit(127);
-  }
-  Browser(const Browser&) = delete;
-  Browser& operator=(const Browser&) = delete;
-  ~Browser() {
-    kill(-pid_, SIGKILL);
-    waitpid(pid_, nullptr, 0);
-  }
-
- private:
-  pid_t pid_ = -1;
-};
 
 // --- the harness ----------------------------------------------------------------------------------------------------
 

@@ -7,7 +7,8 @@
 // Looks at a video may have its `frame`, and `step` where it is to be reached by so many steps from the last one.
 // The job { item, layers: NAME } sends the equirect layer of a picture, as a headset's browser would be given it.
 // A job with `headset` shows its looks in an emulated headset instead; both eyes are sent, side by side. Its looks may
-// have `press` and `stick`: what a hand does to its controller first. The job { studio: true } runs studio-test.js instead.
+// have `press` and `stick`: what a hand does to its controller first. The job { studio: true } runs studio-test.js instead,
+// { page: NAME } a test of page-test.js.
 import { Headset } from './headset.js';
 import { Panorama, loadShader, raysOf } from './panorama.js';
 import { openPicture } from './picture.js';
@@ -144,6 +145,7 @@ async function wear(view, shader, job) {
 
 async function run() {
   const jobs = await json('jobs.json');
+  if (jobs[0]?.page) return (await import('./page-test.js')).testPage(jobs[0]);
   if (jobs[0]?.studio) return (await import('./studio-test.js')).testStudio();
   const [view, shader] = [await json('view.json'), await loadShader(location.href)];
   for (const job of jobs) await (job.headset ? wear : job.layers ? layOut : draw)(view, shader, job);

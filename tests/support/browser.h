@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Browsers without a screen, as programs: how they are started, and that they end.
+#pragma once
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "ods/files/atomic_file.h"
+
+namespace ods {
+
+inline std::string find_program(const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    std::istringstream path(std::getenv("PATH"));
+    for (std::string folder; std::getline(path, folder, ':');) {
+      if (access((folder + "/" + name).c_str(), X_OK) == 0) return folder + "/" + name;
+    }
+  }
+  return "";
+}
+
+inline std::vector<std::string> chromium(const std::string& profile) {
+  const std::string program =
+      find_program({"chromium", "chromium-browser", "google-chrome", "chromium-headless-shell"});
+  if (program.empty()) return {};
+  return {program,
+          "--headless",
+          "--no-sandbox",
+          "--use-angle=swiftshader",
+          "--enable-unsafe-swiftshader",
+          "--ignore-gpu-blocklist",
+          "--no-first-run",
+          "--disable-extensions",
+          "--user-data-dir=" + profile};
+}
+
+inline std::vector<std::string> firefox(const std::string& profile) {
+  const std::string program = find_program({"firefox-esr", "firefox"});
+  if (program.empty()) return {};
+  std::filesystem::create_directories(profile);
+  write_file(profile + "/user.js", "user_pref(\"webgl.force-enabled\", true);\n");  // in software
+  return {program, "--headless", "--no-remote", "--profile", profile};
+}
+
+// A program and its children, until the end of its life.
+class Browser {
+ public:
+  Browser(std::vector<std::string> words, const std::string& home, const std::string& address) {
+    words.push_back(address);
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    pid_ = fork();
+    if (pid_ != 0) return;
+    setpgid(0, 0);
+    setenv("HOME", home.c_str(), 1);
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
+    execv(arguments[0], arguments.data());
+    _exit(127);
+  }
+  // Waits for its end.
+  void finish() { waitpid(pid_, nullptr, 0), pid_ = -1; }
+  Browser(const Browser&) = delete;
+  Browser& operator=(const Browser&) = delete;
+  ~Browser() {
+    if (pid_ < 0) return;
+    kill(-pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+
+ private:
+  pid_t pid_ = -1;
+};
+
+}  // namespace ods
