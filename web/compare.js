@@ -16,7 +16,7 @@ const clamp = (value) => Math.min(Math.max(value, 0), 1);
 export class Compare {
   // end(): somebody closes it.
   constructor(player, end) {
-    Object.assign(this, { player, viewer: player.viewer, way: 'slider', split: 0.5, other: null, names: ['A', 'B'], timer: 0 });
+    Object.assign(this, { player, viewer: player.viewer, way: 'slider', split: 0.5, other: null, names: ['A', 'B'], timer: 0, blinked: 0, isOther: false });
     const element = document.createElement('div');
     element.id = 'compare';
     element.innerHTML = `<canvas hidden></canvas>
@@ -64,10 +64,12 @@ export class Compare {
   }
 
   // How much of the view is the left picture's.
-  splitAt(now) {
+  splitNow() {
     if (this.way === 'slider') return this.split;
-    if (this.way === 'blink') return Math.floor(now / BLINK) % 2;
-    return this.isSecond ? 0 : 1;
+    if (this.way === 'difference') return this.isSecond ? 0 : 1;
+    const now = performance.now();
+    if (now - this.blinked >= 0.9 * BLINK) Object.assign(this, { blinked: now, isOther: !this.isOther });
+    return this.isOther ? 0 : 1;
   }
 
   // --- for the viewer, around each drawing ---
@@ -75,7 +77,7 @@ export class Compare {
   before(picture) {
     if (this.other) picture.beside = this.other;
     this.other?.refresh?.();
-    picture.split = this.splitAt(performance.now());
+    picture.split = this.splitNow();
     if (this.way === 'blink') this.mark(picture.split ? 0 : 1);
   }
 

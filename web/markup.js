@@ -47,7 +47,7 @@ export const MARKUP = `
   ${check('device', 'Look by turning this device', ' id="device-row" hidden')}
   <div class="row"><button type="button" data-action="recentre">Recentre</button><button type="button" data-action="screenshot">Screenshot</button><button type="button" data-action="link">Copy link</button></div>
 </form>
-<dialog id="help" aria-labelledby="help-title">
+<dialog id="help" aria-labelledby="help-title" tabindex="-1">
   <form method="dialog"><button aria-label="Close" data-tip="Close" data-key="Esc">${icon('close')}</button></form>
   <h1 id="help-title">Help</h1>
   <p id="gestures"></p>

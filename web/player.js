@@ -107,6 +107,7 @@ export class Player {
   help() {
     this.controls.fillHelp();
     this.find('help').showModal();
+    this.find('help').focus(); // not its button, whose tooltip nobody asked for
   }
 
   // Slowly to the right, until somebody takes hold of the picture.

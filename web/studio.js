@@ -157,12 +157,12 @@ class Studio {
   }
 
   showScene() {
-    const { viewer, fail } = this.page;
+    const { viewer } = this.page;
     viewer.loading?.abort();
     viewer.close();
     viewer.item = -1;
     viewer.scene = this.scene;
-    fail('');
+    this.page.fail('');
     this.refresh();
     viewer.say('loading', null);
     viewer.say('open');

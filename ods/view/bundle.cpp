@@ -71,7 +71,7 @@ std::string bundle(const std::string& entry, std::map<std::string, std::string> 
   std::string modules;
   add(entry, known, modules);
   const std::string beginning(find_page_file("bundle.js")->data);
-  return fmt::format("// Made by ods view --export.\n(() => {{\n'use strict';\nconst $files = {};{}{}}})();\n",
+  return fmt::format("// Made by ods view from its modules.\n(() => {{\n'use strict';\nconst $files = {};{}{}}})();\n",
                      Json(files).dump(-1, ' ', true, Json::error_handler_t::replace),
                      std::regex_replace("\n" + beginning, kComment, ""), modules);
 }

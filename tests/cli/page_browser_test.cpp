@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <libdeflate.h>
 
+#include <array>
 #include <condition_variable>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -133,17 +134,17 @@ class PageBrowser : public ::testing::Test {
   std::string end_;
 };
 
-// Keys, tooltips, hotspots, comparing, little planet, contrast: in dark and in light.
+// Keys, tooltips, hotspots, comparing, little planet, contrast.
 TEST_F(PageBrowser, ThePageInTheDark) {
-  EXPECT_EQ(run({{"page", "page"}, {"scheme", "dark"}}, {"--blink-settings=preferredColorScheme=0"}), "ok");
+  EXPECT_EQ(run({{"page", "page"}}, {"--window-size=600,600", "--blink-settings=preferredColorScheme=0"}), "ok");
 }
 
 TEST_F(PageBrowser, ThePageInTheLight) {
-  EXPECT_EQ(run({{"page", "page"}, {"scheme", "light"}}, {"--blink-settings=preferredColorScheme=1"}), "ok");
+  EXPECT_EQ(run({{"page", "light"}}, {"--window-size=600,600", "--blink-settings=preferredColorScheme=1"}), "ok");
 }
 
 TEST_F(PageBrowser, ThePageOnAPhone) {
-  EXPECT_EQ(run({{"page", "page"}, {"scheme", ""}}, {"--window-size=500,800"}), "ok");  // Chromium's narrowest
+  EXPECT_EQ(run({{"page", "phone"}}, {"--window-size=500,800"}), "ok");  // Chromium's narrowest
 }
 
 TEST_F(PageBrowser, TheElementInOtherPages) {

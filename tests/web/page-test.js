@@ -144,11 +144,7 @@ async function testCompare(player) {
   expect(differs.every((value, i) => Math.abs(value - Math.min(255, 4 * Math.abs(left[i] - right[i]))) < 12), `${differs} is not the difference of ${left} and ${right}`);
   way('blink');
   const seen = new Set();
-  for (let i = 0; i < 40 && seen.size < 2; i++) {
-    await sleep(100);
-    seen.add(String(viewer.picture.split));
-  }
-  expect(seen.size === 2, 'nothing blinks');
+  await until(() => seen.add(String(viewer.picture.split)).size === 2, 'blinks');
   way('slider');
   expect(/beside=0/.test(location.hash) || (await until(() => /beside=0/.test(location.hash), 'says in its address what is compared')) === undefined, '');
   press('x');
@@ -181,9 +177,9 @@ async function testHelp(player) {
   find('help').close();
   expect(find('why').hidden === !find('reason').textContent, 'the reason');
   press('o');
-  await frame();
+  await until(() => find('settings').style.top, 'places the settings');
   const [settings, bar] = [find('settings').getBoundingClientRect(), find('bar').getBoundingClientRect()];
-  expect(settings.bottom <= bar.top && settings.top >= 0 && settings.right <= innerWidth, 'the settings are not above the bar');
+  expect(settings.bottom <= bar.top && settings.top >= 0 && settings.right <= innerWidth, `the settings are at ${settings.top} to ${settings.bottom}, the bar at ${bar.top}`);
   press('o');
 }
 
@@ -264,13 +260,18 @@ function testTouch(player) {
     const { width, height } = button.getBoundingClientRect();
     expect(!button.checkVisibility() || Math.min(width, height) >= 44, `${button.dataset.action ?? button.id} is ${width} x ${height}`);
   }
-  const bar = find('bar').getBoundingClientRect();
-  expect(bar.left >= 0 && bar.right <= innerWidth, 'the bar is wider than the window');
+  find('player').style.width = '360px'; // narrower than windows of a desktop can be
+  for (const each of player.element.querySelectorAll('#bar, #bar button, #bar select')) {
+    const { left, right } = each.getBoundingClientRect();
+    expect(left >= 0 && right <= 360, `${each.id || each.dataset.action} is wider than the phone: ${left} to ${right}`);
+  }
   document.documentElement.style.removeProperty('--side');
 }
 
-async function testThePage({ scheme }) {
-  if (scheme) expect(matchMedia(`(prefers-color-scheme: ${scheme})`).matches, `the browser is not ${scheme}`);
+const isScheme = (scheme) => expect(matchMedia(`(prefers-color-scheme: ${scheme})`).matches, `the browser is not ${scheme}`);
+
+async function testThePage() {
+  isScheme('dark');
   const player = await openPage('#yaw=0&shift=0');
   await testHint(player);
   await testTips(player);
@@ -281,8 +282,16 @@ async function testThePage({ scheme }) {
   await testCompare(player);
   await testHelp(player);
   await testTurn(player);
-  testTouch(player);
   await testColors(player);
+}
+
+async function testLight() {
+  isScheme('light');
+  await testColors(await openPage());
+}
+
+async function testPhone() {
+  testTouch(await openPage());
 }
 
 // --- <stereo-360> ---------------------------------------------------------------------------------------------------
@@ -413,6 +422,6 @@ async function testSound() {
   expect(Math.abs(10 * Math.log10(power(fromLeft) / power(fromAhead))) < 4, 'directions differ in loudness');
 }
 
-const TESTS = { page: testThePage, element: testElement, aframe: testAframe, three: testThree, sound: testSound };
+const TESTS = { page: testThePage, light: testLight, phone: testPhone, element: testElement, aframe: testAframe, three: testThree, sound: testSound };
 
 export const testPage = (job) => TESTS[job.page](job);
