@@ -97,7 +97,9 @@ export class Controls {
     const room = Math.max(bar.top, innerHeight - bar.bottom);
     style.maxHeight = `${room - 2 * GAP}px`;
     style.left = `${Math.max(Math.min(bar.right, innerWidth - GAP) - settings.offsetWidth, GAP)}px`;
-    style.top = `${bar.top >= room ? bar.top - settings.offsetHeight - GAP : bar.bottom + GAP}px`;
+    const isAbove = bar.top >= room;
+    style.bottom = isAbove ? `${innerHeight - bar.top + GAP}px` : 'auto'; // it grows with what is in it
+    style.top = isAbove ? 'auto' : `${bar.bottom + GAP}px`;
   }
 
   // After a click the keys are the picture's again; who works by keyboard stays where he is.

@@ -106,7 +106,7 @@ export class RenderFoot {
     if (!this.watching) [this.what.hidden, this.job.hidden] = [false, true];
     Object.assign(this.note, { textContent: note ?? '', hidden: !note });
     const name = this.name.value.trim();
-    this.what.textContent = `${name}, ${this.quality.value}`;
+    this.what.textContent = name;
     const quoted = /^[\w.,/:=+%@-]+$/.test(name) ? name : `'${name.replaceAll("'", "'\\''")}'`;
     const whole = command.replace(/ -o .*$/, ` --quality ${this.quality.value} -o ${quoted}`);
     this.command.replaceChildren(...whole.split(/ (?=-)/).flatMap((part, i) => [i ? ' ' : '', make('span', { textContent: part })]));

@@ -19,9 +19,11 @@
 #include "ods/files/file_input.h"
 #include "ods/image/compare.h"
 #include "ods/image/image_file.h"
+#include "ods/video/make_video.h"
 #include "ods/view/bundle.h"
 #include "ods/view/page.h"
 #include "tests/support/browser.h"
+#include "tests/support/made_frames.h"
 #include "tests/support/picture_rows.h"
 #include "tests/support/stored_pictures.h"
 #include "tests/support/temporary_folder.h"
@@ -100,7 +102,7 @@ class PageBrowser : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
-  const std::string picture_ = folder_.path("waves_360_TB.png");
+  std::string picture_ = folder_.path("waves_360_TB.png");
   std::vector<std::string> browser_;
 
  private:
@@ -163,6 +165,28 @@ TEST_F(PageBrowser, TheElementInThreeJs) {
 
 TEST_F(PageBrowser, HearsAmbisonicSoundFromWhereItComes) {
   EXPECT_EQ(run({{"page", "sound"}}), "ok");
+}
+
+TEST_F(PageBrowser, ShowsSubtitlesOfAVideo) {
+  if (!has_encoder("libx264")) GTEST_SKIP() << "skipped: this machine has no libx264";
+  for (int frame = 0; frame < 20; frame++) {
+    Picture picture;
+    picture.eyes.emplace_back().radiance = made::plain({256, 256}, vec3(100.0f));
+    SaveOptions save;
+    save.tone = ToneCurve::kLinear;
+    save_picture(picture, save, folder_.path(fmt::format("frame.{:04}.png", frame)));
+  }
+  const FrameFiles files = find_frames(folder_.path("frame.####.png"));
+  EncodeOptions options;
+  options.encoder = "libx264";
+  options.rate = {10, 1};
+  picture_ = folder_.path("film_360_TB.mp4");
+  make_video(files, plan_video(files, {}, Layout::kTopBottom), {}, options, picture_);
+  folder_.write("film_360_TB.vtt",
+                "WEBVTT\n\n00:00.000 --> 00:01.000\nFirst\n\n00:01.000 --> 00:02.000\n<b>Second</b> line\n");
+  const std::string end = run({{"page", "video"}});
+  if (end.find("has a codec") != std::string::npos) GTEST_SKIP() << "skipped: this chromium plays no H.264";
+  EXPECT_EQ(end, "ok");
 }
 
 // What is in the middle of a window of 512 pixels that looks 90 degrees wide.

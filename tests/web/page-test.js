@@ -43,7 +43,8 @@ async function openPage(hash = '') {
   await Promise.all([load('link', { rel: 'stylesheet', href: 'src/style.css' }), load('link', { rel: 'stylesheet', href: 'src/player.css' })]);
   document.body.insertAdjacentHTML('beforeend', '<div id="player"><canvas id="picture" tabindex="0"></canvas></div>');
   await import('./src/main.js');
-  await until(() => window.omnistereo?.viewer.picture, 'opens a picture');
+  await until(() => window.omnistereo?.viewer.picture || !(find('message')?.hidden ?? true), 'opens a picture');
+  expect(window.omnistereo?.viewer.picture, find('message')?.textContent);
   return window.omnistereo;
 }
 
@@ -177,7 +178,7 @@ async function testHelp(player) {
   find('help').close();
   expect(find('why').hidden === !find('reason').textContent, 'the reason');
   press('o');
-  await until(() => find('settings').style.top, 'places the settings');
+  await until(() => find('settings').style.bottom, 'places the settings');
   const [settings, bar] = [find('settings').getBoundingClientRect(), find('bar').getBoundingClientRect()];
   expect(settings.bottom <= bar.top && settings.top >= 0 && settings.right <= innerWidth, `the settings are at ${settings.top} to ${settings.bottom}, the bar at ${bar.top}`);
   press('o');
@@ -292,6 +293,20 @@ async function testLight() {
 
 async function testPhone() {
   testTouch(await openPage());
+}
+
+// The bar of a video, and its subtitles.
+async function testVideo() {
+  const { viewer } = await openPage();
+  expect(find('film').checkVisibility() && /frame 0/.test(find('time').textContent), 'no bar of the video');
+  await until(() => find('subtitles'), 'reads the subtitles');
+  viewer.picture.seek(0.4);
+  await until(() => find('subtitles').textContent === 'First', 'shows the first subtitle');
+  viewer.picture.seek(1.4);
+  await until(() => find('subtitles').textContent === 'Second line', 'shows the second subtitle, without its HTML');
+  expect(find('subtitles').getBoundingClientRect().bottom <= find('bar').getBoundingClientRect().top, 'subtitles are behind the bar');
+  press('r');
+  expect(find('subtitles').hidden, 'subtitles stay');
 }
 
 // --- <stereo-360> ---------------------------------------------------------------------------------------------------
@@ -422,6 +437,6 @@ async function testSound() {
   expect(Math.abs(10 * Math.log10(power(fromLeft) / power(fromAhead))) < 4, 'directions differ in loudness');
 }
 
-const TESTS = { page: testThePage, light: testLight, phone: testPhone, element: testElement, aframe: testAframe, three: testThree, sound: testSound };
+const TESTS = { page: testThePage, light: testLight, phone: testPhone, video: testVideo, element: testElement, aframe: testAframe, three: testThree, sound: testSound };
 
 export const testPage = (job) => TESTS[job.page](job);
