@@ -15,11 +15,10 @@ const speeds = [[0.25, '¼×'], [0.5, '½×'], [1, '1×'], [1.5, '1½×'], [2, '
 export const MARKUP = `
 <p id="message" role="alert" hidden></p>
 <p id="toast" role="status"></p>
-<p id="hint" hidden></p>
 <div id="spinner" hidden></div>
 <progress id="loading" max="1" aria-label="Loading" hidden></progress>
 <div id="title"><span id="folder" hidden>${button('previous')}${button('next')}</span><span id="name"></span><output id="look" aria-label="Where you look" hidden></output></div>
-<div id="bar" role="toolbar" aria-label="Viewer">
+<div id="foot"><p id="hint" hidden></p><div id="bar" role="toolbar" aria-label="Viewer">
   <div id="film" hidden>
     ${button('play')}${button('step-back')}${button('step')}
     <input id="seek" type="range" min="0" value="0" aria-label="Frame" data-tip="Seek">
@@ -30,7 +29,7 @@ export const MARKUP = `
     <select id="mode" aria-label="Eyes" data-tip="How both eyes share the screen" data-key="M"></select>
     ${button('swap')}${button('compare', ' hidden')}${button('settings')}${button('headset', ' hidden')}${button('fullscreen')}${button('help')}
   </div>
-</div>
+</div></div>
 <form id="settings" popover aria-label="Settings">
   <label>Layout <select id="layout"></select></label>
   <details id="why" class="note"><summary>Why?</summary><p id="reason"></p></details>

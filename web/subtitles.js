@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Subtitles of a video: the text of a WebVTT file, which view.json has as video.subtitles. The browser reads it; what is
-// due is shown as text below the picture.
-export function showSubtitles(viewer) {
+// due is shown as text above the bar. Returns what switches them.
+export function showSubtitles({ viewer, root }) {
   const line = document.createElement('p');
   line.id = 'subtitles';
   line.hidden = true;
-  viewer.canvas.after(line);
+  root.getElementById('foot').prepend(line);
   let on = true;
   let track = null;
   const show = () => {
