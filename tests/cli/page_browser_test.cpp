@@ -149,6 +149,14 @@ TEST_F(PageBrowser, ThePageOnAPhone) {
   EXPECT_EQ(run({{"page", "phone"}}, {"--window-size=500,800"}), "ok");  // Chromium's narrowest
 }
 
+TEST_F(PageBrowser, TheStudio) {
+  EXPECT_EQ(run({{"page", "studio"}}, {"--window-size=1000,800", "--blink-settings=preferredColorScheme=0"}), "ok");
+}
+
+TEST_F(PageBrowser, TheStudioInTheLight) {
+  EXPECT_EQ(run({{"page", "studio"}}, {"--window-size=1000,800", "--blink-settings=preferredColorScheme=1"}), "ok");
+}
+
 TEST_F(PageBrowser, TheElementInOtherPages) {
   EXPECT_EQ(run({{"page", "element"}}), "ok");
 }

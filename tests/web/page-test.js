@@ -309,6 +309,48 @@ async function testVideo() {
   expect(find('subtitles').hidden, 'subtitles stay');
 }
 
+// The studio's page against the server that studio-test.js plays.
+async function testStudioPage() {
+  const { STUDIO, Server } = await import('./studio-test.js');
+  const view = { ...(await (await fetch('view.json')).json()), items: [], live: true, studio: STUDIO };
+  const server = new Server();
+  server.prompt = true;
+  const { send } = server;
+  server.send = (meta) => send.call(server, { seconds: 1, ...meta });
+  const played = window.fetch;
+  const found = { distance: 2, disparity: 3, left: [1, 2], right: null, point: [0, 0, -2] };
+  const answers = { 'view.json': view, 'studio/pick': found };
+  window.fetch = (path, options) => (answers[path] ? Promise.resolve(Response.json(answers[path])) : played(path, options));
+  const player = await openPage();
+  await until(() => player.studio && find('studio').checkVisibility() && getComputedStyle(find('studio')).position === 'fixed', 'has its panel');
+  const { viewer, studio } = player;
+  const foot = find('studio').querySelector('footer');
+  const code = foot.querySelector('code');
+  expect(foot.offsetHeight < 64 && !code.checkVisibility(), `the foot is ${foot.offsetHeight} high`);
+  foot.querySelector('.unfold').click();
+  expect(code.checkVisibility() && foot.querySelector('.unfold').ariaExpanded === 'true', 'the foot does not open');
+  await until(() => find('player').querySelector('.status').textContent.startsWith('picture 8 × 4'), 'says what is shown');
+  const undo = find('studio').querySelector('[data-action="undo"]');
+  expect(undo.dataset.tip === 'Undo' && undo.dataset.key === 'Ctrl-Z' && undo.ariaLabel === 'Undo', 'undo has no tooltip');
+  press('Enter');
+  await until(() => find('pick').textContent.includes('2.00 m'), 'picks by the keyboard');
+  expect(find('pick').contains(document.activeElement), 'what can be done with it is not next');
+  press('Escape', document.activeElement);
+  expect(find('pick').hidden && document.activeElement === viewer.canvas, 'Escape does not lead back');
+  press('x');
+  await until(() => viewer.compare && studio.session.sides[1], 'compares A and B');
+  press('Home', find('divider'));
+  viewer.draw(0);
+  expect(viewer.picture.split === 0 && find('divider').querySelector('.now').textContent === 'B', 'the line does not move, or B is not marked');
+  await until(() => viewer.picture.beside, 'has B beside A');
+  expect(testContrast(document.body) > 60, 'few texts');
+  press('x');
+  expect(!viewer.compare && viewer.picture, 'the comparison does not end');
+  press('?');
+  expect(find('keys').querySelector('h2').textContent === 'Studio', 'the help does not begin with the studio');
+  find('help').close();
+}
+
 // --- <stereo-360> ---------------------------------------------------------------------------------------------------
 
 async function makeElement(attributes) {
@@ -437,6 +479,6 @@ async function testSound() {
   expect(Math.abs(10 * Math.log10(power(fromLeft) / power(fromAhead))) < 4, 'directions differ in loudness');
 }
 
-const TESTS = { page: testThePage, light: testLight, phone: testPhone, video: testVideo, element: testElement, aframe: testAframe, three: testThree, sound: testSound };
+const TESTS = { page: testThePage, light: testLight, phone: testPhone, video: testVideo, studio: testStudioPage, element: testElement, aframe: testAframe, three: testThree, sound: testSound };
 
 export const testPage = (job) => TESTS[job.page](job);
