@@ -17,7 +17,8 @@ using ods::ViewItem;
 
 namespace {
 
-constexpr uint64_t kMostFromDisk = uint64_t{256} << 20;  // bytes of a file: what browsers keep as one text is not much more
+constexpr uint64_t kMostFromDisk = uint64_t{256}
+                                   << 20;  // bytes of a file: what browsers keep as one text is not much more
 
 void copy_file(const std::string& from, const std::string& to) {
   const ods::FileInput file(from);
@@ -51,7 +52,8 @@ void write_script_beside(const std::string& path) {
 
 void write_page(const std::string& folder, const std::string& view) {
   constexpr std::string_view kModule = R"(<script type="module" src="main.js">)";
-  for (const char* const name : {"index.html", "style.css", "player.css", "example.html", "example.css", "example.js"}) {
+  for (const char* const name :
+       {"index.html", "style.css", "player.css", "example.html", "example.css", "example.js"}) {
     std::string text(ods::find_page_file(name)->data);
     const size_t at = text.find(kModule);
     if (at != std::string::npos) text.replace(at, kModule.size(), R"(<script defer src="main.js">)");

@@ -40,13 +40,15 @@ std::string wrapped(const std::string& name, const std::string& module) {
   auto rest = text.cbegin();
   for (std::sregex_iterator each(text.begin(), text.end(), kImport), end; each != end; ++each) {
     const std::string names = std::regex_replace((*each)[1].str(), std::regex(" as "), ": ");
-    whole += std::string(rest, (*each)[0].first) + fmt::format("const {{{}}} = $modules['{}'];", names, (*each)[2].str());
+    whole +=
+        std::string(rest, (*each)[0].first) + fmt::format("const {{{}}} = $modules['{}'];", names, (*each)[2].str());
     rest = (*each)[0].second;
   }
   whole.append(rest, text.cend());
   whole = std::regex_replace(whole, kLazyImport, "$$load('$1')");
   whole = std::regex_replace(whole, std::regex("import\\.meta\\.url"), "$$base");
-  return fmt::format("$modules['{}'] = (() => {{{}\nreturn {{ {} }};\n}})();\n", name, whole, fmt::join(exported, ", "));
+  return fmt::format("$modules['{}'] = (() => {{{}\nreturn {{ {} }};\n}})();\n", name, whole,
+                     fmt::join(exported, ", "));
 }
 
 // Behind what it imports, at once or later.

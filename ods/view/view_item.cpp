@@ -27,7 +27,8 @@ static bool browsers_read(const std::string& path, const StoredPicture& picture)
   return picture.eyes.size() == 1 || arrangement_of(picture.layout).is_halves();
 }
 
-// Whether the track of sound that browsers play is ambisonic, with the channels that the page knows (web/ambisonics.js).
+// Whether the track of sound that browsers play is ambisonic, with the channels that the page knows
+// (web/ambisonics.js).
 static bool hears_around(const std::string& path) {
   const std::vector<SoundTrack> sound = read_video_file(path).sound;
   if (sound.empty() || !sound[0].ambisonics) return false;
@@ -126,8 +127,7 @@ static Json item_json(const ViewItem& item, size_t index, bool is_live) {
   if (item.is_light) json["exposure"] = 0, json["tone"] = tone_curve_name(ToneCurve::kNeutral);
   if (!item.notes.caption.empty()) json["caption"] = item.notes.caption;
   for (const Hotspot& spot : item.notes.hotspots) {
-    json["hotspots"].push_back(
-        {{"yaw", spot.yaw}, {"pitch", spot.pitch}, {"title", spot.title}, {"text", spot.text}});
+    json["hotspots"].push_back({{"yaw", spot.yaw}, {"pitch", spot.pitch}, {"title", spot.title}, {"text", spot.text}});
   }
   if (!item.is_video) {
     if (!is_live) json["poster"] = poster_file(index);
