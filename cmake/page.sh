@@ -13,9 +13,9 @@ build=$3
 
 contents() {
   case $1 in
-    *.frag | *.vert)
+    *.frag | *.glsl)
       echo '#version 300 es'
-      "$compiler" -E -P -x c -I. "$1" | sed -E 's/^ +//; s/ *([-+*/=<>!&|?:,;(){}]) */\1/g'
+      "$compiler" -E -P -x c -I. "$1" | sed -E 's/^ +//; s/^%/#/; s/ *([-+*/=<>!&|?:,;(){}]) */\1/g'
       ;;
     web/*.js) sed -E '/^ *\/\//d' "$1" ;;
     *) cat "$1" ;;

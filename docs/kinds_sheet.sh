@@ -11,6 +11,7 @@ cd "$(dirname "$0")/.."
 build=build/release
 work=${1:-$(mktemp -d)}
 [ $# -eq 0 ] || shift
+mkdir -p "$work"
 "$build/kinds_of_scene" "$work"
 count=10
 for name in chair ring lighthouse still-life glasses asteroids hills far-courtyard neon-street room-with-lamps \

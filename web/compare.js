@@ -16,7 +16,7 @@ const clamp = (value) => Math.min(Math.max(value, 0), 1);
 export class Compare {
   // end(): somebody closes it.
   constructor(player, end) {
-    Object.assign(this, { player, viewer: player.viewer, way: 'slider', split: 0.5, other: null, names: ['A', 'B'], timer: 0, blinked: 0, isOther: false });
+    Object.assign(this, { player, viewer: player.viewer, way: 'slider', split: 0.5, other: null, names: ['A', 'B'], timer: 0, isOther: false });
     const element = document.createElement('div');
     element.id = 'compare';
     element.innerHTML = `<canvas hidden></canvas>
@@ -56,10 +56,15 @@ export class Compare {
   use(way) {
     this.way = way;
     clearInterval(this.timer);
-    if (way === 'blink') this.timer = setInterval(() => this.viewer.redraw(), BLINK);
+    if (way === 'blink') this.timer = setInterval(() => this.blink(), BLINK);
     for (const button of this.element.querySelectorAll('[data-way]')) button.ariaPressed = String(button.dataset.way === way);
     this.difference.hidden = way !== 'difference';
     this.place();
+    this.viewer.redraw();
+  }
+
+  blink() {
+    this.isOther = !this.isOther;
     this.viewer.redraw();
   }
 
@@ -67,8 +72,6 @@ export class Compare {
   splitNow() {
     if (this.way === 'slider') return this.split;
     if (this.way === 'difference') return this.isSecond ? 0 : 1;
-    const now = performance.now();
-    if (now - this.blinked >= 0.9 * BLINK) Object.assign(this, { blinked: now, isOther: !this.isOther });
     return this.isOther ? 0 : 1;
   }
 
@@ -81,19 +84,26 @@ export class Compare {
     if (this.way === 'blink') this.mark(picture.split ? 0 : 1);
   }
 
-  after(now) {
+  after(now, how, rows) {
     if (this.way !== 'difference' || this.isSecond) return;
     const { viewer: { canvas }, difference } = this;
-    Object.assign(difference, { width: canvas.width, height: canvas.height });
+    const { width, height } = canvas;
+    if (difference.width !== width || difference.height !== height) Object.assign(difference, { width, height });
     const context = difference.getContext('2d');
+    const [low, count] = rows ?? [0, height];
+    context.save();
+    context.beginPath();
+    context.rect(0, height - low - count, width, count);
+    context.clip();
     context.drawImage(canvas, 0, 0);
     this.isSecond = true;
-    this.viewer.draw(now);
+    this.viewer.paint(now, how, rows);
     this.isSecond = false;
     context.globalCompositeOperation = 'difference';
     context.drawImage(canvas, 0, 0);
     context.globalCompositeOperation = 'lighter';
     for (let i = 0; i < 2; i++) context.drawImage(difference, 0, 0);
+    context.restore();
   }
 
   // What is on screen where it is not the viewer's own canvas.

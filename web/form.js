@@ -6,7 +6,7 @@ const named = (rows, name) => rows.find((row) => row.name === name);
 
 // What the page assumes of an item: the file's own form, or what the user chose instead.
 export function formOf(view, item, { layout, projection } = {}) {
-  const rows = named(view.layouts, layout) ?? named(view.layouts, item.layout);
+  const rows = named(view.layouts, layout) ?? named(view.layouts, item.light_layout ?? item.layout);
   const own = item.camera ?? named(view.projections, item.projection)?.camera;
   return {
     layout: rows ?? { left: [0, 0, 1, 1], right: [0, 0, 1, 1] },
@@ -16,7 +16,7 @@ export function formOf(view, item, { layout, projection } = {}) {
 
 // Whether both eyes share a file, of which another layout can be tried: by the page, or by the server that divides it.
 export function hasOtherLayouts(view, item) {
-  return Boolean(item.image) || (view.live && item.kind === 'picture' && !['separate', 'multiview'].includes(item.layout));
+  return Boolean(item.image) || ((view.live || item.light) && item.kind === 'picture' && !['separate', 'multiview'].includes(item.layout));
 }
 
 // Whether the right edge of a picture continues at its left one. A lat-long or a cylinder's span is in radians.

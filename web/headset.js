@@ -2,10 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The picture in a headset, by WebXR. Only the orientation of each eye's view counts: every direction shows exactly the
-// line of sight that the picture has there, wherever the head is.
+// line of sight that the picture has there, wherever the head is. The panel (headset-panel.js) comes with the session. The
+// page's canvas shows what the left eye sees.
+import { boxOf, modeOf, wornEye } from './modes.js';
+import { raysOf } from './panorama.js';
+import { Pace } from './pace.js';
 
 // What the buttons do, for the page's help.
 export const BUTTONS = [
+  ['Look down', 'the menu’s handle: point at it and press, or look at it until its ring is full'],
+  ['Hold the grip', 'the menu: files, seek bar, exposure, recentre and the rest; a press beside it closes it'],
   ['Trigger or pinch', 'play or pause; with a picture: next'],
   ['Hold trigger or pinch', 'recentre'],
   ['Stick left, right', 'back or ahead by 10 s; with a picture: previous, next'],
@@ -16,12 +22,18 @@ export const BUTTONS = [
   ['A or X', 'swap the eyes'],
   ['B or Y', 'leave'],
 ];
+const RATE = 90; // frames per second, where the headset offers it
+const FOVEATION = 0.5; // how much coarser the edge of the view may be, 0..1: the middle is drawn pixel by pixel
 const HOLD = 800; // milliseconds until a trigger or a pinch counts as held
 const STICK = 0.7; // of its way
+const MIRROR = 100; // milliseconds between pictures for the page
+const MARKED = 4000; // milliseconds that a mark of the desk stays
 
 export async function hasHeadset() {
   return (await navigator.xr?.isSessionSupported('immersive-vr').catch(() => false)) ?? false;
 }
+
+const degrees = (radians) => (radians * 180) / Math.PI;
 
 // Directions turned to the right about the vertical axis.
 function turned([x, y, z], angle) {
@@ -37,10 +49,26 @@ export function raysOfView({ transform, projectionMatrix: p }, turn) {
   return [...column(1 / p[0], 0, 0), ...column(0, 1 / p[5], 0), ...column(p[8] / p[0], p[9] / p[5], -1)];
 }
 
+// Where a head looks in the picture: yaw, pitch, roll in degrees.
+export function lookOf({ matrix: m }, turn) {
+  const [yaw, pitch] = [Math.atan2(-m[8], m[10]), Math.asin(Math.min(Math.max(-m[9], -1), 1))];
+  const [s, c] = [Math.sin(yaw), Math.cos(yaw)];
+  const above = -m[0] * s * Math.sin(pitch) + m[1] * Math.cos(pitch) + m[2] * c * Math.sin(pitch);
+  const roll = Math.atan2(-above, m[0] * c + m[2] * s);
+  return { yaw: degrees(yaw + turn), pitch: degrees(pitch), roll: degrees(roll) };
+}
+
+const indexOf = ({ eye }) => (eye === 'right' ? 1 : 0);
+
 export class Headset {
   // wants.layers: equirect layers where the browser has them and the picture's form allows.
   constructor(viewer, wants = {}) {
-    Object.assign(this, { viewer, wants, session: null, turn: 0, pose: null, layers: null, pressed: new Map() });
+    Object.assign(this, { viewer, wants, session: null, turn: 0, pose: null, layers: null, panel: null, marker: null });
+  }
+
+  // What somebody at the desk points at: { yaw, pitch, eye }, or null.
+  mark(marker) {
+    Object.assign(this, { marker, marked: performance.now() });
   }
 
   async toggle() {
@@ -51,56 +79,115 @@ export class Headset {
     session.addEventListener('end', () => this.ended());
     await gl.makeXRCompatible();
     this.space = await session.requestReferenceSpace('local');
-    const layer = new XRWebGLLayer(session, gl, { alpha: false, antialias: false, depth: false, stencil: false });
+    const isQuick = session.supportedFrameRates?.includes(RATE);
+    if (isQuick) session.updateTargetFrameRate(RATE).catch(() => {});
+    const framebufferScaleFactor = XRWebGLLayer.getNativeFramebufferScaleFactor?.(session) ?? 1;
+    const layer = new XRWebGLLayer(session, gl, { alpha: false, antialias: false, depth: false, stencil: false, framebufferScaleFactor });
+    if (typeof layer.fixedFoveation === 'number') layer.fixedFoveation = FOVEATION;
     session.updateRenderState({ baseLayer: layer });
-    session.addEventListener('selectstart', ({ inputSource }) => this.pressed.set(inputSource, performance.now()));
-    session.addEventListener('select', ({ inputSource }) => this.select(inputSource));
-    session.addEventListener('squeeze', ({ inputSource }) => this.viewer.go(inputSource.handedness === 'left' ? -1 : 1));
-    Object.assign(this, { session, turn: 0, held: new Map() });
+    Object.assign(this, { session, turn: 0, held: new Map(), pressed: new Map(), gripped: new Map(), last: 0 });
+    this.pace = new Pace(1000 / (isQuick ? RATE : (session.frameRate ?? RATE)));
+    this.listenToHands();
     this.viewer.session = session;
     this.viewer.say('change');
     if (this.wants.layers) {
       const { EyeLayers, hasLayers } = await import('./layers.js');
       if (hasLayers(session)) this.layers = new EyeLayers(session, gl, this.space);
     }
-    session.requestAnimationFrame((now, frame) => this.frame(frame));
+    import('./headset-panel.js').then(({ HeadsetPanel }) => {
+      if (this.session === session) this.panel = new HeadsetPanel(this);
+    }, (error) => console.warn('No panel in the headset:', error.message));
+    session.requestAnimationFrame((...next) => this.frame(...next));
+    this.mirror();
     return session;
   }
 
   ended() {
     this.layers?.free();
-    Object.assign(this, { session: null, layers: null, pose: null });
+    this.panel?.free();
+    Object.assign(this, { session: null, layers: null, panel: null, pose: null, marker: null });
     this.viewer.session = null;
     this.viewer.resize();
-    this.viewer.redraw();
-    this.viewer.say('change');
+    this.viewer.set({ roll: 0 });
   }
 
-  frame(frame) {
+  frame(now, frame) {
     const { session, viewer } = this;
-    session.requestAnimationFrame((now, next) => this.frame(next));
+    session.requestAnimationFrame((...next) => this.frame(...next));
+    if (this.last) this.pace.took(now - this.last, now);
+    this.last = now;
     this.listen();
     this.pose = frame.getViewerPose(this.space) ?? this.pose;
-    const { picture, panorama, state } = viewer;
-    const steering = viewer.scene && this.pose ? viewer.steering : null; // the studio's
-    steering?.head(this.pose, this.turn);
+    if (!this.pose || !this.session) return;
+    if (now - this.marked > MARKED) this.marker = null;
+    this.panel?.update(frame, this.pose, now);
+    const { picture, panorama } = viewer;
+    const look = lookOf(this.pose.transform, this.turn);
+    if (viewer.scene) viewer.steering?.head(look); // the studio's
+    if (!(now - this.looked < MIRROR)) this.lookAt(now, look);
     picture?.refresh?.();
-    if (picture && !viewer.scene && this.layers?.show(frame, viewer, this.turn)) return;
+    if (picture && !viewer.scene && this.layers?.show(frame, viewer, this.turn)) {
+      this.layers.drawAbove(this.panel?.isSeen ? (view, box, target) => this.drawPanel(view, box, target) : null, this.pose);
+      return;
+    }
     const layer = session.renderState.baseLayer;
-    if (!layer || !this.pose) return;
+    if (!layer) return;
     const { gl } = panorama;
     gl.bindFramebuffer(gl.FRAMEBUFFER, layer.framebuffer);
     gl.clearColor(0.1, 0.1, 0.1, 1);
     gl.clear(gl.COLOR_BUFFER_BIT);
-    if (!picture) return;
+    const parts = [];
     for (const view of this.pose.views) {
+      view.requestViewportScale?.(this.pace.how.scale);
       const { x, y, width, height } = layer.getViewport(view);
-      const options = {
-        rays: raysOfView(view, this.turn), box: [x, y, width, height], eye: view.eye === 'right' ? 1 : 0,
-        swap: state.swap, grid: state.grid, fast: true, target: layer.framebuffer,
-      };
-      panorama.draw(picture, options);
-      steering?.draw(panorama, raysOfView(view, 0), this.pose, options);
+      if (picture) parts.push(this.drawPicture(view, [x, y, width, height], layer.framebuffer));
+      this.drawPanel(view, [x, y, width, height], layer.framebuffer);
+    }
+    picture?.pager?.follow(parts, now);
+  }
+
+  // The page looks where the head does.
+  lookAt(now, look) {
+    this.looked = now;
+    this.viewer.set(look);
+  }
+
+  drawPicture(view, box, target) {
+    const { viewer, viewer: { picture, panorama, state } } = this;
+    const options = {
+      rays: raysOfView(view, this.turn), box, eye: wornEye(state, indexOf(view)), swap: state.swap, grid: state.grid,
+      moves: true, cheap: this.pace.how.cheap, target,
+    };
+    panorama.draw(picture, options);
+    if (viewer.scene) viewer.steering?.draw(panorama, raysOfView(view, 0), this.pose, options);
+    return options;
+  }
+
+  drawPanel(view, box, target) {
+    const { x, y, z } = view.transform.position;
+    this.panel?.draw({ rays: raysOfView(view, 0), eye: [x, y, z], index: indexOf(view), box, target });
+  }
+
+  // The page shows what the left eye sees, if anybody sees the page: then browsers give it frames of its own. An emulated
+  // headset draws into the page's canvas itself.
+  mirror() {
+    const { session } = this;
+    if (!session) return;
+    setTimeout(() => requestAnimationFrame((now) => {
+      if (this.pose && session.renderState.baseLayer?.framebuffer !== null) this.drawMirror(now);
+      this.mirror();
+    }), MIRROR);
+  }
+
+  drawMirror(now) {
+    const { viewer: { canvas, picture, panorama, state } } = this;
+    const { x, y, z } = this.pose.views[0].transform.position;
+    panorama.clear();
+    for (const { at, eye, show } of modeOf(state.mode).parts(now)) {
+      const box = boxOf(at, canvas);
+      const rays = (turn) => raysOf({ ...state, yaw: state.yaw - degrees(turn) }, box[2] / box[3]);
+      if (picture) panorama.draw(picture, { rays: rays(0), box, eye, show, swap: state.swap, grid: state.grid, planet: state.planet, moves: true });
+      if (!state.planet) this.panel?.draw({ rays: rays(this.turn), eye: [x, y, z], index: 0, box, target: null });
     }
   }
 
@@ -111,11 +198,34 @@ export class Headset {
     this.turn = -Math.atan2(-m[8], m[10]);
   }
 
-  select(source) {
-    const since = this.pressed.get(source) ?? performance.now();
-    if (performance.now() - since > HOLD) return this.recentre();
+  // What ends by `select` was let go; else it was taken away, as by the system's own gestures.
+  listenToHands() {
+    const { session } = this;
+    const on = (event, run) => session.addEventListener(event, run);
+    const done = { select: new Set(), squeeze: new Set() };
+    const poseOf = ({ frame, inputSource }) => frame.getPose(inputSource.targetRaySpace, this.space);
+    for (const name of Object.keys(done)) on(name, ({ inputSource }) => done[name].add(inputSource));
+    on('selectstart', (event) => {
+      this.pressed.set(event.inputSource, { since: performance.now(), isPanels: this.panel?.press(event.inputSource, poseOf(event)) });
+    });
+    on('selectend', (event) => {
+      const { inputSource: source } = event;
+      const { since, isPanels } = this.pressed.get(source) ?? { since: performance.now() };
+      const isDone = done.select.delete(source);
+      if (isPanels) this.panel?.release(source, poseOf(event), isDone);
+      else if (isDone) this.select(performance.now() - since > HOLD);
+    });
+    on('squeezestart', ({ inputSource }) => this.gripped.set(inputSource, performance.now()));
+    on('squeezeend', ({ inputSource }) => {
+      if (done.squeeze.delete(inputSource) && this.gripped.delete(inputSource)) this.viewer.go(inputSource.handedness === 'left' ? -1 : 1);
+    });
+  }
+
+  select(isLong) {
     const { picture } = this.viewer;
-    if (this.viewer.scene) this.viewer.steering.select();
+    if (isLong) this.recentre();
+    else if (this.panel?.isOpen) this.panel.close();
+    else if (this.viewer.scene) this.viewer.steering.select();
     else if (picture?.video) picture.toggle();
     else this.viewer.go(1);
   }
@@ -123,6 +233,9 @@ export class Headset {
   // Buttons and sticks have no events: what is newly pressed acts once.
   listen() {
     const { viewer } = this;
+    for (const [source, since] of this.gripped) {
+      if (performance.now() - since > HOLD && this.gripped.delete(source)) this.panel?.toggle();
+    }
     const along = (by) => {
       const { picture } = viewer;
       if (picture?.video) picture.seek(picture.video.currentTime + 10 * by);

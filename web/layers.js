@@ -4,6 +4,8 @@
 // The picture as WebXR equirect layers, which the headset's compositor samples by itself. The specification never says
 // which half of a stereo-top-bottom layer is the left eye's, and browsers differ; so each eye is asked for by name, and
 // drawn into what the browser answers.
+import { wornEye } from './modes.js';
+
 const LARGEST = 4096; // pixels of a layer around the horizon
 
 export function hasLayers(session) {
@@ -14,7 +16,7 @@ export function hasLayers(session) {
 export class EyeLayers {
   constructor(session, gl, space) {
     this.base = session.renderState.baseLayer; // for pictures that get no layer
-    Object.assign(this, { session, gl, space, layer: null, shown: null, target: gl.createFramebuffer() });
+    Object.assign(this, { session, gl, space, layer: null, above: null, shown: null, target: gl.createFramebuffer() });
     this.binding = new XRWebGLBinding(session, gl);
   }
 
@@ -32,7 +34,18 @@ export class EyeLayers {
       console.warn('No equirect layer, so the shader draws:', error.message);
       this.layer = null;
     }
-    this.session.updateRenderState(this.layer ? { layers: [this.layer] } : { baseLayer: this.base });
+    this.arrange(false);
+  }
+
+  arrange(isAbove) {
+    this.isAbove = isAbove;
+    const layers = isAbove ? [this.layer, this.above] : [this.layer];
+    this.session.updateRenderState(this.layer ? { layers } : { baseLayer: this.base });
+  }
+
+  // What arrange() asked for comes with the next frame.
+  has(layer) {
+    return layer && this.session.renderState.layers?.includes(layer);
   }
 
   // Draws the eyes where something changed. Returns false where the shader must draw: there is no layer, or the browser
@@ -44,10 +57,10 @@ export class EyeLayers {
       this.create(picture);
       this.shown = null;
     }
-    if (!this.layer) return false;
+    if (!this.has(this.layer)) return false;
     const [s, c] = [Math.sin(-turn / 2), Math.cos(turn / 2)];
     this.layer.transform = new XRRigidTransform({ x: 0, y: 0, z: 0 }, { x: 0, y: -s, z: 0, w: c });
-    const what = `${state.swap} ${state.grid} ${picture.frame?.()}`;
+    const what = `${state.swap} ${state.worn} ${state.grid} ${picture.frame?.()}`;
     if (this.shown === what && !this.layer.needsRedraw) return true;
     this.shown = what;
     for (const [eye, name] of ['left', 'right'].entries()) {
@@ -56,15 +69,35 @@ export class EyeLayers {
       gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, part.colorTexture, 0);
       const { x, y, width, height } = part.viewport;
       panorama.draw(picture, {
-        rays: [1, 0, 0, 0, 1, 0, 0, 0, -1], box: [x, y, width, height], eye, swap: state.swap, grid: state.grid,
-        target: this.target, all: true,
+        rays: [1, 0, 0, 0, 1, 0, 0, 0, -1], box: [x, y, width, height], eye: wornEye(state, eye), swap: state.swap, grid: state.grid,
+        target: this.target, all: true, moves: Boolean(picture.video),
       });
     }
     return true;
   }
 
+  // What stands in the room, in a layer above the picture's. draw(view, box, target); null: nothing does.
+  drawAbove(draw, { views }) {
+    const { gl } = this;
+    if (draw) this.above ??= this.binding.createProjectionLayer({ colorFormat: gl.RGBA8, depthFormat: 0 });
+    if (Boolean(draw) !== this.isAbove) this.arrange(Boolean(draw));
+    if (!draw || !this.has(this.above)) return;
+    for (const view of views) {
+      const { colorTexture, viewport: { x, y, width, height } } = this.binding.getViewSubImage(this.above, view);
+      gl.bindFramebuffer(gl.FRAMEBUFFER, this.target);
+      gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, colorTexture, 0);
+      gl.enable(gl.SCISSOR_TEST);
+      gl.scissor(x, y, width, height);
+      gl.clearColor(0, 0, 0, 0);
+      gl.clear(gl.COLOR_BUFFER_BIT);
+      gl.disable(gl.SCISSOR_TEST);
+      draw(view, [x, y, width, height], this.target);
+    }
+  }
+
   free() {
     this.layer?.destroy?.();
+    this.above?.destroy?.();
     this.gl.deleteFramebuffer(this.target);
   }
 }

@@ -41,11 +41,14 @@ function watchAddress(player) {
   });
 }
 
-// Says when the server has ended, and goes on when the next one is there, which has the same address.
+// Says when the server has ended, and goes on when the next one is there, which has the same address; the studio does so
+// itself. Begins to share where somebody wears a headset.
 function watchServer(player) {
   let lost = false;
   setInterval(async () => {
-    const there = await fetch('alive').then((answer) => answer.ok, () => false);
+    const there = await fetch('alive').then((answer) => answer.ok && answer.json(), () => false);
+    if (there.pages || player.viewer.session) player.sharing ??= import('./share.js').then(({ Share }) => (player.share = new Share(player)));
+    if (player.viewer.view.studio) return;
     if (there && lost) location.reload();
     if (!there && !lost) player.fail('ods view has ended. Start it again, and this page goes on by itself.');
     lost = !there;
@@ -89,7 +92,7 @@ async function start() {
     wanted.beside = null;
   });
   watchAddress(player);
-  if (view.live && !view.studio) watchServer(player);
+  if (view.live) watchServer(player);
   viewer.canvas.focus({ preventScroll: true });
   window.omnistereo = player; // for tests, and for the console
   greet(player);

@@ -62,6 +62,8 @@ export class MergeCurve {
     for (const at of [-60, -30, 0, 30, 60]) shape('line', { class: 'grid', x1: xOf(at), x2: xOf(at), y1: BOX[2], y2: BOX[3] }, svg);
     this.fill = shape('polygon', { class: 'fill' }, svg);
     this.other = shape('polyline', { class: 'other' }, svg);
+    this.auto = shape('polyline', { class: 'auto' }, svg);
+    shape('title', {}, this.auto).textContent = 'What the depth allows: --merge auto';
     this.line = shape('polyline', { class: 'curve-line' }, svg);
     const words = shape('text', { x: SIZE[0] / 2, y: yOf(0.7), 'text-anchor': 'middle' }, svg);
     words.textContent = 'full eye distance';
@@ -117,6 +119,12 @@ export class MergeCurve {
       circle.setAttribute('cy', values[Math.round(at) + 90] ?? BOX[3]);
       circle.toggleAttribute('hidden', merge.mode === 'none' || merge.mode === 'map');
     }
+  }
+
+  // shares: what the depth allows (--merge auto), from the zenith down.
+  drawAuto(shares) {
+    const at = (i) => 90 - ((i + 0.5) * 180) / shares.length;
+    this.auto.setAttribute('points', shares.map((left, i) => `${xOf(at(i)).toFixed(1)},${yOf(left).toFixed(1)}`).join(' '));
   }
 
   look(pitch) {

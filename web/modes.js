@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How two eyes share a flat screen: the parts of the screen (x, y, width, height as fractions, from the lower left) and
-// what each shows.
+// How two eyes share a headset, or a flat screen: the parts of the screen (x, y, width, height as fractions, from the lower
+// left) and what each shows.
 const WHOLE = [0, 0, 1, 1];
 const LEFT_HALF = [0, 0, 0.5, 1];
 const RIGHT_HALF = [0.5, 0, 0.5, 1];
@@ -27,6 +27,10 @@ export const MODES = [
 ];
 
 export const modeOf = (name) => MODES.find((mode) => mode.name === name) ?? MODES[0];
+
+// How they share a headset: each eye has its own, or both have one.
+export const WORN = [{ name: 'stereo', label: 'Both eyes' }, { name: 'left', label: 'Left eye' }, { name: 'right', label: 'Right eye' }];
+export const wornEye = ({ worn }, eye) => (worn === 'left' ? 0 : worn === 'right' ? 1 : eye);
 
 // In whole pixels of a canvas.
 export function boxOf([x, y, width, height], canvas) {

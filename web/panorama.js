@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Draws stereo panoramas with WebGL 2. panorama.frag finds the texels with the formulas of the renderer itself; this
-// file sets its uniforms and knows no projection.
-
-const MODES = { eye: 0, anaglyph: 1, difference: 2 };
+// Draws stereo panoramas with WebGL 2. panorama.glsl finds the texels with the formulas of the renderer itself; this
+// file makes a program of it for each projection, sets its uniforms and knows no formula.
+const TOE_IN = 1; // of the kernel's convergences: the only one whose lines of sight are not linear across the view
+const CELLS = 64; // of the mesh for those, each way
 const VERTICES = `#version 300 es
 out vec2 screen;
 void main() {
@@ -12,16 +12,17 @@ void main() {
   gl_Position = vec4(screen, 0.0, 1.0);
 }`;
 
-// The text of the fragment shader, which lies beside this module.
+// The text of the shaders, which lies beside this module.
 export async function loadShader(base = import.meta.url) {
-  const answer = await fetch(new URL('panorama.frag', base));
-  if (!answer.ok) throw new Error(`panorama.frag did not load (${answer.status}). Reload the page.`);
+  const answer = await fetch(new URL('panorama.glsl', base));
+  if (!answer.ok) throw new Error(`panorama.glsl did not load (${answer.status}). Reload the page.`);
   return answer.text();
 }
 
-export function compile(gl, fragment) {
+// Starts compiling; some browsers do so in the background until finish() asks.
+function begin(gl, fragment, vertices) {
   const program = gl.createProgram();
-  const shaders = [[gl.VERTEX_SHADER, VERTICES], [gl.FRAGMENT_SHADER, fragment]].map(([kind, text]) => {
+  const shaders = [[gl.VERTEX_SHADER, vertices], [gl.FRAGMENT_SHADER, fragment]].map(([kind, text]) => {
     const shader = gl.createShader(kind);
     gl.shaderSource(shader, text);
     gl.compileShader(shader);
@@ -29,6 +30,10 @@ export function compile(gl, fragment) {
     return shader;
   });
   gl.linkProgram(program);
+  return { program, shaders };
+}
+
+function finish(gl, { program, shaders }) {
   if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
     const why = shaders.map((shader) => gl.getShaderInfoLog(shader)).join(' ') + gl.getProgramInfoLog(program);
     throw new Error(`This GPU's driver rejects the viewer's shader: ${why.split('\n')[0]}. Update the browser.`);
@@ -40,8 +45,10 @@ export function compile(gl, fragment) {
 // Half of a view's width where what is straight ahead has the scale 1, and the angle of view of one.
 export const halfWidth = (fov, planet) => (planet ? 2 * Math.tan((fov * Math.PI) / 720) : Math.tan((fov * Math.PI) / 360));
 export const fovOf = (wide, planet) => (planet ? 4 * Math.atan(wide / 2) : 2 * Math.atan(wide)) * (180 / Math.PI);
-// Of the stereographic view (panorama.frag); 0: none.
+// Of the stereographic view (panorama.glsl); 0: none.
 export const bendOf = ({ planet }) => (planet ? 0.25 : 0);
+
+export const compile = (gl, fragment) => finish(gl, begin(gl, fragment, VERTICES));
 
 // The columns of a matrix that turns a place on the screen (-1..1) into a direction. yaw to the right, pitch up, roll
 // clockwise, in degrees; fov: the horizontal angle of view; aspect: width over height. planet: the view is stereographic.
@@ -70,15 +77,51 @@ export class Panorama {
   // Also after a lost context, which takes everything with it.
   start() {
     const { gl } = this;
-    this.program = compile(gl, this.shader);
-    this.uniforms = [];
-    const count = gl.getProgramParameter(this.program, gl.ACTIVE_UNIFORMS);
-    for (let i = 0; i < count; i++) {
-      const { name, type } = gl.getActiveUniform(this.program, i);
-      this.uniforms.push({ path: name.split(/[.[\]]+/), type, at: gl.getUniformLocation(this.program, name) });
-    }
-    gl.bindVertexArray(gl.createVertexArray());
+    this.background = gl.getExtension('KHR_parallel_shader_compile');
+    this.hasLight = Boolean(gl.getExtension('EXT_color_buffer_float')); // textures of halves can be drawn into
+    this.programs = new Map();
     this.maps = new Map();
+    gl.bindVertexArray(gl.createVertexArray());
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+    const row = CELLS + 1;
+    const corners = Array.from({ length: CELLS * CELLS }, (_, i) => i + Math.floor(i / CELLS));
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, new Uint16Array(corners.flatMap((i) => [i, i + 1, i + row, i + row, i + 1, i + row + 1])), gl.STATIC_DRAW);
+  }
+
+  // The program for a picture and options of drawOne(), compiled when it is first asked for.
+  programFor({ camera, below, light = false, pager }, { show = 'eye', moves = false, all = false, planet = false, grid = false, cheap = false, ask = false }) {
+    const { gl } = this;
+    const about = {
+      KIND: camera.projection.kind, CONVERGENCE: camera.convergence, BOTH: show !== 'eye', MOVES: moves, OVER: Boolean(below),
+      AROUND: all, PLANET: planet, GRID: grid, CHEAP: cheap, LIGHT: light, PAGED: Boolean(pager), ASK: ask,
+    };
+    const key = Object.values(about).join();
+    if (!this.programs.has(key)) {
+      const defined = Object.entries(about).map(([name, value]) => `#define ODS_${name} ${value}\n`).join('');
+      const text = (more) => this.shader.replace('\n', `\n${defined}${more}`);
+      this.programs.set(key, begin(gl, text(''), text('#define ODS_VERTEX\n')));
+    }
+    return this.programs.get(key);
+  }
+
+  // Whether drawing would not wait for a compiler.
+  isReady(picture, options) {
+    const each = this.programFor(picture, options);
+    return Boolean(each.uniforms) || !this.background ||
+      this.gl.getProgramParameter(each.program, this.background.COMPLETION_STATUS_KHR);
+  }
+
+  use(each) {
+    const { gl } = this;
+    if (!each.uniforms) {
+      finish(gl, each);
+      each.uniforms = Array.from({ length: gl.getProgramParameter(each.program, gl.ACTIVE_UNIFORMS) }, (_, i) => {
+        const { name, type } = gl.getActiveUniform(each.program, i);
+        return { path: name.split(/[.[\]]+/), type, at: gl.getUniformLocation(each.program, name) };
+      });
+    }
+    gl.useProgram(each.program);
+    return each.uniforms;
   }
 
   // Binds a map of the camera (camera.merge_map, camera.head_tilt_map) to a texture unit.
@@ -96,14 +139,14 @@ export class Panorama {
 
   // Sets every uniform to the value of its name in nested objects and arrays. What view.json leaves out stays 0: drivers
   // may keep uniforms that no pixel needs.
-  set(values) {
+  set(uniforms, values) {
     const { gl } = this;
     const setters = {
       [gl.FLOAT]: gl.uniform1f, [gl.FLOAT_VEC2]: gl.uniform2fv, [gl.FLOAT_VEC3]: gl.uniform3fv,
-      [gl.INT]: gl.uniform1i, [gl.BOOL]: gl.uniform1i, [gl.SAMPLER_2D_ARRAY]: gl.uniform1i,
-      [gl.SAMPLER_2D]: gl.uniform1i,
+      [gl.INT]: gl.uniform1i, [gl.INT_VEC2]: gl.uniform2iv, [gl.BOOL]: gl.uniform1i, [gl.SAMPLER_2D_ARRAY]: gl.uniform1i,
+      [gl.SAMPLER_2D]: gl.uniform1i, [gl.INT_SAMPLER_2D]: gl.uniform1i,
     };
-    for (const { path, type, at } of this.uniforms) {
+    for (const { path, type, at } of uniforms) {
       const value = path.reduce((from, key) => from?.[key], values);
       if (value === undefined) continue;
       if (type === gl.FLOAT_MAT3) gl.uniformMatrix3fv(at, false, value);
@@ -117,39 +160,71 @@ export class Panorama {
     this.drawOne(picture, options);
     if (picture.over) this.drawOne(picture.over, options);
     if (!picture.beside || options.target) return;
-    const [x, y, width, height] = options.box;
+    const [x, , width] = options.box;
+    const [, y, , height] = options.clip ?? options.box;
     const left = Math.round(picture.split * width);
     this.draw(picture.beside, { ...options, clip: [x + left, y, width - left, height] });
   }
 
   // Draws a view of a picture: `show` is eye, anaglyph or difference; `eye` is 0 for left, 1 for right.
   // rays: as raysOf(). box: x, y, width, height in pixels of the target, from its lower left corner. swap: exchanges
-  // the eyes. target: a framebuffer, or null for the canvas. clip: a part of the box, for all that is drawn. bend: bendOf().
-  // shift: radians by which the left eye's picture turns to the left, and the right eye's to the right.
-  drawOne(picture, { rays, box, clip = box, show = 'eye', eye = 0, swap = false, grid = false, fast = false, target = null, all = false, bend = 0, shift = 0 }) {
+  // the eyes. moves: quickly, with the GPU's filter; cheap: with less of it. target: a framebuffer, or null for the
+  // canvas. clip: a part of the box, for all that is drawn. all: the whole sphere as a lat-long picture instead; planet: a
+  // stereographic view. shift: radians by which the left eye's picture turns to the left, and the right eye's to the right.
+  // ask: which tiles are needed instead, for a view that is askScale times as wide.
+  drawOne(picture, options) {
+    const { rays, box, clip = box, show = 'eye', eye = 0, swap = false, moves = false, target = null, all = false, shift = 0, askScale = 1 } = options;
     const { gl } = this;
-    const eyes = swap ? [picture.eyes[1], picture.eyes[0]] : picture.eyes;
+    const shown = show === 'eye' ? [eye, eye] : [0, 1];
+    const eyes = shown.map((side) => picture.eyes[swap ? 1 - side : side]);
+    const cells = moves && !all && !planet && picture.camera.convergence === TOE_IN ? CELLS : 0;
     gl.bindFramebuffer(gl.FRAMEBUFFER, target);
     gl.viewport(...box);
     gl.scissor(...clip);
     gl.enable(gl.SCISSOR_TEST);
     if (picture.below) gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
-    gl.useProgram(this.program);
+    const uniforms = this.use(this.programFor(picture, options));
     eyes.forEach((each, i) => {
       gl.activeTexture(gl.TEXTURE0 + i);
       gl.bindTexture(gl.TEXTURE_2D_ARRAY, each.texture);
     });
+    if (picture.pager) this.bindPages(eyes);
     this.bindMap(2, picture.camera.merge_map);
     this.bindMap(3, picture.camera.head_tilt_map);
-    this.set({
-      camera: picture.camera, merge_texels: 2, head_tilt_texels: 3, eyes: eyes.map((each) => each.uniforms), left_tiles: 0, right_tiles: 1, rays,
-      all_around: all, viewport: box.slice(2), mode: MODES[show], eye, mono: picture.mono, fast, grid, bend, shift: picture.mono ? 0 : shift,
-      over: Boolean(picture.below), below: picture.below ?? picture.camera.projection,
+    const turn = picture.mono ? 0 : shift;
+    this.set(uniforms, {
+      camera: picture.camera, merge_texels: 2, head_tilt_texels: 3, eyes: eyes.map((each) => each.uniforms), tiles_0: 0, tiles_1: 1,
+      sides: picture.mono ? [2, 2] : shown, rays, viewport: box.slice(2), difference: show === 'difference', below: picture.below, cells,
+      shift: [Math.cos(turn), Math.sin(turn)], coarse_0: 4, coarse_1: 5, slots_0: 6, slots_1: 7, ask_scale: askScale,
+      exposure: 2 ** (picture.stops ?? 0), neutral: picture.tone !== 'linear',
     });
-    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    if (cells) gl.drawElements(gl.TRIANGLES, 6 * cells * cells, gl.UNSIGNED_SHORT, 0);
+    else gl.drawArrays(gl.TRIANGLES, 0, 3);
     gl.disable(gl.SCISSOR_TEST);
     gl.disable(gl.BLEND);
+  }
+
+  // pages.js. Bound to their own units.
+  bindPages(eyes) {
+    const { gl } = this;
+    eyes.forEach((each, i) => {
+      gl.activeTexture(gl.TEXTURE4 + i);
+      gl.bindTexture(gl.TEXTURE_2D_ARRAY, each.coarse.texture);
+      gl.activeTexture(gl.TEXTURE6 + i);
+      gl.bindTexture(gl.TEXTURE_2D, each.table);
+    });
+  }
+
+  // Waits until the GPU has drawn all; returns the milliseconds.
+  async finished(nextFrame) {
+    const { gl } = this;
+    const since = performance.now();
+    const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    do await nextFrame(); while (fence && gl.clientWaitSync(fence, 0, 0) === gl.TIMEOUT_EXPIRED);
+    gl.deleteSync(fence);
+    return performance.now() - since;
   }
 
   clear() {

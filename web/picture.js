@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Loads an item of view.json. A picture, for panorama.js, is
-//   { eyes: [left, right] as EyeTexture, camera, mono, free() }   and a video's also what video.js adds.
+//   { eyes: [left, right] as EyeTexture, camera, mono, changed, free() }   and a video's also what video.js adds, a large
+// one's `pager`, one of light `light` and develop(). It calls changed() when there is something new to draw.
 import { cropOf, formOf, hasOtherLayouts, isRound, same } from './form.js';
-import { EyeTexture } from './tiles.js';
+import { EyeTexture, FrameCutter } from './tiles.js';
 import { openVideo } from './video.js';
+
+const LARGE = 40e6; // texels of both eyes: with mip levels, 213 MB
 
 // Reads a file and reports how much of it has come, 0..1.
 async function download(url, name, signal, progress) {
@@ -30,9 +33,9 @@ async function download(url, name, signal, progress) {
   return new Blob(parts, { type: answer.headers.get('content-type') ?? '' });
 }
 
-async function decode(blob, name) {
+async function decode(blob, name, colorSpaceConversion = 'default') {
   try {
-    return await createImageBitmap(blob, { premultiplyAlpha: 'none' });
+    return await createImageBitmap(blob, { premultiplyAlpha: 'none', colorSpaceConversion });
   } catch {
     const what = blob.size === 0 ? 'is empty' : 'cannot be decoded by this browser: it is damaged or too large';
     throw new Error(`${name} ${what}. Try a smaller copy: ods convert ${name} -o small.png --width 4096`);
@@ -46,54 +49,116 @@ function eyeFiles({ left, right }, layout) {
   return layout === 'mono' ? [named('mono'), named('mono')] : [named('left'), named('right')];
 }
 
-async function openImage(gl, item, form, layout, url, signal, progress) {
+// Of the source that `crops` divide: both eyes' textures, or what pages.js makes of them where they are too large.
+async function eyesOf(panorama, form, { sources, crops, mono, name, preview, paging, signal }) {
+  const { gl } = panorama;
   const wraps = isRound(form.camera);
+  const sizes = crops.map((crop, i) => cropOf(crop, sources[i]));
+  if (sizes.some(([, , width, height]) => width < 1 || height < 1)) {
+    throw new Error(`${name} is too small for this layout. Choose another one.`);
+  }
+  const texels = sizes.slice(mono ? 1 : 0).reduce((sum, [, , width, height]) => sum + width * height, 0);
+  const pages = texels > LARGE || paging ? await import('./pages.js') : null;
+  const eyes = [];
+  try {
+    for (let i = 0; i < (mono ? 1 : 2); i++) {
+      const [x, y, width, height] = sizes[i];
+      eyes.push(pages ? new pages.PagedEye(gl, sources[i], sizes[i], wraps, paging) : new EyeTexture(gl, width, height, wraps));
+      if (pages) await eyes[i].begin(preview ?? sources[i], preview ? cropOf(crops[i], preview) : sizes[i]);
+      else await eyes[i].fill(sources[i], x, y);
+      signal?.throwIfAborted();
+    }
+  } catch (error) {
+    eyes.forEach((eye) => eye.free());
+    throw error;
+  }
+  if (mono) eyes.push(eyes[0]);
+  const picture = { eyes, camera: form.camera, mono, changed: null };
+  if (pages) picture.pager = new pages.Pager(panorama, picture);
+  picture.free = () => {
+    new Set(eyes).forEach((eye) => eye.free());
+    picture.pager?.free();
+    if (pages) new Set(sources).forEach((source) => source.close());
+  };
+  return picture;
+}
+
+// A small copy, for the time until the picture has come; null where there is none.
+async function openPreview(panorama, item, form, url, signal, early) {
+  const answer = await fetch(url(item.preview), { signal });
+  if (!answer.ok) return null;
+  const source = await decode(await answer.blob(), item.name);
+  const crops = [form.layout.left, form.layout.right];
+  early(await eyesOf(panorama, form, { sources: [source, source], crops, mono: same(...crops), name: item.name, signal }));
+  return source;
+}
+
+async function openImage(panorama, item, form, layout, url, { signal, progress, early, paging }) {
   const [left, right] = eyeFiles(item, layout);
   const files = item.image ? [url(item.image)] : [url(left), url(right)];
   const crops = item.image ? [form.layout.left, form.layout.right] : [[0, 0, 1, 1], [0, 0, 1, 1]];
   const mono = files.length === 1 ? same(...crops) : left === right;
-  const eyes = [];
-  const free = () => new Set(eyes).forEach((eye) => eye.free());
-  let source = null;
+  const preview = item.preview && early ? openPreview(panorama, item, form, url, signal, early).catch(() => null) : null;
+  const sources = [];
+  let picture = null;
   try {
-    for (let i = 0; i < 2; i++) {
-      if (i === 1 && mono) {
-        eyes.push(eyes[0]);
-        break;
-      }
-      if (!source || files.length === 2) {
-        const blob = await download(files[i], item.name, signal, (part) => progress?.((part + i) / files.length));
-        source?.close();
-        source = await decode(blob, item.name);
-      }
-      const [x, y, width, height] = cropOf(crops[i], source);
-      if (width < 1 || height < 1) throw new Error(`${item.name} is too small for this layout. Choose another one.`);
-      const eye = new EyeTexture(gl, width, height, wraps);
-      eyes.push(eye);
-      await eye.fill(source, x, y);
+    for (const [i, file] of files.entries()) {
+      if (i === 1 && mono) break;
+      const blob = await download(file, item.name, signal, (part) => progress?.((part + i) / files.length));
+      sources.push(await decode(blob, item.name));
       signal?.throwIfAborted();
     }
-  } catch (error) {
-    free();
-    throw error;
+    if (sources.length === 1) sources.push(sources[0]);
+    picture = await eyesOf(panorama, form, { sources, crops, mono, name: item.name, preview: await preview, paging, signal });
+    return picture;
   } finally {
-    source?.close();
+    (await preview)?.close();
+    if (!picture?.pager) new Set(sources).forEach((source) => source.close());
   }
-  return { eyes, camera: form.camera, mono, free };
+}
+
+// Scene-linear light: halves, in a picture that browsers read (FrameCutter). The last one is kept, for other layouts.
+async function openLight(panorama, item, form, url, choice, { signal, progress }) {
+  const { gl } = panorama;
+  const address = url(item.light).href;
+  if (panorama.kept?.address !== address) {
+    const blob = await download(address, item.name, signal, progress);
+    panorama.kept?.source.close();
+    panorama.kept = null;
+    panorama.kept = { address, source: await decode(blob, item.name, 'none') };
+  }
+  const { source } = panorama.kept;
+  const crops = [form.layout.left, form.layout.right].map((crop) => cropOf(crop, { width: source.width / 2, height: source.height }));
+  const mono = same(...crops);
+  const eyes = crops.slice(mono ? 1 : 0).map(([, , width, height]) => new EyeTexture(gl, width, height, isRound(form.camera), true));
+  if (mono) eyes.push(eyes[0]);
+  const cutter = new FrameCutter(gl, true);
+  cutter.cut(source, eyes, crops);
+  cutter.free();
+  return {
+    eyes, camera: form.camera, mono, light: true, changed: null,
+    // What exposure and tone curve are chosen: the shader does the rest.
+    develop({ exposure = item.exposure, tone = item.tone }) {
+      Object.assign(this, { stops: exposure, tone });
+      return this;
+    },
+    free: () => new Set(eyes).forEach((eye) => eye.free()),
+  }.develop(choice);
 }
 
 // base: the address that the item's addresses are relative to. choice: { layout, projection, exposure, tone }, all
-// optional. Throws an Error with one line for the user, or an AbortError if `signal` says stop.
-export async function openPicture(panorama, view, item, { base, choice = {}, signal, progress } = {}) {
+// optional. early(picture): takes a preview of the picture. paging: of pages.js, else as the picture's size needs it.
+// Throws an Error with one line for the user, or an AbortError if `signal` says stop.
+export async function openPicture(panorama, view, item, { base, choice = {}, ...how } = {}) {
   const form = formOf(view, item, choice);
-  const layout = !item.image && hasOtherLayouts(view, item) ? choice.layout : undefined;
-  const url = (path) => {
+  const url = (path, query = {}) => {
     const address = new URL(path, base ?? location.href);
-    if (layout) address.searchParams.set('layout', layout);
-    if (item.live && choice.exposure !== undefined) address.searchParams.set('exposure', choice.exposure);
-    if (item.live && choice.tone) address.searchParams.set('tone', choice.tone);
+    for (const [name, value] of Object.entries(query)) if (value !== undefined) address.searchParams.set(name, value);
     return address;
   };
-  if (item.kind === 'video') return openVideo(panorama.gl, item, form, url(item.image), signal);
-  return openImage(panorama.gl, item, form, layout, url, signal, progress);
+  if (item.kind === 'video') return openVideo(panorama.gl, item, form, url(item.image), how.signal);
+  if (item.light && panorama.hasLight) return openLight(panorama, item, form, url, choice, how);
+  const layout = !item.image && hasOtherLayouts(view, item) ? choice.layout : undefined;
+  const { exposure, tone } = item.live ? choice : {};
+  return openImage(panorama, item, form, layout, (path) => url(path, { layout, exposure, tone }), how);
 }

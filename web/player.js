@@ -74,6 +74,7 @@ export class Player {
   }
 
   async enterHeadset() {
+    if (this.viewer.state.planet) this.act('planet'); // which is for flat screens
     try {
       await this.headset.toggle();
     } catch (error) {

@@ -113,7 +113,7 @@ class Stereo360 extends HTMLElement {
     const answer = await fetch(table);
     if (!answer.ok) throw new Error(`${table.pathname} did not load (${answer.status}): ods view --export writes it`);
     const view = await answer.json();
-    view.items.forEach((item) => ['image', 'left', 'right', 'poster'].forEach((file) => item[file] && (item[file] = new URL(item[file], table).href)));
+    view.items.forEach((item) => ['image', 'left', 'right', 'light', 'preview', 'thumbnail', 'poster'].forEach((file) => item[file] && (item[file] = new URL(item[file], table).href)));
     if (!this.hasAttribute('src')) this.showPoster(view.items[this.number('item', 0)]);
     if (this.getAttribute('reveal') === 'click') await this.clicked();
     const isSingle = () => this.hasAttribute('src') || this.hasAttribute('item');

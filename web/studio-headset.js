@@ -12,7 +12,7 @@ const TEXT = [512, 96]; // pixels
 const WIDE = 0.5; // radians
 const BELOW = -0.26;
 
-const degrees = (radians) => (radians * 180) / Math.PI;
+const halves = (degrees) => Math.round(degrees * 2) / 2;
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const axes = (m) => [m.slice(0, 3), m.slice(4, 7), m.slice(8, 11)];
 
@@ -34,31 +34,57 @@ export class VrSteering {
       this.gesture = null;
       return;
     }
-    const { merge_top: top, merge_bottom: bottom } = session.settings.sidecar;
+    const { merge_top: top } = session.settings.sidecar;
     if (!this.gesture) Object.assign(this, { gesture: {}, values: { start: top.start, end: top.end } });
     const { values } = this;
     if (right) values.start = Math.min(Math.max(values.start + right * SPEED * time, 0), values.end - 1);
     if (up) values.end = Math.max(Math.min(values.end + up * SPEED * time, 90), values.start + 1);
-    const [start, end] = [values.start, values.end].map((value) => Math.round(value * 2) / 2);
-    const edit = {};
+    this.merge(values, this.gesture, true);
+    this.say(`Merge ${halves(values.start).toFixed(1)}° – ${halves(values.end).toFixed(1)}°`);
+  }
+
+  merge({ start, end }, gesture, dragging) {
+    const { session, panel: { linked } } = this.studio;
+    const { merge_top: top, merge_bottom: bottom } = session.settings.sidecar;
     const mode = top.mode === 'none' ? 'cosine' : top.mode;
-    const linked = this.studio.panel.linked;
-    for (const each of linked ? ['top', 'bottom'] : ['top']) edit[`sidecar.merge_${each}`] = { ...(each === 'top' ? top : bottom), mode, start, end };
-    session.edit(edit, this.gesture, true);
-    this.say(`Merge ${start.toFixed(1)}° – ${end.toFixed(1)}°`);
+    const merged = (each) => ({ ...each, mode, start: halves(start), end: halves(end) });
+    session.edit({ 'sidecar.merge_top': merged(top), ...(linked && { 'sidecar.merge_bottom': merged(bottom) }) }, gesture, dragging);
+  }
+
+  // For the panel: where the merge starts and ends. set(value, isLast).
+  numbers() {
+    const { start, end } = this.studio.session.settings.sidecar.merge_top;
+    const set = (values) => (value, isLast) => {
+      this.dragged ??= {};
+      this.merge(values(value), this.dragged, !isLast);
+      if (isLast) this.dragged = null;
+    };
+    return [
+      { id: 'merge-start', text: 'Merge from', value: start, least: 0, most: 90, set: set((value) => ({ start: Math.min(value, end - 1), end })) },
+      { id: 'merge-end', text: 'Merge to', value: end, least: 0, most: 90, set: set((value) => ({ start, end: Math.max(value, start + 1) })) },
+    ];
+  }
+
+  get exposure() {
+    return this.studio.session.settings.exposure;
+  }
+
+  expose(stops) {
+    this.studio.session.edit({ exposure: Math.round((this.exposure + stops) * 100) / 100 });
+  }
+
+  get side() {
+    return this.studio.session.active ? 'B' : 'A';
   }
 
   select() {
-    const { session } = this.studio;
-    session.swap();
-    this.say(`Settings ${session.active ? 'B' : 'A'}`);
+    this.studio.session.swap();
+    this.say(`Settings ${this.side}`);
   }
 
-  // Where the head looks, for what is refined first. turn: as raysOfView() takes it.
-  head(pose, turn) {
-    const [, , back] = axes(pose.transform.matrix);
-    const yaw = Math.atan2(-back[0], back[2]) + turn;
-    this.studio.headLook = { yaw: ((degrees(yaw) + 540) % 360) - 180, pitch: degrees(Math.asin(-back[1])), fov: 100, aspect: 1 };
+  // Where the head looks, for what is refined first.
+  head({ yaw, pitch }) {
+    this.studio.headLook = { yaw: ((yaw + 540) % 360) - 180, pitch, fov: 100, aspect: 1 };
     this.studio.watchLook();
   }
 

@@ -6,6 +6,7 @@ import { icon } from './icons.js';
 import { MergeCurve } from './merge-curve.js';
 import { groupsOf, limitsOf, readValue } from './studio-fields.js';
 import { choiceRow, make, numberRow } from './studio-number.js';
+import { ask } from './studio-session.js';
 
 const LENGTHS = { longitude: 2, latitude: 2, sensor: 2, polynomial: 5, axis: 3 };
 const LIST = /^(?<list>.*\.(?<name>longitude|latitude|sensor|polynomial|axis))\.(?<i>\d)$/; // settings may lack it
@@ -28,6 +29,7 @@ export class Panel {
     session.addEventListener('edit', () => this.update());
     session.addEventListener('accepted', () => this.isOfSettings && this.refuse(''));
     session.addEventListener('refused', ({ detail }) => this.refuse(detail.text, detail.paths));
+    session.addEventListener('status', ({ detail }) => detail.part === 'base' && this.followDepth());
     this.update();
   }
 
@@ -116,6 +118,15 @@ export class Panel {
     }
     const other = sides[1 - active]?.settings.sidecar;
     this.curve.draw({ top, bottom }, other && { top: other.merge_top, bottom: other.merge_bottom });
+  }
+
+  // The curve that the depth of the picture allows, beside the hand-made one.
+  async followDepth() {
+    if (this.isAsking) return;
+    this.isAsking = true;
+    const comfort = await ask('comfort').catch(() => null);
+    if (comfort) this.curve.drawAuto(comfort.auto);
+    this.isAsking = false;
   }
 
   // Says what went wrong, until it is closed or said otherwise; '': nothing did.

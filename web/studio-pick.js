@@ -49,8 +49,11 @@ export function pickWithClicks(studio) {
     if (found.nothing) return card.replaceChildren(make('p', { textContent: 'Nothing is there: the sky.' }), close);
     const pixel = (place) => (place ? `${place.map((value) => value.toFixed(1)).join(', ')} px` : 'not seen');
     const metres = Number(found.distance.toPrecision(4));
+    const { comfort } = found;
+    const strain = comfort && `${comfort.level}, ${comfort.vertical.toFixed(1)}′ of height at worst`;
     card.replaceChildren(
       make('dl', {}, row('Distance', distance(found.distance)), row('Disparity', `${found.disparity.toFixed(1)}′`),
+        ...(strain ? [row('Comfort', strain)] : []),
         row('Left eye', pixel(found.left)), row('Right eye', pixel(found.right)), row('Point', found.point.map((value) => (Math.round(100 * value) / 100 + 0).toFixed(2)).join(', '))),
       make('div', { className: 'row' },
         button('Converge here', () => {

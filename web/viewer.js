@@ -5,9 +5,11 @@
 // controls. Events: `change` (the state, or the video's), `loading` (detail: 0..1, null at the end), `open`, `failed`
 // (detail: one line for people).
 import { boxOf, modeOf } from './modes.js';
-import { Panorama, bendOf, raysOf } from './panorama.js';
+import { Pace } from './pace.js';
+import { Panorama, raysOf } from './panorama.js';
 import { openPicture } from './picture.js';
 
+const REST = 150; // milliseconds without movement until the view is drawn exactly
 const KEEP = 64e6; // texels: a smaller picture stays on screen until the next one is there
 
 export const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
@@ -23,7 +25,9 @@ export class Viewer extends EventTarget {
     this.scene = null; // of the studio: what is live instead of an item
     this.choice = {}; // layout, projection, exposure, tone, where they are not the item's own
     this.panorama = new Panorama(canvas, shader);
+    this.pace = new Pace();
     this.waiting = false;
+    this.settling = null; // a mark of the exact drawing that is under way
     this.watch();
   }
 
@@ -46,14 +50,20 @@ export class Viewer extends EventTarget {
     this.dispatchEvent(new CustomEvent(name, { detail }));
   }
 
-  // An emulated headset draws into the canvas, whose size is then not ours to change.
   resize() {
-    const { canvas } = this;
-    if (this.session) return;
-    const scale = window.devicePixelRatio || 1;
-    canvas.width = Math.max(1, Math.round(canvas.clientWidth * scale));
-    canvas.height = Math.max(1, Math.round(canvas.clientHeight * scale));
     if (this.picture) this.draw(performance.now());
+    else this.fit();
+  }
+
+  // An emulated headset draws into the canvas, whose size is then not ours to change. Returns whether it has changed.
+  fit(part = 1) {
+    const { canvas } = this;
+    if (this.session) return false;
+    const scale = part * (window.devicePixelRatio || 1);
+    const size = [canvas.clientWidth, canvas.clientHeight].map((pixels) => Math.max(1, Math.round(pixels * scale)));
+    if (canvas.width === size[0] && canvas.height === size[1]) return false;
+    [canvas.width, canvas.height] = size;
+    return true;
   }
 
   // Changes parts of the state and draws.
@@ -74,26 +84,78 @@ export class Viewer extends EventTarget {
     requestAnimationFrame((now) => {
       this.waiting = false;
       this.draw(now);
+      requestAnimationFrame((next) => this.pace.took(next - now));
       if (modeOf(this.state.mode).moves && !this.session) this.redraw();
     });
   }
 
+  // Quickly; and exactly, as soon as nothing moves.
   draw(now) {
-    const { panorama, picture, canvas, state } = this;
     if (this.session) return;
-    panorama.clear();
+    this.settling = null;
+    clearTimeout(this.rest);
+    this.fit(this.pace.how.scale);
+    this.picture?.refresh?.();
+    this.paint(now, { moves: true, cheap: this.pace.how.cheap });
+    for (const { pager } of this.pictures()) pager?.follow(this.parts(now), now);
+    if (this.picture) this.rest = setTimeout(() => this.settle(), REST);
+  }
+
+  // rows: a strip of the canvas, from its lower edge: [first, count]; all without.
+  paint(now, how, rows) {
+    const { panorama, picture, canvas } = this;
+    if (!rows) panorama.clear();
     if (!picture) return;
-    picture.refresh?.();
     this.compare?.before(picture);
-    const shift = (state.shift * Math.PI) / 360; // half of it for each eye
-    for (const { at, eye, show } of modeOf(state.mode).parts(now)) {
-      const box = boxOf(at, canvas);
-      if (box[2] < 1 || box[3] < 1) continue;
-      panorama.draw(picture, {
-        rays: raysOf(state, box[2] / box[3]), box, eye, show, swap: state.swap, grid: state.grid, bend: bendOf(state), shift,
-      });
+    for (const options of this.parts(now)) {
+      const [x, y, width, height] = options.box;
+      panorama.draw(picture, { ...options, ...how, clip: rows ? [x, rows[0], width, rows[1]] : [x, y, width, height] });
     }
-    this.compare?.after(now);
+    this.compare?.after(now, how, rows);
+  }
+
+  // What is open, and what is compared with it.
+  pictures() {
+    return [this.picture, this.picture?.beside].filter(Boolean);
+  }
+
+  // What panorama.draw() is told of each part of the view; all are as high as the canvas.
+  parts(now) {
+    const { canvas, state } = this;
+    const shift = (state.shift * Math.PI) / 360; // half of it for each eye
+    return modeOf(state.mode).parts(now).map(({ at, eye, show }) => {
+      const box = boxOf(at, canvas);
+      return { rays: raysOf(state, box[2] / box[3]), box, eye, show, swap: state.swap, grid: state.grid, planet: state.planet, shift };
+    }).filter(({ box }) => box[2] > 0 && box[3] > 0);
+  }
+
+  // Draws exactly, strip by strip: a slow GPU is never busy for long, and who moves meanwhile need not wait for the rest.
+  async settle() {
+    const { panorama, canvas } = this;
+    const mark = (this.settling = {});
+    const goesOn = () => this.settling === mark && this.picture && !this.session;
+    const nextFrame = () => new Promise(requestAnimationFrame);
+    if (this.fit()) this.paint(performance.now(), { moves: true });
+    const anyOf = (run) => this.pictures().map(({ pager }) => Boolean(pager && run(pager))).some(Boolean);
+    while (goesOn() && anyOf((pager) => pager.look(this.parts(0), 2))) {
+      this.paint(performance.now(), { moves: true });
+      await nextFrame();
+    }
+    const isReady = () => this.parts(0).every((options) => this.pictures().every((picture) => panorama.isReady(picture, options)));
+    while (goesOn() && !isReady()) await nextFrame();
+    for (let y = 0, count = Math.ceil(canvas.height / 8); goesOn() && y < canvas.height;) {
+      this.paint(performance.now(), {}, [y, count]);
+      y += count;
+      const took = await panorama.finished(nextFrame);
+      if (took < 20) count *= 2;
+      if (took > 50) count = Math.ceil(count / 2);
+    }
+    let isBetter = false;
+    while (goesOn() && anyOf((pager) => pager.refine())) {
+      isBetter = true;
+      await nextFrame();
+    }
+    if (goesOn()) isBetter ? this.redraw() : this.say('settled');
   }
 
   get about() {
@@ -111,16 +173,9 @@ export class Viewer extends EventTarget {
     try {
       const picture = await openPicture(this.panorama, this.view, this.about, {
         base: this.base, choice, signal: loading.signal, progress: (part) => this.say('loading', part),
+        early: (preview) => this.take(preview, loading.signal),
       });
-      if (loading.signal.aborted) return picture.free();
-      this.close();
-      this.picture = picture;
-      picture.changed = () => {
-        this.redraw();
-        this.say('change');
-      };
-      this.redraw();
-      this.say('open');
+      this.take(picture, loading.signal);
     } catch (error) {
       if (loading.signal.aborted) return;
       this.close();
@@ -128,6 +183,18 @@ export class Viewer extends EventTarget {
       this.say('failed', error.message);
     }
     this.say('loading', null);
+  }
+
+  take(picture, signal) {
+    if (signal.aborted) return picture.free();
+    this.close();
+    this.picture = picture;
+    picture.changed = () => {
+      this.redraw();
+      this.say('change');
+    };
+    this.redraw();
+    this.say('open');
   }
 
   close() {
@@ -141,14 +208,21 @@ export class Viewer extends EventTarget {
     if (count > 1) this.open((this.item + by + count) % count, { exposure: this.choice.exposure, tone: this.choice.tone });
   }
 
-  // A change of layout, projection, exposure or tone: loads the picture anew, where it is in the video.
+  // A change of layout, projection, exposure or tone: loads the picture anew, where it is in the video. Light is developed
+  // here.
   async choose(changes) {
+    if (this.picture?.light && !('layout' in changes) && !('projection' in changes)) {
+      this.choice = { ...this.choice, ...changes };
+      this.picture.develop(this.choice);
+      this.redraw();
+      return this.say('open');
+    }
     const at = this.picture?.video?.currentTime;
     await this.open(this.item, { ...this.choice, ...changes });
     if (at) this.picture?.seek?.(at);
   }
 
-  // Where the server develops the picture: in stops, from what it is now.
+  // Of light: in stops, from what it is now.
   expose(by) {
     if (!this.about?.live) return false;
     const now = this.choice.exposure ?? this.about.exposure ?? 0;
@@ -158,7 +232,8 @@ export class Viewer extends EventTarget {
 
   // What is on the canvas, as a PNG.
   async screenshot() {
-    this.draw(performance.now());
+    this.fit();
+    this.paint(performance.now(), {});
     return new Promise((done) => (this.compare?.shown() ?? this.canvas).toBlob(done));
   }
 }

@@ -98,7 +98,7 @@ bool listen(int from, float seconds, Listener& listener) {
   }
 }
 
-[[noreturn]] void fail(const std::string& scene, const std::string& why) {
+[[noreturn]] void fail_in_blender(const std::string& scene, const std::string& why) {
   throw ods::Error(ods::ErrorKind::kInput, fmt::format("'{}': {}", scene, why));
 }
 
@@ -134,7 +134,7 @@ static void run_script(const BlenderOptions& options, const std::vector<std::str
   words.insert(words.end(), {"--python-exit-code", "4", "--python", path.native(), "--"});
   words.insert(words.end(), arguments.begin(), arguments.end());
   const std::optional<Spawned> program = spawn_for_this_thread(words);
-  if (!program) fail(what, "Blender cannot be started");
+  if (!program) fail_in_blender(what, "Blender cannot be started");
   Listener listener;
   const bool in_time = listen(program->from, options.seconds, listener);
   close(program->from);
@@ -142,24 +142,24 @@ static void run_script(const BlenderOptions& options, const std::vector<std::str
   int status = 0;
   waitpid(program->process, &status, 0);
   if (!in_time) {
-    fail(what,
-         fmt::format("Blender did not finish within {:g} seconds (--blender-limit gives it more)", options.seconds));
+    fail_in_blender(what, fmt::format("Blender did not finish within {:g} seconds (--blender-limit gives it more)",
+                                      options.seconds));
   }
-  if (!listener.error().empty()) fail(what, listener.error());
+  if (!listener.error().empty()) fail_in_blender(what, listener.error());
   if (listener.is_done()) return;
   const std::string how =
       WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL
           ? fmt::format("Blender crashed (signal {}); --blender PATH tries another", WTERMSIG(status))
       : WIFEXITED(status) && WEXITSTATUS(status) == 127 ? "Blender cannot be started"
                                                         : "Blender ended before it was done";
-  fail(what, listener.last().empty() ? how : fmt::format("{}; it said: {}", how, listener.last()));
+  fail_in_blender(what, listener.last().empty() ? how : fmt::format("{}; it said: {}", how, listener.last()));
 }
 
 void run_blender(const BlenderOptions& options, const std::string& scene, const std::string& folder) {
   std::vector<std::string> arguments = {fs::absolute(scene).native(), folder};
   if (options.bake > 0) arguments.insert(arguments.end(), {"--bake", std::to_string(options.bake)});
   run_script(options, {"--factory-startup"}, "run.py", arguments, scene);
-  if (!fs::exists(fs::path(folder) / "bridge.json")) fail(scene, "Blender ended before it was done");
+  if (!fs::exists(fs::path(folder) / "bridge.json")) fail_in_blender(scene, "Blender ended before it was done");
 }
 
 void install_add_on(const BlenderOptions& options) {

@@ -16,7 +16,7 @@ using ods::CameraTarget;
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kCameraExamples =
     "  ods camera --for povray --ipd 0.064 --merge cosine,0,90,0.2 --position 0,1.6,0 > camera.inc\n"
     "  ods camera --for blender --from picture.camera.json -o match.py\n"
     "  ods camera --for json --camera-preset arnold -o arnold.camera.json";
@@ -28,7 +28,7 @@ void camera(int argc, char** argv) {
   Options options(
       "camera",
       "Exports a camera to another renderer. A comment in the result says what that renderer does not support.",
-      kExamples);
+      kCameraExamples);
   options.group("Output");
   options.choice("--for", target, ods::kCameraTargetTable,
                  "the target; untested in their programs: povray-fork, osl, ospray, arnold, mtoa, unity, unreal");

@@ -21,7 +21,7 @@ using ods::Camera, ods::Sidecar, ods::vec2, ods::vec3;
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kProjectExamples =
     "  ods project 0,1.5,-2 1,0,-3 --width 4096 --position 0,1.6,0\n"
     "  ods project --from picture.camera.json --json < points.txt\n"
     "  ods project --from picture.camera.json --from-pixel left,2048.5,1024.5,3.2";
@@ -100,7 +100,7 @@ void project(int argc, char** argv) {
   Options options(
       "project",
       "Projects world points into each eye's picture. It reads no scene, so it does not know what hides them.",
-      kExamples);
+      kProjectExamples);
   options.arguments("X,Y,Z...", words, "points, in metres; without any, reads lines from stdin");
   options.text("--from-pixel", "EYE,X,Y,DEPTH", pixel, "unproject: the point at that depth along the pixel's ray");
   options.flag("--json", json, "print JSON, one object per line");

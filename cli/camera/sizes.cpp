@@ -17,7 +17,7 @@ using ods::NamedSize;
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kSizesExamples =
     "  ods sizes\n"
     "  ods sizes tb-high-6480                     everything about one\n"
     "  ods render room -o room.png --size tb-minimum-3600";
@@ -100,7 +100,7 @@ void print_json(std::span<const NamedSize> sizes) {
 void sizes(int argc, char** argv) {
   std::string name;
   bool json = false;
-  Options options("sizes", "Lists the named sizes and the video levels that they fit in.", kExamples);
+  Options options("sizes", "Lists the named sizes and the video levels that they fit in.", kSizesExamples);
   options.optional_argument("NAME", name, "show one size in detail");
   options.group("Console");
   options.flag("--json", json, "print JSON");

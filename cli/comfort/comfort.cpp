@@ -11,7 +11,7 @@
 
 #include "cli/comfort/comfort_job.h"
 #include "cli/comfort/comfort_report.h"
-#include "cli/comfort/judged.h"
+#include "cli/comfort/heat.h"
 #include "cli/comfort/page_of.h"
 #include "cli/comfort/video_report.h"
 #include "cli/console/console.h"
@@ -31,7 +31,8 @@ void judge_still(const ComfortJob& job) {
   std::vector<ods::ComfortReport> reports;
   for (const Judged& each : looked.eyes) reports.push_back(ods::judge_comfort(each.seen, job.comfort));
   if (reports[0].unknown > 0.0 && !looked.match) {
-    warn(fmt::format("{:.3g} % of the pixels have no depth, and are not judged", 100.0 * reports[0].unknown));
+    warn(fmt::format("'{}': {:.3g} % of the pixels have no depth, and are not judged", job.scene.name,
+                     100.0 * reports[0].unknown));
   }
   job.json ? print_json(job, looked, reports[0]) : print_text(job, looked, reports[0]);
   if (!job.heat.empty()) save_heat(job.heat, looked, reports);

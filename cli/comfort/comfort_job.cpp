@@ -17,7 +17,7 @@
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kComfortExamples =
     "  ods comfort picture.exr                       by its depth layer\n"
     "  ods comfort picture_360_TB.jpg                by matching its eyes\n"
     "  ods comfort video_360_TB.mp4 --html report.html\n"
@@ -25,7 +25,7 @@ constexpr const char* kExamples =
     "  ods comfort picture.exr --heat heat_360_TB.png\n"
     "  ods comfort scene.glb --rules google || echo move the camera";
 
-constexpr const char* kSummary =
+constexpr const char* kComfortSummary =
     "Judges what a stereo 360 picture does to its viewer's eyes: by its depth layer, by matching its eyes where it "
     "has\n"
     "none, or in a scene before it is rendered. Lists the things that strain most, where they are, and what would "
@@ -100,7 +100,7 @@ ComfortInput input_of(const std::string& path) {
 
 bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
   ods::Viewer& viewer = job.comfort.viewer;
-  Options options("comfort", kSummary, kExamples);
+  Options options("comfort", kComfortSummary, kComfortExamples);
   add_scene_argument(options, job.scene, [&](const ForeignScene& scene) { take_camera(job.camera, scene); });
   options.group("Viewer");
   options.custom(

@@ -24,10 +24,11 @@ std::string shares_text(const std::array<double, 4>& shares) {
 }
 
 void print_place(const StrainedPlace& place) {
+  const std::string cure = cure_text(place);
   const ods::StrainRow& strain = ods::strain_row(place.strain);
-  fmt::print("{}: {}, {:.2f} m away, {} ({} of the picture): {}, {:.3g} {}; {}\n", comfort_level_name(place.level),
+  fmt::print("{}: {}, {:.2f} m away, {} ({} of the picture): {}, {:.3g} {}{}{}\n", comfort_level_name(place.level),
              thing_text(place), place.distance, direction_text(place), share_text(place.share), strain.title,
-             place.value, strain.unit, cure_text(place));
+             place.value, strain.unit, cure.empty() ? "" : "; ", cure);
 }
 
 Json shares_json(const std::array<double, 4>& shares) {
@@ -67,6 +68,7 @@ std::string share_text(double share) {
 }
 
 std::string cure_text(const StrainedPlace& place) {
+  if (place.level < ComfortLevel::kWarning) return "";
   std::string text = fmt::format("{:.2f} m would do", place.enough);
   if (place.strain != Strain::kRule) text += fmt::format(", or --ipd {:.3f}", std::floor(1e3 * place.ipd) / 1e3);
   return text;

@@ -21,6 +21,6 @@ std::string direction_text(const ods::StrainedPlace& place);
 std::string thing_text(const ods::StrainedPlace& place);
 std::string share_text(double share);
 
-// What would help against it; against all of it.
+// What would help against it: empty for a caution, which may stay; against all of it.
 std::string cure_text(const ods::StrainedPlace& place);
 std::vector<std::string> cure_lines(const ComfortJob& job, const Looked& looked, const ods::ComfortReport& report);

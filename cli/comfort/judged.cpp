@@ -12,14 +12,16 @@
 
 #include "cli/comfort/first_look.h"
 #include "cli/console/console.h"
+#include "ods/camera/pixel.h"
 #include "ods/convert/reproject.h"
 #include "ods/convert/unwrap.h"
+#include "ods/depth/floor.h"
+#include "ods/files/atomic_file.h"
+#include "ods/files/scratch.h"
 #include "ods/identify/identify.h"
 #include "ods/image/tone.h"
-#include "ods/kernel/surface.h"
 #include "ods/picture/cryptomatte.h"
 #include "ods/picture/load_eyes.h"
-#include "ods/picture/save.h"
 #include "ods/picture/stored_picture.h"
 #include "ods/render/cpu/render.h"
 #include "ods/render/render_target.h"
@@ -27,21 +29,24 @@
 
 namespace {
 
-constexpr int kMostWidth = 2048;  // of what is judged
+constexpr int kMostWidth = 2048;   // of what is judged
+constexpr int kHiddenWidth = 512;  // of the look from the middle: a thing of a millimetre in the circle is three pixels
 
 // What rays from the circle's middle meet before they leave it.
 std::vector<std::string> hidden_in_circle(const ods::CpuRenderer& renderer, const ods::StereoCamera& camera,
                                           const ods::RenderOptions& options, const Things& things) {
   ods::RenderOptions middle = options;
   middle.eyes = ods::Eyes::kMonoEye;
+  middle.width = std::min(options.width, kHiddenWidth), middle.height = 0;
+  middle = ods::with_height(middle, camera);
   const ods::Camera kernel = ods::make_camera(camera);
   const std::vector<ods::Hit> hits = std::move(renderer.center_hits(camera, middle)[0]);
+  const ods::Extent size{middle.width, middle.height};
+  const auto width = static_cast<size_t>(size.width);
   std::set<std::string> names;
   for (size_t i = 0; i < hits.size(); i++) {
     if (hits[i].t < 0.0f || hits[i].t > 0.5f * camera.ipd) continue;
-    const auto width = static_cast<size_t>(middle.width);
-    const ods::vec2 uv((static_cast<float>(i % width) + 0.5f) / static_cast<float>(width),
-                       (static_cast<float>(i / width) + 0.5f) / static_cast<float>(middle.height));
+    const ods::vec2 uv = ods::pixel_middle(static_cast<int>(i % width), static_cast<int>(i / width), size);
     const ods::ViewDirection look = ods::look_of(kernel.projection, uv, uv);
     const float radius = 0.5f * camera.ipd * ods::merge_at(kernel, look.direction, look.elevation);
     if (hits[i].t * std::cos(look.elevation) >= radius) continue;
@@ -104,6 +109,64 @@ Looked match_picture(const ods::StoredPicture& picture, const std::string& name)
   return looked;
 }
 
+// A picture, of which as little as is wanted is read.
+struct Opened {
+  ods::StoredPicture picture;
+  std::optional<ods::Cryptomatte> matte;
+  bool shows = false;  // its colours are there
+};
+
+Opened open_to_judge(const ComfortJob& job) {
+  const std::string& name = job.scene.name;
+  ods::OpenOptions open;
+  Opened opened;
+  std::vector<std::string> notes;
+  open.format = ods::identified(name, job.format, notes);
+  ods::PictureReader reader(name, open);
+  const ods::StoredPicture& header = reader.header();
+  const std::optional<size_t> layer = ods::depth_layer(header);
+  if (layer) opened.matte = matte_of(name);
+  opened.shows = !layer || !job.heat.empty() || !job.html.empty();
+  const std::string depth = layer ? header.eyes[0].layers[*layer].channels[0] : "";
+  const std::string matte = opened.matte ? ods::matte_channel(header, *opened.matte) : "";
+  const std::vector<std::string> colors = header.eyes[0].layers[0].channels;
+  const auto wants = [&](const std::string& channel) {
+    if (channel == depth || channel == matte) return true;
+    return opened.shows && std::ranges::find(colors, channel) != colors.end();
+  };
+  const std::string beside = job.heat.empty() ? job.html : job.heat;
+  const std::string scratch = beside.empty() ? "" : ods::existing_folder_of(beside);
+  const bool has_maps = !header.maps.empty();
+  opened.picture = has_maps ? reader.read(scratch) : reader.read(scratch, wants);
+  notes.insert(notes.end(), opened.picture.guesses.begin(), opened.picture.guesses.end());
+  for (const std::string& text : notes) note(text);
+  if (has_maps) opened.picture = ods::unwrapped(opened.picture);
+  return opened;
+}
+
+// Says what is wrong with the depth of an eye; `name`: of its file.
+void check_depth(const ods::SeenDepth& seen, const std::string& name) {
+  ods::Image nearness = seen.depth;
+  bool has_any = false, has_surface = false;
+  for (float& depth : nearness.pixels) {
+    has_any = has_any || depth > 0.0f, has_surface = has_surface || ods::is_surface(depth);
+    depth = ods::is_surface(depth) ? 1.0f / depth : 0.0f;
+  }
+  if (!has_any) {
+    throw ods::Error(
+        ods::ErrorKind::kInput,
+        fmt::format("'{}': its layer of depth (Z) is 0, negative or NaN everywhere: render it again, or judge "
+                    "its eyes, saved without it",
+                    name));
+  }
+  if (!has_surface)
+    warn(fmt::format("'{}': its layer of depth (Z) is infinite everywhere: there is nothing to judge", name));
+  if (ods::looks_inverted(nearness, ods::make_camera(seen.camera), seen.eye)) {
+    warn(fmt::format("'{}': its depth (Z) looks inverted, near sky and far floor: Z is metres along the line of sight",
+                     name));
+  }
+}
+
 }  // namespace
 
 Looked look_at_scene(const ComfortJob& job) {
@@ -130,24 +193,21 @@ Looked look_at_scene(const ComfortJob& job) {
 }
 
 Looked look_at_picture(const ComfortJob& job) {
-  ods::OpenOptions open;
-  std::vector<std::string> notes;
-  open.format = ods::identified(job.scene.name, job.format, notes);
-  ods::StoredPicture picture = ods::open_picture(job.scene.name, open);
-  notes.insert(notes.end(), picture.guesses.begin(), picture.guesses.end());
-  for (const std::string& text : notes) note(text);
-  if (!picture.maps.empty()) picture = ods::unwrapped(picture);
-  if (!ods::depth_layer(picture)) return match_picture(picture, job.scene.name);
-  const std::optional<ods::Cryptomatte> matte = matte_of(job.scene.name);
-  const bool shows = !job.heat.empty() || !job.html.empty();
+  const std::string& name = job.scene.name;
+  const Opened opened = open_to_judge(job);
+  const ods::StoredPicture& picture = opened.picture;
+  if (!ods::depth_layer(picture)) return match_picture(picture, name);
   Looked looked{picture.camera, {}, {}, {}};
   for (size_t i = 0; i < picture.eyes.size(); i++) {
     Judged& judged = looked.eyes.emplace_back();
     std::vector<size_t> chosen;
-    const ods::Image depth = ods::nearest_of_blocks(ods::depth_of_eye(picture, i), kMostWidth, &chosen);
-    judged.seen = {picture.camera, picture.eyes[i].eye, depth, {}, {}};
-    if (matte) name_things(judged.seen, ods::matte_of_eye(picture, i, *matte), chosen, *matte);
-    if (shows) judged.light = colors_of(picture, i, depth.width, depth.height);
+    judged.seen = {picture.camera, picture.eyes[i].eye, {}, {}, {}};
+    judged.seen.depth = ods::nearest_of_blocks(ods::depth_of_eye(picture, i), kMostWidth, &chosen);
+    if (i == 0) check_depth(judged.seen, name);
+    if (opened.matte) name_things(judged.seen, ods::matte_of_eye(picture, i, *opened.matte), chosen, *opened.matte);
+    const ods::Image& depth = judged.seen.depth;
+    if (opened.shows) judged.light = colors_of(picture, i, depth.width, depth.height);
+    if (picture.memory) picture.memory->release();
   }
   return looked;
 }
@@ -159,36 +219,4 @@ ods::Image light_of(const ods::Image& grey) {
     light.pixels[i] = shown > 0.0f ? ods::srgb_decode(shown) : 0.0f;
   }
   return light;
-}
-
-ods::Image heat_of(const Judged& judged, const ods::ComfortReport& report) {
-  constexpr ods::vec3 kColors[] = {{0, 0, 0}, {1.0f, 0.75f, 0.05f}, {1.0f, 0.22f, 0.0f}, {0.75f, 0.0f, 0.03f}};
-  ods::Image heat(judged.light.width, judged.light.height, 3);
-  for (size_t k = 0; k < report.level.pixels.size(); k++) {
-    const float* from = &judged.light.pixels[3 * k];
-    const float grey = ods::luminance(ods::vec3(from[0], from[1], from[2]));
-    const float light = grey > 0.0f ? 0.6f * std::min(grey, 1.0f) : 0.0f;
-    const auto color = static_cast<size_t>(report.level.pixels[k]);
-    for (int c = 0; c < 3; c++) {
-      const float hot = 0.3f * light + 0.7f * kColors[color][c];
-      heat.pixels[3 * k + static_cast<size_t>(c)] = color == 0 ? light : hot;
-    }
-  }
-  return heat;
-}
-
-ods::Picture heat_picture(const Looked& looked, const std::vector<ods::ComfortReport>& reports) {
-  ods::Picture picture;
-  for (size_t i = 0; i < looked.eyes.size(); i++) {
-    ods::EyeImage& eye = picture.eyes.emplace_back();
-    eye.eye = looked.eyes[i].seen.eye;
-    eye.radiance = heat_of(looked.eyes[i], reports[i]);
-  }
-  return picture;
-}
-
-void save_heat(const std::string& path, const Looked& looked, const std::vector<ods::ComfortReport>& reports) {
-  for (const std::string& file : ods::save_picture(heat_picture(looked, reports), looked.camera, {}, path)) {
-    announce_file(file);
-  }
 }

@@ -9,7 +9,6 @@
 
 #include "cli/comfort/comfort_job.h"
 #include "ods/comfort/matched.h"
-#include "ods/picture/picture.h"
 
 struct Judged {
   ods::SeenDepth seen;
@@ -34,10 +33,3 @@ Looked look_at_picture(const ComfortJob& job);
 
 // Grey as a display shows it, 1 channel, as light of 3 channels.
 ods::Image light_of(const ods::Image& grey);
-
-// What is ok in grey; the rest in yellow, orange and red. 3 channels, linear.
-ods::Image heat_of(const Judged& judged, const ods::ComfortReport& report);
-
-// reports: of each of the eyes.
-ods::Picture heat_picture(const Looked& looked, const std::vector<ods::ComfortReport>& reports);
-void save_heat(const std::string& path, const Looked& looked, const std::vector<ods::ComfortReport>& reports);

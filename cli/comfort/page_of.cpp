@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "cli/comfort/comfort_report.h"
+#include "cli/comfort/heat.h"
 #include "cli/comfort/video_report.h"
 
 using ods::ComfortReport, ods::Image, ods::Strain, ods::StrainedPlace, ods::vec2, ods::vec3;
@@ -23,8 +24,8 @@ constexpr float kDegree = 3.14159265f / 180.0f;
 Image crop_of(const Judged& judged, double azimuth, double elevation) {
   const ods::Camera camera = ods::make_camera(judged.seen.camera);
   const float theta = static_cast<float>(azimuth) * kDegree, phi = static_cast<float>(elevation) * kDegree;
-  const vec3 ahead(std::cos(phi) * std::sin(theta), std::sin(phi), -std::cos(phi) * std::cos(theta));
-  const vec3 right(std::cos(theta), 0.0f, std::sin(theta)), up = cross(right, ahead);
+  const vec3 ahead = ods::look_at_angles(theta, phi).direction;
+  const vec3 right = ods::look_at_angles(theta + 90.0f * kDegree, 0.0f).direction, up = cross(right, ahead);
   const float pixel = 2.0f * std::tan(0.5f * kCropAngle * kDegree) / kCropWidth;
   Image crop(kCropWidth, kCropHeight, 3);
   for (int y = 0; y < kCropHeight; y++) {
@@ -43,13 +44,18 @@ Image crop_of(const Judged& judged, double azimuth, double elevation) {
   return crop;
 }
 
+std::string cure_line(const StrainedPlace& place) {
+  const std::string cure = cure_text(place);
+  return cure.empty() ? "" : "Cure: " + cure;
+}
+
 PageThing thing_of(const StrainedPlace& place, const Judged& judged) {
   const ods::StrainRow& strain = ods::strain_row(place.strain);
   return {place.level,
           fmt::format("{}, {:.2f} m away", thing_text(place), place.distance),
           direction_text(place) + fmt::format("; {} of the picture", share_text(place.share)),
           fmt::format("{}: {:.3g} {}", strain.title, place.value, strain.unit),
-          "Cure: " + cure_text(place),
+          cure_line(place),
           crop_of(judged, place.azimuth, place.elevation)};
 }
 
@@ -98,7 +104,7 @@ ComfortPage page_of(const ComfortJob& job, const ods::VideoComfort& video) {
     PageThing thing{strain.level, times_text(strain), "", strain_text(strain), "", {}};
     if (strain.place) {
       thing.where = fmt::format("{:.2f} m away, {}", strain.place->distance, direction_text(*strain.place));
-      thing.cure = "Cure: " + cure_text(*strain.place);
+      thing.cure = cure_line(*strain.place);
       const bool is_shown = !video.report.places.empty() && video.report.places[0].azimuth == strain.place->azimuth;
       if (is_shown) thing.crop = crop_of(judged, strain.place->azimuth, strain.place->elevation);
     }

@@ -57,9 +57,12 @@ void print_text(const ComfortJob& job, const ods::VideoComfort& video) {
              video.camera.ipd, nearest);
   fmt::print("{}\n", looked_text(video));
   for (const ods::VideoStrain& strain : video.strains) {
-    const std::string place = strain.place ? fmt::format(", {:.2f} m away, {}; {}", strain.place->distance,
-                                                         direction_text(*strain.place), cure_text(*strain.place))
-                                           : "";
+    std::string place;
+    if (strain.place) {
+      const std::string cure = cure_text(*strain.place);
+      place = fmt::format(", {:.2f} m away, {}{}{}", strain.place->distance, direction_text(*strain.place),
+                          cure.empty() ? "" : "; ", cure);
+    }
     fmt::print("{}: {}: {}{}\n", comfort_level_name(strain.level), times_text(strain), strain_text(strain), place);
   }
 }

@@ -16,11 +16,11 @@ namespace {
 
 constexpr const char* kTitle = "render, convert and check stereo 360 pictures and videos";
 
-constexpr const char* kSummary =
+constexpr const char* kManualSummary =
     "ods renders omni-directional stereo (stereo 360 degree) pictures and videos of glTF "
     "scenes.";
 
-constexpr const char* kExamples =
+constexpr const char* kManualExamples =
     "  ods render scene.glb -o picture.png        left eye on top, ready for a headset\n"
     "  ods render room -o room.png                a built-in scene\n"
     "  ods info scene.glb                         what is in the scene";
@@ -100,7 +100,7 @@ std::string help(const Manual& manual) {
 }
 
 std::string help(const std::vector<CommandSummary>& commands) {
-  std::string text = fmt::format("{}\n\nExamples:\n{}\n\nCommands:\n", kSummary, kExamples);
+  std::string text = fmt::format("{}\n\nExamples:\n{}\n\nCommands:\n", kManualSummary, kManualExamples);
   for (const CommandSummary& command : commands) text += fmt::format("  {:<10} {}\n", command.name, command.summary);
   text += fmt::format("\n{}\nExit codes:\n", kExplain);
   for (const ExitMeaning& exit : kExitMeanings) text += fmt::format("  {:<4} {}\n", exit.code, exit.meaning);
@@ -170,12 +170,12 @@ std::string man_page(const Manual& manual) {
 }
 
 std::string man_page(const std::vector<CommandSummary>& commands) {
-  std::string text = man_start("ods", kTitle, "\\fBods\\fR \\fICOMMAND\\fR [OPTION...]", kSummary) + ".PP\n" +
+  std::string text = man_start("ods", kTitle, "\\fBods\\fR \\fICOMMAND\\fR [OPTION...]", kManualSummary) + ".PP\n" +
                      troff(kExplain) + "\n.SH COMMANDS\n";
   for (const CommandSummary& command : commands) {
     text += fmt::format(".TP\n.BR ods\\-{} (1)\n{}\n", troff(command.name), troff(command.summary));
   }
-  return text + man_examples(kExamples) + man_exit_codes();
+  return text + man_examples(kManualExamples) + man_exit_codes();
 }
 
 // --- completion: bash ----------------------------------------------------------------------------------------------

@@ -58,6 +58,7 @@ class Frames {
   void convert(Work& work) const {
     ods::ConvertTarget target = job_.target;
     target.turned = work.turned;
+    if (job_.merges) target.camera.merge_map = job_.merges->at(place_of(work.index));
     if (!work.picture) {
       work.picture = open_frame(job_.files, work.index, job_.picture);
     }
@@ -73,6 +74,13 @@ class Frames {
     work.empty = static_cast<double>(*conversion.empty) / pixels;
     work.filled = static_cast<double>(*conversion.filled) / pixels;
     work.picture.reset();
+  }
+
+  // Of all pictures, whichever process makes them.
+  int place_of(size_t index) const {
+    if (job_.kind == FootageKind::kVideo) return static_cast<int>(index);
+    const std::vector<int>& every = job_.every_frame;
+    return static_cast<int>(std::ranges::find(every, job_.files.frames[index]) - every.begin());
   }
 
   // Frames keep their numbers; those of a video count from 0.
@@ -102,7 +110,7 @@ void convert_to_frames(ConvertJob& job, ProgressLines& lines) {
   const bool from_video = job.kind == FootageKind::kVideo;
   if (from_video) refuse_other_colors(job.footage->stream(), job.input);
   open_depth(job);
-  find_merge(job);
+  find_merges(job);
   Frames frames(job);
   note_guesses(job.input, job.picture);
   const size_t expected = from_video ? static_cast<size_t>(job.footage->expected_count()) : job.files.frames.size();

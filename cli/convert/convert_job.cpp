@@ -12,7 +12,6 @@
 #include "cli/options/picture_options.h"
 #include "cli/options/projection_options.h"
 #include "cli/options/time_options.h"
-#include "ods/comfort/merge_from_depth.h"
 #include "ods/files/atomic_file.h"
 #include "ods/identify/identify.h"
 #include "ods/picture/metadata/sidecar.h"
@@ -21,7 +20,7 @@ using ods::CameraField, ods::StereoCamera, ods::Eyes, ods::Layout, ods::FootageK
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kConvertExamples =
     "  ods convert picture.png -o cubes.png --to cube-3x2\n"
     "  ods convert picture_TB.jpg -o headset.jpg --to vr180 --width 4096\n"
     "  ods convert picture.exr -o window.png --mono --to perspective --fov 70 --yaw 30 --pitch -10\n"
@@ -30,7 +29,7 @@ constexpr const char* kExamples =
     "  ods convert video_360_TB.mp4 -o headset_180_LR.mp4 --to vr180 --trim 0:10-0:20\n"
     "  ods convert 'shot_360_TB.####.png' -o 'cubes.####.png' --to cube-3x2";
 
-constexpr const char* kSummary =
+constexpr const char* kConvertSummary =
     "Converts a stereo 360 picture, frames or a video to another projection, layout, size or convergence, or to\n"
     "single eyes. Pictures with depth (.exr of ods render, or --depth) can also get another eye distance or pole "
     "merge,\n"
@@ -255,7 +254,7 @@ void refuse_impossible(const ConvertJob& job, const ods::StoredPicture& picture)
 
 bool read_convert_job(ConvertJob& job, int argc, char** argv) {
   job.arguments.assign(argv, argv + argc);
-  Options options("convert", kSummary, kExamples);
+  Options options("convert", kConvertSummary, kConvertExamples);
   Wishes wishes;
   wishes.size.width = 0;
   job.target.holes = ods::Holes::kFilled;
@@ -283,6 +282,7 @@ bool read_convert_job(ConvertJob& job, int argc, char** argv) {
   check_kinds(options, job);
   check_depth_options(options, job.depth);
   check_share(job.share, job.input, job.output);
+  job.every_frame = job.files.frames;
   job.files.frames = own_frames(job.share.only, job.files.frames);  // the first frame of all says what they are
   refuse_overwriting(job.output, job.input);
   set_target(options, wishes, job);
@@ -299,33 +299,12 @@ void open_input(ConvertJob& job) {
   if (!job.depth.path.empty()) give_depth(job.depth, job.picture);
   refuse_impossible(job, job.picture);
   StereoCamera& camera = job.target.camera;
-  if (job.merge_limit) use_shares(shares_of_depth(job.picture, *job.merge_limit, camera), camera);
+  if (job.merge_limit && job.target.eyes[0] != ods::kMono) {
+    use_shares(ods::comfortable_shares(ods::seen_by_eyes(job.picture), camera, *job.merge_limit), camera);
+  }
 }
 
 void open_depth(ConvertJob& job) {
   if (job.depth.path.empty()) return;
   job.depth_frames.emplace(job.depth.path, job.picture, job.depth.options, job.trim);
-}
-
-void find_merge(ConvertJob& job) {
-  constexpr size_t kLooks = 16;  // as many as of a scene's video
-  if (!job.merge_limit) return;
-  if (job.kind == FootageKind::kVideo) {
-    throw UsageError("--merge auto is for pictures and frames: of a video it would have to be decoded twice");
-  }
-  const size_t count = job.files.frames.size(), looks = std::min(count, kLooks);
-  std::optional<ods::DepthFootage> depth;
-  if (!job.depth.path.empty()) depth.emplace(job.depth.path, job.picture, job.depth.options);
-  std::vector<float> shares(ods::kMergeRows, 1.0f);
-  for (size_t i = 0, look = 0; i < count; i++) {
-    ods::DepthFootage::Give give;
-    if (depth) give = depth->next(job.files.frames[i]);
-    if (look >= looks || i != look * (count - 1) / std::max<size_t>(looks - 1, 1)) continue;
-    look++;
-    ods::StoredPicture picture = ods::open_frame(job.files, i, job.picture);
-    if (give) give(picture);
-    refuse_impossible(job, picture);
-    ods::take_least(shares, shares_of_depth(picture, *job.merge_limit, job.target.camera));
-  }
-  use_shares(std::move(shares), job.target.camera);
 }

@@ -12,6 +12,7 @@
 #include "cli/options/camera_options.h"
 #include "cli/options/share_options.h"
 #include "cli/options/video_options.h"
+#include "ods/comfort/merge_from_depth.h"
 #include "ods/convert/convert.h"
 #include "ods/convert/video/convert_video.h"
 #include "ods/render/render_options.h"
@@ -25,11 +26,13 @@ struct ConvertJob {
   std::optional<ods::DepthFootage> depth_frames;  // of frames and videos, after open_depth()
   ods::FootageKind kind = ods::FootageKind::kPicture;
   ods::FrameFiles files;                     // of frames
+  std::vector<int> every_frame;              // likewise, of all processes that share them
   std::optional<ods::Footage> footage;       // of a video
   std::optional<ods::PictureReader> reader;  // of a picture, until open_input()
   ods::StoredPicture picture;                // only its header until open_input(); of a video or of the first frame
   ods::ConvertTarget target;
-  std::optional<float> merge_limit;  // --merge auto: the target's merge is found when the depth is there
+  std::optional<float> merge_limit;        // --merge auto: the target's merge is found when the depth is there
+  std::optional<ods::SteadyMerge> merges;  // likewise of frames and videos, after find_merges()
   ods::SaveOptions save;
   bool has_exposure = false, has_tone = false, has_layout = false;
 
@@ -54,8 +57,8 @@ void open_input(ConvertJob& job);
 // Opens the depth of frames and videos, if they have any beside them. Throws ods::Error.
 void open_depth(ConvertJob& job);
 
-// The merge of --merge auto, of frames. Throws UsageError and ods::Error.
-void find_merge(ConvertJob& job);
+// The merges of --merge auto, of frames and videos. Throws UsageError and ods::Error.
+void find_merges(ConvertJob& job);
 
 // Asked of the header, so that nobody waits for pixels in vain, and of the pixels: reading them may leave out a layer
 // of depth that the header promised. Throws UsageError.

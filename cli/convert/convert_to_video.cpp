@@ -63,7 +63,8 @@ ods::VideoPlan plan_for(ConvertJob& job) {
 // Encoding costs quality and time: what only tags would change is for other commands.
 void refuse_copy(const ConvertJob& job, const ods::VideoPlan& plan) {
   const bool is_turned = job.footage && job.footage->stream().is_turned;
-  const bool is_same = !is_turned && (plan.layout == job.picture.layout || job.picture.eyes.size() == 1);
+  const bool has_layers = job.footage && job.footage->video().views != ods::Views::kFirst;
+  const bool is_same = !is_turned && !has_layers && (plan.layout == job.picture.layout || job.picture.eyes.size() == 1);
   if (job.trim.is_part() || !job.turns.empty() || job.has_packing || !is_same ||
       !is_same_picture(job.picture, job.target))
     return;
@@ -109,15 +110,17 @@ int convert_footage(ConvertJob& job, const ods::VideoPlan& plan, const ods::Enco
                     const ods::Progress& progress) {
   const ods::Resume resume{resume_settings(job), [](const std::string& words) { note(words); }};
   ods::DepthFootage* depth = job.depth_frames ? &*job.depth_frames : nullptr;
+  ods::MergeOfPicture merge;
+  if (job.merges) merge = [&job](int picture) { return job.merges->at(picture); };
   if (!job.footage) {
     const ods::DisplayTransform display{job.save.exposure, job.save.tone};
     return ods::convert_frames(
-        {job.files, job.picture, job.target, plan.layout, plan.metadata, display, resume, depth, say_of_depth}, options,
-        job.output, progress);
+        {job.files, job.picture, job.target, plan.layout, plan.metadata, display, resume, depth, say_of_depth, merge},
+        options, job.output, progress);
   }
   return ods::convert_video(*job.footage,
-                            {job.target, plan.layout, plan.metadata, job.turns, resume, depth, say_of_depth}, options,
-                            job.output, progress);
+                            {job.target, plan.layout, plan.metadata, job.turns, resume, depth, say_of_depth, merge},
+                            options, job.output, progress);
 }
 
 }  // namespace
@@ -127,7 +130,7 @@ void convert_to_video(ConvertJob& job, ProgressLines& lines) {
   note_guesses(job.footage ? job.input : job.files.path(0), job.picture);
   check_job(job);
   open_depth(job);
-  find_merge(job);
+  find_merges(job);
   if (job.footage) job.footage->choose(job.trim);
   const ods::VideoPlan plan = plan_for(job);
   refuse_copy(job, plan);

@@ -4,13 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "cli/console/console.h"
 #include "cli/options/eye_options.h"
 #include "ods/comfort/merge_from_depth.h"
-#include "ods/convert/reproject.h"
 
 namespace {
 
@@ -61,39 +57,6 @@ void give_depth(const DepthInput& depth, ods::StoredPicture& picture) {
 void say_of_depth(const ods::DepthReport& report) {
   for (const std::string& words : report.warnings) warn(words);
   for (const std::string& words : report.notes) note(words);
-}
-
-// What the picture shows, as the middle between the target's eyes sees it: the nearest in each direction.
-static ods::SeenDepth seen_from_middle(const ods::StoredPicture& picture, const ods::StereoCamera& target) {
-  constexpr int kWidth = 512, kMostLooks = 2048;
-  ods::SeenDepth seen;
-  seen.camera.ipd = target.ipd;
-  seen.eye = ods::kMono;
-  seen.depth = ods::Image(kWidth, kWidth / 2, 1);
-  std::fill(seen.depth.pixels.begin(), seen.depth.pixels.end(), ods::kFarDepth);
-  const ods::Camera from = ods::make_camera(picture.camera), to = ods::make_camera(target);
-  for (size_t eye = 0; eye < picture.eyes.size(); eye++) {
-    const ods::Image depth = ods::nearest_of_blocks(ods::depth_of_eye(picture, eye), kMostLooks);
-    for (int i = 0; i < depth.width * depth.height; i++) {
-      const ods::vec2 uv((static_cast<float>(i % depth.width) + 0.5f) / static_cast<float>(depth.width),
-                         (static_cast<float>(i / depth.width) + 0.5f) / static_cast<float>(depth.height));
-      const float distance = depth.pixels[static_cast<size_t>(i)];
-      const ods::Ray ray = ods::camera_ray(from, picture.eyes[eye].eye, uv);
-      if (!ods::is_surface(distance) || ray.direction == ods::vec3(0.0f)) continue;
-      const ods::vec3 point = ray.origin - from.center + ray.direction * distance;
-      const ods::vec3 own(dot(point, to.right), dot(point, to.up), dot(point, to.back));
-      const ods::vec2 at = ods::direction_to_lat_long(normalize(own));
-      const int x = std::clamp(static_cast<int>(at.x * kWidth), 0, kWidth - 1);
-      const int y = std::clamp(static_cast<int>(at.y * (kWidth / 2)), 0, seen.depth.height - 1);
-      float& nearest = *seen.depth.at(x, y);
-      nearest = std::min(nearest, length(own));
-    }
-  }
-  return seen;
-}
-
-std::vector<float> shares_of_depth(const ods::StoredPicture& picture, float limit, const ods::StereoCamera& camera) {
-  return ods::comfortable_shares(seen_from_middle(picture, camera), {}, limit);
 }
 
 void use_shares(std::vector<float> shares, ods::StereoCamera& camera) {

@@ -23,8 +23,5 @@ void check_depth_options(const Options& options, const DepthInput& depth);
 void give_depth(const DepthInput& depth, ods::StoredPicture& picture);
 void say_of_depth(const ods::DepthReport& report);
 
-// How much of the eye distance the depth of a picture allows at each elevation (ods/comfort/merge_from_depth.h), for
-// eyes as the camera has them. Precondition: the picture has depth.
-std::vector<float> shares_of_depth(const ods::StoredPicture& picture, float limit, const ods::StereoCamera& camera);
-// Merges the poles by them, and says how.
+// Merges the poles by these shares of the eye distance (ods/comfort/merge_from_depth.h), and says how.
 void use_shares(std::vector<float> shares, ods::StereoCamera& camera);

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kJobsExamples =
     "  ods jobs                            all that Slurm knows of\n"
     "  ods jobs scene_360_TB --follow      until it is over\n"
     "  ods jobs renders/scene_360_TB.farm  by its folder, also when Slurm has forgotten it\n"
@@ -78,7 +78,7 @@ void jobs(int argc, char** argv) {
   JobsWishes wishes;
   Options options("jobs",
                   "Shows how much is done, running, waiting and failed of the jobs that ods submit sent to Slurm.",
-                  kExamples);
+                  kJobsExamples);
   options.optional_argument("NAME", wishes.name, "a job, or its folder; by default all");
   options.flag("--follow", wishes.follow,
                "show it again every five seconds until the job has ended; exit code 1 if it is not complete");

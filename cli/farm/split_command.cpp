@@ -179,10 +179,8 @@ void check_parts(const RenderJob& first, const ods::FrameNames& names) {
     const ods::Settings then = ods::read_part_header(names.path(number)).settings;
     ods::Settings now = sample_settings(first);
     now.back().value = fmt::format("{}/{}", number, first.part->count);
-    const std::string difference = settings_difference(then, now);
-    if (difference.empty()) continue;
-    throw UsageError(fmt::format("'{}' was rendered with other options: {}; remove '{}', or choose another -o",
-                                 names.path(number), difference, folder.native()));
+    expect_same_settings(names.path(number), then, now,
+                         fmt::format("remove '{}', or choose another -o", folder.native()));
   }
 }
 

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kSubmitExamples =
     "  ods submit --to slurm -- video scene.glb -o scene_360_TB.mp4 --quality final\n"
     "  ods submit --to slurm -- render scene.glb -o huge.exr --width 16384 --samples 1024 --parts 64\n"
     "  ods submit --to slurm --chunk 25 -- stitch rig.json 'views/####/####.exr' --frames 1-500 -o 'out.####.exr'\n"
@@ -27,7 +27,7 @@ constexpr const char* kExamples =
     "  ods submit --to openjd -o bundle --chunk 10 -- video scene.glb -o film_360_TB.mp4\n"
     "  ods submit --to slurm --dry-run --chunk 10 -- video scene.glb -o scene_360_TB.mp4";
 
-constexpr const char* kSummary =
+constexpr const char* kSubmitSummary =
     "Sends a command to a render farm; the result has the same bits as on one machine. It splits video, render,\n"
     "stitch, convert and over into many tasks (frames in chunks, parts of a picture's samples, views of a rig) and a\n"
     "last one, such as the video or the merge; denoise, merge, encode, inject and lint are one task. It writes a\n"
@@ -71,7 +71,7 @@ void add_options(Options& options, SubmitJob& job) {
 bool read_submit_job(SubmitJob& job, int argc, char** argv) {
   const auto is_end = [](const char* word) { return std::strcmp(word, "--") == 0; };
   const auto end = std::find_if(argv, argv + argc, is_end);
-  Options options("submit", kSummary, kExamples);
+  Options options("submit", kSubmitSummary, kSubmitExamples);
   std::vector<std::string> extras;
   options.arguments("COMMAND", extras, "after all options of ods submit and --: the command, without the word ods");
   add_options(options, job);

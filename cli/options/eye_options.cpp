@@ -66,16 +66,6 @@ PoleMergeSetting parse_merge(const std::string& name, const std::string& text) {
   return merge;
 }
 
-// auto[,MINUTES]; nothing if it is not that.
-std::optional<float> parse_auto_merge(const std::string& text) {
-  const WordAndNumbers parts = split(text);
-  if (parts.word != "auto") return std::nullopt;
-  if (!parts.legal || parts.numbers.size() > 1) throw UsageError("--merge auto is auto or auto,MINUTES");
-  const float limit = parts.numbers.empty() ? static_cast<float>(ods::kFusionLimit) : parts.numbers[0];
-  if (!(limit >= 1.0f && limit <= 600.0f)) throw UsageError("--merge auto takes 1 to 600 minutes of arc");
-  return limit;
-}
-
 // parallel, toe-in,METRES or shift,METRES
 void parse_convergence(const std::string& text, StereoCamera& stereo) {
   const WordAndNumbers parts = split(text);
@@ -150,6 +140,15 @@ void add_camera_preset_option(Options& options, CameraOptions& camera) {
       "match the camera of another renderer, using its own parameters: google, povray, arnold, cycles, ospray, ...; "
       "the options below override it");
   options.offer("--camera-preset", ods::names_of(ods::camera_presets()));
+}
+
+std::optional<float> parse_auto_merge(const std::string& text) {
+  const WordAndNumbers parts = split(text);
+  if (parts.word != "auto") return std::nullopt;
+  if (!parts.legal || parts.numbers.size() > 1) throw UsageError("--merge auto is auto or auto,MINUTES");
+  const float limit = parts.numbers.empty() ? static_cast<float>(ods::kFusionLimit) : parts.numbers[0];
+  if (!(limit >= 1.0f && limit <= 600.0f)) throw UsageError("--merge auto takes 1 to 600 minutes of arc");
+  return limit;
 }
 
 void add_circle_options(Options& options, CameraOptions& camera) {

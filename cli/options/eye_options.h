@@ -11,6 +11,9 @@ void add_camera_preset_option(Options& options, CameraOptions& camera);
 void add_circle_options(Options& options, CameraOptions& camera);
 void add_eye_options(Options& options, CameraOptions& camera);
 
+// `auto[,MINUTES]`: the limit in minutes of arc; nothing if it is another merge. Throws UsageError.
+std::optional<float> parse_auto_merge(const std::string& text);
+
 // What a merge that follows from depth allows, for a note.
 std::string merge_by_depth_text(const ods::Image& merge_map);
 

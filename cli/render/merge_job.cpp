@@ -23,12 +23,12 @@
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kMergeExamples =
     "  ods merge 'part_#.exr' -o picture.exr\n"
     "  ods merge part_1.exr part_2.exr -o picture_360_TB.png --denoise own\n"
     "  ods merge picture.png.unfinished -o so_far.png";
 
-constexpr const char* kSummary =
+constexpr const char* kMergeSummary =
     "Merges the parts of a picture that ods render --part made, on any machines: the result has the same bits as one\n"
     "rendering of all samples. It also makes a picture of what an interrupted rendering left.";
 
@@ -207,7 +207,7 @@ void leave_out_layers(MergeJob& job) {
 }  // namespace
 
 bool read_merge_job(MergeJob& job, int argc, char** argv) {
-  Options options("merge", kSummary, kExamples);
+  Options options("merge", kMergeSummary, kMergeExamples);
   std::optional<ods::Layout> layout;
   bool incomplete = false;
   add_options(options, job, layout, incomplete);

@@ -16,7 +16,7 @@
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kRenderExamples =
     "  ods render scene.glb -o picture.png\n"
     "  ods render scene.glb -o picture.exr --width 4096 --samples 256 --env sky.hdr\n"
     "  ods render scene.glb -o picture.jpg --position 0,1.6,0 --yaw 90 --quality draft\n"
@@ -154,7 +154,7 @@ void finish_render_job(const Options& options, const Quality& quality, RenderJob
 
 bool read_render_job(RenderJob& job, int argc, char** argv, bool for_farm) {
   Quality quality;
-  Options options("render", "Renders a scene as a stereo 360 picture, or as the frames of a video.", kExamples);
+  Options options("render", "Renders a scene as a stereo 360 picture, or as the frames of a video.", kRenderExamples);
   add_scene_argument(options, job.scene, [&](const ForeignScene& scene) { take_foreign(job, scene); });
   add_light_options(options, job.scene.light);
   add_picture_options(options, job);

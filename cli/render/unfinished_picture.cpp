@@ -38,10 +38,10 @@ ods::PictureSamples UnfinishedPicture::begin() {
   }
   ods::PictureSamples samples;
   const ods::SampledPicture then = ods::read_unfinished(path_, samples);
-  const std::string difference = settings_difference(then.settings, about().settings);
-  if (!difference.empty() || !ods::fit(samples, options_)) {
-    throw UsageError(fmt::format("'{}' was rendered with other options: {}; give the same ones, or leave --resume out",
-                                 path_, difference.empty() ? "its layers differ" : difference));
+  constexpr std::string_view kCure = "give the same ones, or leave --resume out";
+  expect_same_settings(path_, then.settings, about().settings, kCure);
+  if (!ods::fit(samples, options_)) {
+    throw UsageError(fmt::format("'{}' was made with other options: its layers differ; {}", path_, kCure));
   }
   return samples;
 }

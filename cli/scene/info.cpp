@@ -15,7 +15,7 @@ using ods::SceneInfo, ods::vec3;
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kInfoExamples =
     "  ods info scene.glb\n"
     "  ods info scene.glb --position 0,1.6,0      the nearest surface from there\n"
     "  ods info scene.glb --json";
@@ -24,7 +24,7 @@ void info(int argc, char** argv) {
   SceneSource source;
   CameraOptions camera;
   bool json = false;
-  Options options("info", "Shows what is in a scene, and which parts of it are not rendered.", kExamples);
+  Options options("info", "Shows what is in a scene, and which parts of it are not rendered.", kInfoExamples);
   add_scene_argument(options, source);
   add_place_options(options, camera);
   options.group("Console");

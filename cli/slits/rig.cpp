@@ -8,15 +8,17 @@
 
 #include "cli/console/console.h"
 #include "cli/options/camera_source.h"
+#include "cli/options/eye_options.h"
 #include "cli/options/scene_source.h"
 #include "cli/slits/rig_report.h"
 #include "cli/slits/rig_scripts.h"
 #include "ods/render/cpu/render.h"
+#include "ods/stage/comfortable_merge.h"
 #include "ods/stitch/slit_error.h"
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kRigExamples =
     "  ods rig --width 4096 --nearest 0.8 -o rig.json\n"
     "  ods rig --scene room --max-error 0.25 -o rig.json --for blender,povray   scripts for these, beside it\n"
     "  ods rig --from picture.camera.json --slits 360      reports its error";
@@ -53,7 +55,7 @@ void add_slit_options(Options& options, RigJob& job) {
 bool read_options(RigJob& job, int argc, char** argv) {
   Options options("rig",
                   "Plans perspective cameras for other renderers; ods stitch combines their views into an ODS picture.",
-                  kExamples);
+                  kRigExamples);
   options.text("-o,--output", ValueKind::output_file(), job.output,
                "the rig as JSON, for ods stitch; by default only prints the plan");
   add_script_option(options, job.targets);
@@ -65,6 +67,11 @@ bool read_options(RigJob& job, int argc, char** argv) {
   if (job.count && options.given("--max-error")) throw UsageError("--slits and --max-error exclude each other");
   if (!job.targets.empty() && job.output.empty()) throw UsageError("--for writes next to the rig: add -o rig.json");
   if (job.nearest && !job.scene.name.empty()) throw UsageError("--nearest and --scene exclude each other");
+  if (job.source.camera.merge_limit && job.scene.name.empty()) {
+    throw UsageError(
+        "--merge auto follows from depth, and a rig has none: add --scene SCENE, or stitch views with depth "
+        "by ods stitch --merge auto");
+  }
   return true;
 }
 
@@ -89,11 +96,18 @@ std::pair<ods::Sidecar, float> survey(RigJob& job) {
   job.scene.camera = job.source.camera.view_point;
   ods::Scene scene = open_scene(job.scene);
   file.camera = place_camera(job.source.camera, scene);
+  if (job.source.camera.merge_limit) {
+    ods::Image map =
+        ods::merge_map_of(ods::shares_seen(ods::CpuRenderer(scene), file.camera, *job.source.camera.merge_limit));
+    note(merge_by_depth_text(map));
+    ods::use_merge_map(file.camera, std::move(map));
+  }
   return {file, measure(scene, file.camera)};
 }
 
 void rig(int argc, char** argv) {
   RigJob job;
+  job.source.camera.may_follow_depth = true;
   job.source.camera.stereo = {};  // no merge: each step from one pitch of the views to the next would show it
   if (!read_options(job, argc, argv)) return;
   const auto [file, nearest] = survey(job);

@@ -16,6 +16,11 @@ namespace {
 void run(const StitchJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
   const ods::SlitRig rig = open_rig(job.rig_file);
+  if (job.merge_limit && rig.options.depth == ods::ViewDepth::kNone) {
+    throw UsageError(
+        "--merge auto follows the views' depth, and this rig's views have none: plan it by ods rig --depth "
+        "plane, or from the scene by ods rig --scene SCENE --merge auto");
+  }
   const std::string fault = names_fault(rig, job.views);
   if (!fault.empty()) throw UsageError(fault);
   if (job.list_missing) {

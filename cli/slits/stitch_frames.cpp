@@ -14,6 +14,7 @@
 #include "cli/frames/waiting.h"
 #include "cli/options/picture_options.h"
 #include "cli/options/time_options.h"
+#include "cli/slits/merged_picture.h"
 #include "ods/base/error.h"
 #include "ods/files/claim.h"
 #include "ods/stitch/rig_mark.h"
@@ -88,7 +89,10 @@ void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFil
   ods::SaveOptions save = job.save;
   save.layout = job.layout.value_or(rig.layout);
   if (!job.has_tone && shows_codes) save.tone = ods::ToneCurve::kLinear;
-  const std::vector<std::string> files = save_picture(stitched.rows, &rig.camera, save, output);
+  std::optional<MergedPicture> merged;
+  if (job.merge_limit && rig.eyes.size() == 2) merged.emplace(stitched.rows, rig.camera, *job.merge_limit, output);
+  const std::vector<std::string> files = merged ? save_picture(merged->conversion.rows, &merged->camera, save, output)
+                                                : save_picture(stitched.rows, &rig.camera, save, output);
   if (stitched.unseen > 0) {
     note(fmt::format("{} pixels show the far background: what belongs there is hidden in every view", stitched.unseen));
   }

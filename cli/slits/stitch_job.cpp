@@ -6,10 +6,11 @@
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
+#include "cli/options/eye_options.h"
 #include "cli/options/picture_options.h"
 #include "cli/options/time_options.h"
 
-static constexpr const char* kExamples =
+static constexpr const char* kStitchExamples =
     "  ods stitch rig.json 'views/####.exr' -o picture.exr\n"
     "  ods stitch rig.json 'views/####.exr' --list-missing       which views to render (again)\n"
     "  ods stitch rig.json 'views/####.png' -o preview.png --partial\n"
@@ -22,8 +23,15 @@ static void set_sheet(const std::string& word, ods::ViewFiles& views) {
   if (!legal) throw UsageError("--sheet is COLUMNSxROWS, as 8x4, not '" + word + "'");
 }
 
+static void set_merge(const std::string& word, StitchJob& job) {
+  job.merge_limit = parse_auto_merge(word);
+  if (!job.merge_limit)
+    throw UsageError("--merge of ods stitch is auto or auto,MINUTES: any other is planned by ods rig");
+}
+
 bool read_stitch_job(StitchJob& job, int argc, char** argv) {
-  Options options("stitch", "Combines the views of a rig (made by ods rig) into a stereo 360 picture.", kExamples);
+  Options options("stitch", "Combines the views of a rig (made by ods rig) into a stereo 360 picture.",
+                  kStitchExamples);
   options.argument(ValueKind::input_file("RIG"), job.rig_file, "the rig file written by ods rig");
   options.argument(ValueKind::input_file("VIEWS"), job.views.names,
                    "the views' file names, with #### for the view's number; %V is the eye");
@@ -34,6 +42,10 @@ bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
                  "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
   options.choice("--tone", job.save.tone, ods::kToneCurveTable, "tone curve, for scene-linear views");
+  options.custom(
+      "--merge", "auto[,MINUTES]", "", [&](const std::string& word) { set_merge(word, job); },
+      "reduce the eye distance towards the poles by the views' depth, as ods convert does; any other merge is the "
+      "rig's");
   options.flag("--sidecar", job.save.sidecar, "also write the camera to picture.camera.json");
   options.group("Views");
   options.text("--frames", "RANGE", job.frames,
@@ -60,6 +72,11 @@ bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   if (job.output.empty() && !job.list_missing) throw UsageError("no output file: add -o picture.exr");
   if (job.skip_existing && job.frames.empty()) throw UsageError("--skip-existing needs --frames");
   if (!job.only.empty() && job.frames.empty()) throw UsageError("--only needs --frames");
+  if (job.merge_limit && !job.frames.empty()) {
+    throw UsageError(
+        "--merge auto is for one picture: stitch the frames to .exr, then ods convert --merge auto makes them "
+        "one steady merge");
+  }
   check_only(job.only);
   job.given = options.given_words();
   return true;

@@ -20,7 +20,8 @@ struct StitchJob {
   ods::SaveOptions save;              // except its layout
   std::optional<ods::Layout> layout;  // none: default_layout() of the rig's projection
   std::string frames;
-  std::string only;  // as TimeOptions::only
+  std::string only;                  // as TimeOptions::only
+  std::optional<float> merge_limit;  // --merge auto, minutes of arc
   bool has_tone = false;
   bool partial = false;
   bool says_files = true;

@@ -14,13 +14,13 @@
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kEncodeExamples =
     "  ods encode 'shot.####.exr' -o shot_360_TB.mp4\n"
     "  ods encode 'shot_%V.####.png' -o shot_360_TB.mp4 --target quest --fps 60 --audio sound.wav\n"
     "  ods encode 'shot.####.exr' -o shot.mov --target master --frames 1-250\n"
     "  ods encode 'shot.%04d.jpg' -o shot_180_LR.webm --projection vr180 --codec av1 --bits 10";
 
-constexpr const char* kSummary =
+constexpr const char* kEncodeSummary =
     "Encodes frames from any renderer as a video that players recognise as stereo 360: both eyes in a frame, the left\n"
     "one on top; BT.709; Spherical Video V1 and V2. #### in the name (or %04d, $F4) is the frame's number, %V the "
     "eye.\n"
@@ -44,7 +44,7 @@ ods::Layout video_layout(const std::string& word) {
 }
 
 bool read_options(EncodeJob& job, int argc, char** argv) {
-  Options options("encode", kSummary, kExamples);
+  Options options("encode", kEncodeSummary, kEncodeExamples);
   options.argument(ValueKind::input_file("FRAMES"), job.pattern,
                    "the frames' file names, in quotes: 'shot.####.exr'; any picture format");
   options.group("Frames");

@@ -13,14 +13,14 @@
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kInjectExamples =
     "  ods inject video_360_TB.mp4                 as its name implies\n"
     "  ods inject video.mp4 -o tagged.mp4 --layout top-bottom --projection lat-long\n"
     "  ods inject video.mov --projection vr180 --layout side-by-side\n"
     "  ods inject video.mp4 --remove\n"
     "  ods inject panorama_360.jpg --yaw 90       GPano, which viewers of pictures read";
 
-constexpr const char* kSummary =
+constexpr const char* kInjectSummary =
     "Writes into a video (mp4, mov, mkv, webm) how its eyes are laid out and which part of the sphere it shows:\n"
     "Spherical Video V2, and V1 where possible. Writes GPano into a picture of one eye (jpg, png, tif), and the "
     "camera\n"
@@ -30,7 +30,7 @@ constexpr const char* kSummary =
     "old one when it is complete.";
 
 bool read_options(InjectJob& job, ProgressMode& mode, int argc, char** argv) {
-  Options options("inject", kSummary, kExamples);
+  Options options("inject", kInjectSummary, kInjectExamples);
   std::string layout;
   options.argument(ValueKind::input_file("FILE"), job.file, "the file: mp4, mov, mkv, webm; jpg, png, tif, exr");
   options.text("-o,--output", ValueKind::output_file(), job.output, "write this file and leave FILE unchanged");

@@ -99,7 +99,7 @@ SphericalMetadata wished_metadata(const InjectJob& job, ods::Container container
   set_angles(job, metadata);
   const ods::TagPlan plan = plan_tag(container, track, metadata);
   settle_conflicts(job, known, track, plan.says_more || !asks_for_something(job));
-  if (job.for_apple && track.has_layers) {
+  if (job.for_apple && track.layers) {
     throw ods::Error(ods::ErrorKind::kInput,
                      fmt::format("the eyes of '{}' are layers of its stream, which its vexu describes: --apple would "
                                  "write another",

@@ -16,12 +16,12 @@
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kProbeExamples =
     "  ods probe video_360_TB.mp4\n"
     "  ods probe picture.jpg\n"
     "  ods probe video.mkv --json";
 
-constexpr const char* kSummary =
+constexpr const char* kProbeSummary =
     "Shows the metadata of a video (mp4, mov, mkv, webm) or picture: tracks, Spherical Video V1 and V2, GPano, "
     "camera;\n"
     "how each kind of player will interpret it, and why; and what is wrong with it.";
@@ -86,7 +86,7 @@ ProbeReport probe(const std::string& path) {
 void run(int argc, char** argv) {
   std::string path;
   bool json = false;
-  Options options("probe", kSummary, kExamples);
+  Options options("probe", kProbeSummary, kProbeExamples);
   options.argument(ValueKind::input_file("FILE"), path, "a video or a picture");
   options.group("Console");
   options.flag("--json", json, "print JSON");

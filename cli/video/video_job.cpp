@@ -11,14 +11,14 @@
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kVideoExamples =
     "  ods video scene.glb -o video_360_TB.mp4\n"
     "  ods video scene.glb -o video_360_TB.mp4 --target quest --width 4096 --fps 60 --audio sound.wav\n"
     "  ods video room -o room_360_TB.mp4 --quality draft --turntable 1 --duration 20\n"
     "  ods video scene.glb -o master.mov --target master --frames 1-250 --keep-frames\n"
     "  ods video 'views/####/####.exr' --rig rig.json -o video_360_TB.mp4 --frames 1-250   as ods stitch";
 
-constexpr const char* kSummary =
+constexpr const char* kVideoSummary =
     "Renders a scene frame by frame, encodes the frames and writes the 360 metadata that players need. The frames are\n"
     "kept in VIDEO.frames until the video is complete: after an interruption, give the same command again to continue.";
 
@@ -27,7 +27,7 @@ constexpr const char* kSummary =
 bool read_video_job(VideoJob& job, int argc, char** argv) {
   RenderJob& render = job.render;
   Quality quality;
-  Options options("video", kSummary, kExamples);
+  Options options("video", kVideoSummary, kVideoExamples);
   add_scene_argument(options, render.scene, [&](const ForeignScene& scene) { take_foreign(render, scene); });
   add_light_options(options, render.scene.light);
   add_video_options(options, job.video);

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/comfort/comfort_report.h"
-#include "cli/comfort/judged.h"
+#include "cli/comfort/heat.h"
 #include "ods/files/file_input.h"
 #include "ods/picture/save.h"
 #include "ods/view/camera_json.h"

@@ -27,14 +27,19 @@ void copy_file(const std::string& from, const std::string& to) {
   copy.commit();
 }
 
-// The eyes as JPEGs where browsers do not read the file; and its poster.
-void write_pictures(const ViewItem& item, size_t index, const std::vector<std::string>& files,
-                    const std::string& folder) {
+// The eyes as JPEGs where browsers do not read the file; its light, which joins `files`; and its poster.
+void write_pictures(const ViewItem& item, size_t index, std::vector<std::string>& files, const std::string& folder) {
   ods::OpenOptions options;
   options.format = item.known;
   options.color_only = true;
   const ods::StoredPicture picture = ods::open_picture(item.path, options);
-  for (size_t i = 0; i < files.size() && !item.has_own_file; i++) {
+  const size_t eyes = files.size();
+  if (has_light(item)) {
+    const std::string light = std::filesystem::path(files[0]).replace_filename("light.png").string();
+    ods::write_file(folder + "/" + light, light_png(picture));
+    files.push_back(light);
+  }
+  for (size_t i = 0; i < eyes && !item.has_own_file; i++) {
     ods::write_file(folder + "/" + files[i], eye_jpeg(picture, picture.eyes[i].eye, {}));
   }
   ods::write_file(folder + "/" + ods::poster_file(index), poster_jpeg(picture));
@@ -70,9 +75,15 @@ std::string export_site(const std::vector<ViewItem>& items, const std::string& f
   const std::string view = view_json(items, false, {});
   write_page(folder, view);
   for (size_t i = 0; i < items.size(); i++) {
-    const std::vector<std::string> files = item_files(items[i], i);
+    std::vector<std::string> files = item_files(items[i], i);
+    const std::string beside = std::filesystem::path(files[0]).parent_path().string();
     if (items[i].has_own_file) copy_file(items[i].path, folder + "/" + files[0]);
     if (!items[i].is_video) write_pictures(items[i], i, files, folder);
+    ods::write_file(folder + "/" + beside + "/thumbnail.jpg", thumbnail_jpeg(items[i]));
+    if (has_preview(items[i], false)) {
+      files.push_back(beside + "/preview.jpg");
+      ods::write_file(folder + "/" + files.back(), preview_jpeg(items[i]));
+    }
     for (const std::string& file : files) write_script_beside(folder + "/" + file);
   }
   const std::string path = folder + "/view.json";

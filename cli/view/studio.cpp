@@ -13,6 +13,7 @@
 
 #include "cli/console/console.h"
 #include "cli/options/camera_options.h"
+#include "cli/view/comfort_answers.h"
 #include "cli/view/render_words.h"
 #include "ods/base/json_reader.h"
 #include "ods/base/large_blocks.h"
@@ -354,7 +355,8 @@ WebAnswer Studio::pick(const std::string& body) {
     eye = reader.word("eye");
   });
   const ods::vec3 toward = ods::direction_of(glm::radians(at.yaw), glm::radians(at.pitch));
-  const auto pick = live_->pick(eye == "right" ? ods::kRight : ods::kLeft, toward);
+  const int seen_by = eye == "right" ? ods::kRight : ods::kLeft;
+  const auto pick = live_->pick(seen_by, toward);
   if (!pick) return json_answer({{"nothing", true}});
   Json json = {{"distance", pick->distance},
                {"disparity", pick->disparity},
@@ -365,6 +367,7 @@ WebAnswer Studio::pick(const std::string& body) {
     const ods::vec2 pixel = *pick->places[each] * ods::vec2(settings_.width, height);
     json[std::string(ods::eye_name(each))] = {pixel.x, pixel.y};
   }
+  add_comfort(json, settings_.live.camera, *pick, seen_by);
   return json_answer(json);
 }
 
@@ -431,6 +434,10 @@ WebAnswer Studio::answer(const WebRequest& request) {
 WebAnswer Studio::route(const WebRequest& request) {
   if (request.path == "studio/job") return job();
   if (request.path == "studio/status") return status();
+  if (request.path == "studio/comfort") return json_answer(comfort_json(live_->whole()));
+  if (request.path == "studio/heat.png") {
+    return heat_answer(live_->whole(), value_of(request, "eye") == "right" ? ods::kRight : ods::kLeft);
+  }
   if (!request.is_post) return nothing_there();
   if (request.path == "studio/set") return set(request.body);
   if (request.path == "studio/pick") return pick(request.body);

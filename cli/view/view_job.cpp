@@ -22,14 +22,14 @@ using ods::ViewItem;
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kViewExamples =
     "  ods view picture_360_TB.png\n"
     "  ods view film_360_TB.mp4 other.exr folder/\n"
     "  ods view picture.png --lan\n"
     "  ods view scene.glb                        the studio: the scene, rendered while you look\n"
     "  ods view picture_360_TB.png --export site/";
 
-constexpr const char* kSummary =
+constexpr const char* kViewSummary =
     "Shows stereo 360 pictures and videos around you: in the browser, and with one click in the headset. --lan is for\n"
     "headsets on the same network. --export writes the viewer as a folder for any web host. docs/view.md has the keys.";
 
@@ -78,7 +78,7 @@ void add_folder(const std::string& folder, const ods::FormatHint& known, std::ve
 }  // namespace
 
 bool read_view_job(ViewJob& job, int argc, char** argv) {
-  Options options("view", kSummary, kExamples);
+  Options options("view", kViewSummary, kViewExamples);
   options.arguments(ValueKind::input_file("FILE"), job.paths,
                     "pictures, videos, and folders of them (%V in a name: one file per eye), or a scene");
   options.group("Input, if it is not detected");

@@ -101,6 +101,15 @@ std::shared_ptr<const StoredPicture> ViewSite::open(const ViewItem& item, const 
   return picture_;
 }
 
+std::string ViewSite::kept_jpeg(const std::string& path, const ViewItem& item, std::string (*make)(const ViewItem&)) {
+  std::error_code fault;  // of a pair, which has no file of this name: it is made anew with ods view
+  const auto written = std::filesystem::last_write_time(item.path, fault).time_since_epoch().count();
+  const std::lock_guard<std::mutex> lock(of_small_);
+  auto& [when, jpeg] = small_[path];
+  if (jpeg.empty() || when != written) jpeg = make(item), when = written;
+  return jpeg;
+}
+
 WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
   const std::optional<size_t> number = item_number(path);
   const std::optional<ViewItem> found = number ? item_at(*number) : std::nullopt;
@@ -109,9 +118,19 @@ WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
   if (item.has_own_file && path == item_files(item, *number)[0]) {
     return {.type = std::string(ods::media_type(path)), .file = item.path};
   }
+  for (const auto make : {ods::preview_jpeg, ods::thumbnail_jpeg}) {
+    const bool is_preview = make == ods::preview_jpeg;
+    if (path != fmt::format("item/{}/{}.jpg", *number, is_preview ? "preview" : "thumbnail")) continue;
+    if (is_preview && !ods::has_preview(item, true)) return nothing_there();
+    return {.type = std::string(ods::media_type(path)), .body = kept_jpeg(path, item, make)};
+  }
   if (item.is_video) return nothing_there();
   if (path.ends_with("/comfort.json") || path.ends_with("/comfort-left.jpg") || path.ends_with("/comfort-right.jpg")) {
     return comfort(item, path);
+  }
+  if (ods::has_light(item) && path == fmt::format("item/{}/light.png", *number)) {
+    const std::lock_guard<std::mutex> lock(one_at_a_time_);
+    return {.type = std::string(ods::media_type(path)), .body = light_png(*open(item, request))};
   }
   for (const int eye : {ods::kLeft, ods::kRight, ods::kMono}) {
     if (path != fmt::format("item/{}/{}.jpg", *number, ods::eye_name(eye))) continue;
@@ -135,8 +154,11 @@ WebAnswer ViewSite::comfort(const ViewItem& item, const std::string& path) {
 
 WebAnswer ViewSite::answer(const WebRequest& request) {
   if (studio_ && request.path.starts_with("studio/")) return studio_->answer(request);
+  if (request.path == "share") return share_.answer(request);
   if (request.is_post) return nothing_there();
-  if (request.path == "alive") return {.type = "application/json", .body = "{}"};
+  if (request.path == "alive") {
+    return {.type = "application/json", .body = fmt::format("{{\"pages\":{}}}", share_.pages())};
+  }
   if (request.path == "view.json") {
     const ods::Json studio = studio_ ? studio_->description() : ods::Json();
     const std::lock_guard<std::mutex> lock(of_items_);

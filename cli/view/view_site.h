@@ -4,6 +4,8 @@
 // What ods view answers: the page's files, view.json, and the items by their numbers. No path that a browser sends is
 // ever opened.
 #pragma once
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -12,6 +14,7 @@
 
 #include "cli/http/http_server.h"
 #include "cli/view/comfort_layer.h"
+#include "cli/view/share.h"
 #include "cli/view/studio.h"
 #include "ods/view/view_item.h"
 
@@ -20,9 +23,10 @@ class ViewSite {
   // scene: for the studio; none: no scene is shown. Throws as Studio.
   ViewSite(std::vector<ods::ViewItem> items, const std::optional<SceneSource>& scene);
 
-  // Thread-safe. "" is the page; alive says that we are; item/N/left.jpg takes exposure, tone, width, and layout and
-  // projection where the page's user knows better; item/N/comfort.json, comfort-left.jpg and comfort-right.jpg are a
-  // ComfortLayer. Throws UsageError for a query that makes no sense.
+  // Thread-safe. "" is the page; alive says that we are, and how many pages share; item/N/left.jpg takes exposure, tone,
+  // width, and layout and projection where the page's user knows better; item/N/preview.jpg and item/N/thumbnail.jpg;
+  // item/N/comfort.json, comfort-left.jpg and comfort-right.jpg are a ComfortLayer. Throws UsageError for a query that
+  // makes no sense.
   WebAnswer answer(const WebRequest& request);
 
   // Of the studio, for studio/drop; null if there is none.
@@ -31,6 +35,8 @@ class ViewSite {
  private:
   WebAnswer item(const std::string& path, const WebRequest& request);
   WebAnswer comfort(const ods::ViewItem& item, const std::string& path);
+  // A preview or a thumbnail, made when it is first asked for.
+  std::string kept_jpeg(const std::string& path, const ods::ViewItem& item, std::string (*make)(const ods::ViewItem&));
   // Of the latest item that was asked for: both eyes are, one after the other.
   std::shared_ptr<const ods::StoredPicture> open(const ods::ViewItem& item, const WebRequest& request);
 
@@ -42,6 +48,10 @@ class ViewSite {
   std::vector<ods::ViewItem> items_;
   std::vector<std::vector<std::string>> files_;  // of each, behind all links
   std::unique_ptr<Studio> studio_;
+  Share share_;
+  std::mutex of_small_;  // they are made one at a time, beside the others
+  std::map<std::string, std::pair<std::filesystem::file_time_type::rep, std::string>>
+      small_;                 // and when the file was written
   std::mutex one_at_a_time_;  // each uses all processors, and a picture's memory
   std::string opened_;
   std::shared_ptr<const ods::StoredPicture> picture_;

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "ods/base/error.h"
+
 namespace ods {
 
 static std::string change(const std::string& name, const Setting* was, const Setting* is) {
@@ -59,6 +61,12 @@ std::string settings_difference(const Settings& then, const Settings& now) {
   const std::string more = changes.size() > kMost ? fmt::format("; and {} more", changes.size() - kMost) : "";
   changes.resize(std::min(changes.size(), kMost));
   return fmt::format("{}{}", fmt::join(changes, "; "), more);
+}
+
+void expect_same_settings(const std::string& path, const Settings& then, const Settings& now, std::string_view cure) {
+  const std::string difference = settings_difference(then, now);
+  if (difference.empty()) return;
+  throw Error(ErrorKind::kUsage, fmt::format("'{}' was made with other options: {}; {}", path, difference, cure));
 }
 
 }  // namespace ods

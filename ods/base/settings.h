@@ -4,6 +4,7 @@
 // What a picture, a video or what is left of one was made with, so that only work of the same kind is continued.
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ods {
@@ -22,5 +23,8 @@ Settings parse_settings(const std::string& text);
 // The differences between `then` and `now`, for messages: "samples was 64, now 128; scene 'a.glb' has changed". At most
 // three. Empty if there are none.
 std::string settings_difference(const Settings& then, const Settings& now);
+
+// Throws Error(kUsage) if there are any: "'PATH' was made with other options: samples was 64, now 128; CURE".
+void expect_same_settings(const std::string& path, const Settings& then, const Settings& now, std::string_view cure);
 
 }  // namespace ods

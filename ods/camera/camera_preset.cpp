@@ -194,7 +194,7 @@ StereoCamera like_mandelbulber(const Values& values) {
                merge_from(kMergePower, 0.0f, 90.0f, 10.0f));
 }
 
-constexpr PresetParameter kIpd[] = {{"ipd", "0.064", "distance between the eyes"}};
+constexpr PresetParameter kIpdParameter[] = {{"ipd", "0.064", "distance between the eyes"}};
 StereoCamera like_unmerged(const Values& values) {
   return plain(values.number("ipd", CameraField::kIpd));
 }
@@ -245,20 +245,23 @@ constexpr Entry kEntries[] = {
     {{"replica360", "Replica360, MatryODShka", true, "mesh-ptex-spherical.vert", kReplica}, like_replica},
     {{"mandelbulber", "Mandelbulber", true, "render_worker.cpp, infinite correction 0", kMandelbulber},
      like_mandelbulber},
-    {{"unity", "Unity's ODSOffset", false, "its circle tilts with elevation, by the square of ipd over distance", kIpd},
+    {{"unity", "Unity's ODSOffset", false, "its circle tilts with elevation, by the square of ipd over distance",
+      kIpdParameter},
      like_unmerged},
-    {{"unreal", "Unreal's panoramic capture", false, "slits: no two columns of ours share an eye point", kIpd},
+    {{"unreal", "Unreal's panoramic capture", false, "slits: no two columns of ours share an eye point", kIpdParameter},
      like_unmerged},
-    {{"open-brush", "Open Brush, Google's Unity kit", false, "its merge on unity's circle", kIpd}, like_open_brush},
-    {{"evrydayvr", "eVRydayVR capture", false, "without its blending of captures and its mono caps", kIpd},
+    {{"open-brush", "Open Brush, Google's Unity kit", false, "its merge on unity's circle", kIpdParameter},
+     like_open_brush},
+    {{"evrydayvr", "eVRydayVR capture", false, "without its blending of captures and its mono caps", kIpdParameter},
      like_evrydayvr},
-    {{"tmarrinan", "tmarrinan/omnistereo", false, "its eyes lie square to the point, not to the ray", kIpd},
+    {{"tmarrinan", "tmarrinan/omnistereo", false, "its eyes lie square to the point, not to the ray", kIpdParameter},
      like_tmarrinan},
     {{"vray", "V-Ray", false, "its fade from the merge angle is not published", kFading}, like_houdini},
     {{"houdini", "Houdini's VR lens", false, "its smooth curve is not published; smoothstep here", kFading},
      like_houdini},
-    {{"renderman", "RenderMan OmnidirectionalStereo", false, "only its manual is public", kIpd}, like_unmerged},
-    {{"redshift", "Redshift Stereo Spherical", false, "only its manual is public", kIpd}, like_unmerged},
+    {{"renderman", "RenderMan OmnidirectionalStereo", false, "only its manual is public", kIpdParameter},
+     like_unmerged},
+    {{"redshift", "Redshift Stereo Spherical", false, "only its manual is public", kIpdParameter}, like_unmerged},
 };
 
 }  // namespace

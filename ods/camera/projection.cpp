@@ -37,21 +37,22 @@ static ProjectionSetting lens(int kind, float fov, float tilt) {
 
 std::span<const NamedProjection> named_projections() {
   static const NamedProjection kAll[] = {
-      {"lat-long", "the whole sphere, or a part of it", of_kind(kLatLong)},
-      {"vr180", "the front half of it", part(kLatLong, {-90.0f, 90.0f}, {-90.0f, 90.0f})},
-      {"cylinder", "all around, 60 degrees up and down", part(kCylinder, {-180.0f, 180.0f}, {-60.0f, 60.0f})},
-      {"fisheye", "equidistant, 180 degrees", lens(kFisheye, 180.0f, 0.0f)},
-      {"fisheye-equisolid", "equal areas, 180 degrees", lens(kFisheyeEquisolid, 180.0f, 0.0f)},
-      {"fisheye-polynomial", "a measured lens, as Cycles describes it", of_kind(kFisheyePolynomial)},
+      {"lat-long", "the whole sphere, or a part of it", of_kind(kLatLong), 0.0},
+      {"vr180", "the front half of it", part(kLatLong, {-90.0f, 90.0f}, {-90.0f, 90.0f}), -0.5},
+      {"cylinder", "all around, 60 degrees up and down", part(kCylinder, {-180.0f, 180.0f}, {-60.0f, 60.0f}), -1.0},
+      {"fisheye", "equidistant, 180 degrees", lens(kFisheye, 180.0f, 0.0f), -0.5},
+      {"fisheye-equisolid", "equal areas, 180 degrees", lens(kFisheyeEquisolid, 180.0f, 0.0f), -1.7},
+      {"fisheye-polynomial", "a measured lens, as Cycles describes it", of_kind(kFisheyePolynomial), -4.0},
       // An orthographic camera sees the ball at the radius sin(b) where the ball reflects its ray by 2 b.
-      {"mirror-ball", "a mirrored sphere seen from far away: all directions", lens(kFisheyeEquisolid, 360.0f, 0.0f)},
-      {"dome", "a fisheye that looks up", lens(kFisheye, 180.0f, 90.0f)},
-      {"perspective", "a flat window", lens(kPerspective, 90.0f, 0.0f)},
-      {"cube-3x2", "six faces as the VR camera for Arnold packs them", of_kind(kCube3x2)},
-      {"cube-6x1", "likewise in a row; side by side a 12x1", of_kind(kCube6x1)},
-      {"cube-1x6", "likewise in a column; stacked a 1x12", of_kind(kCube1x6)},
-      {"eac", "equi-angular cube, 3x2", of_kind(kEac)},
-      {"eac-face", "one face of it", of_kind(kEacFace)},
+      {"mirror-ball", "a mirrored sphere seen from far away: all directions", lens(kFisheyeEquisolid, 360.0f, 0.0f),
+       -1.5},
+      {"dome", "a fisheye that looks up", lens(kFisheye, 180.0f, 90.0f), -1.5},
+      {"perspective", "a flat window", lens(kPerspective, 90.0f, 0.0f), -1.5},
+      {"cube-3x2", "six faces as the VR camera for Arnold packs them", of_kind(kCube3x2), -1.0},
+      {"cube-6x1", "likewise in a row; side by side a 12x1", of_kind(kCube6x1), -1.0},
+      {"cube-1x6", "likewise in a column; stacked a 1x12", of_kind(kCube1x6), -1.0},
+      {"eac", "equi-angular cube, 3x2", of_kind(kEac), -1.0},
+      {"eac-face", "one face of it", of_kind(kEacFace), -3.0},
   };
   return kAll;
 }

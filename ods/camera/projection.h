@@ -41,6 +41,7 @@ struct NamedProjection {
   std::string_view name;
   std::string_view summary;
   ProjectionSetting setting;
+  double usual;  // the logarithm of how usual files of it are that do not say so: of a lat-long 0
 };
 std::span<const NamedProjection> named_projections();
 const NamedProjection* find_projection(std::string_view name);

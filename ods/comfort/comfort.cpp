@@ -11,8 +11,11 @@
 #include <limits>
 #include <numbers>
 
+#include "ods/base/angles.h"
 #include "ods/base/error.h"
+#include "ods/camera/pixel.h"
 #include "ods/comfort/areas.h"
+#include "ods/kernel/counterpart.h"
 #include "ods/picture/picture.h"
 
 namespace ods {
@@ -21,7 +24,6 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double kDegree = pi / 180.0, kArcMinute = kDegree / 60.0;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr size_t kMostPlaces = 10;
 constexpr double kBeside = 20.0 * kDegree;
@@ -32,11 +34,6 @@ double cross_length(vec3 a, vec3 b) {
 
 double elevation_of(const ViewDirection& look) {
   return std::asin(std::clamp(double{look.direction.y}, -1.0, 1.0));
-}
-
-// How far around from -Z.
-double azimuth_of(vec3 direction) {
-  return std::atan2(double{direction.x}, -double{direction.z});
 }
 
 // The other eye shows a point as far on the other side of its own azimuth.
@@ -51,12 +48,38 @@ double half_parallax_of(const Camera& camera, int eye, const ViewDirection& look
 
 using Strains = std::array<float, std::size(kStrains)>;
 
+// Where a pixel's surface is.
+struct Place {
+  double half_parallax = 0.0, across = 0.0, height = 0.0, distance = kFar;  // as in strain.h; from the centre
+};
+
+Place place_of(const Camera& camera, int eye, vec2 uv, const ViewDirection& look, float depth) {
+  if (!is_surface(depth)) return {};
+  const Ray ray = camera_ray(camera, eye, uv);
+  const vec3 away = ray.origin + ray.direction * depth - camera.center;
+  const vec3 local(dot(away, camera.right), dot(away, camera.up), dot(away, camera.back));
+  return {half_parallax_of(camera, eye, look, local), std::hypot(double{local.x}, double{local.z}), double{local.y},
+          double{length(local)}};
+}
+
+// Whether all rays of a row leave one circle as its tangents, at one elevation.
+bool has_even_rows(const Camera& camera, int eye) {
+  const CameraMap& map = camera.merge_map;
+  for (int i = 0; i < map.width * map.height; i++) {
+    if (map.texels[i] != map.texels[i / map.width * map.width]) return false;
+  }
+  const vec3 right = cross(camera.up, camera.back);
+  return camera.projection.kind == kLatLong && camera.axis.y == 1.0f && camera.neck == 0.0f && eye != kMono &&
+         camera.convergence == kParallel && !has_head_tilt(camera) && dot(right, camera.right) > 0.0f;
+}
+
 class Judge {
  public:
   Judge(const SeenDepth& seen, const ComfortOptions& options)
       : seen_(seen),
         options_(options),
         camera_(make_camera(seen.camera)),
+        is_even_(has_even_rows(camera_, seen.eye)),
         width_(seen.depth.width),
         height_(seen.depth.height),
         steradians_(steradians_of_pixel()) {
@@ -76,14 +99,18 @@ class Judge {
     Strains strains{};
     ComfortLevel level = ComfortLevel::kOk;
   };
-  // Where a pixel's surface is.
-  struct Place {
+  // What does not depend on depth; of a whole row, if rows are even.
+  struct View {
     ViewDirection look;
-    double half_parallax = 0.0, across = 0.0, height = 0.0, distance = kFar;  // as in strain.h; from the centre
+    double elevation, looked, radius;  // of the circle that the rays leave
+    float solid_angle;
+    double harmless = 0.0;  // up to this half parallax, vertical disparity there is no caution
   };
 
-  Place place_of(int x, int y, const ViewDirection& look) const;
-  void judge_pixel(int x, int y);
+  View view_of(int x, int y) const;
+  Place place_at(int x, int y, const View& view) const;
+  void judge_row(int y);
+  void judge_pixel(int x, int y, View& view);
   void add_steps(int y);
   void add_edges(int y);
   void rate(Point& point) const;
@@ -91,6 +118,8 @@ class Judge {
   double most_of(const Point& point) const;  // of its strains, in limits of a warning
   double rank_of(const Point& point) const;
   double circle_for(size_t pixel) const;
+  double circle_by_steps(const Point& point) const;
+  double circle_for_row(int y) const;
   StrainedPlace describe(size_t pixel, double share) const;
   std::vector<int> things_or_areas() const;
   void list_places(ComfortReport& report, double all) const;
@@ -99,23 +128,17 @@ class Judge {
   size_t pixel(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
   }
-  bool is_whole_turn() const {
-    return camera_.projection.kind == kLatLong && std::abs(double{camera_.projection.span.x} - 2.0 * pi) < 1e-4;
-  }
   double gaze() const { return double{options_.viewer.gaze_degrees} * kDegree; }
   double limit(Strain strain) const { return limits_[static_cast<size_t>(strain)].warning; }
-  vec2 middle_of(int x, int y) const {
-    return {(static_cast<float>(x) + 0.5f) / static_cast<float>(width_),
-            (static_cast<float>(y) + 0.5f) / static_cast<float>(height_)};
-  }
   ViewDirection look_at(int x, int y) const {
-    const vec2 uv = middle_of(x, y);
+    const vec2 uv = pixel_middle(x, y, seen_.depth);
     return look_of(camera_.projection, uv, uv);
   }
 
   const SeenDepth& seen_;
   const ComfortOptions& options_;
   const Camera camera_;
+  const bool is_even_;
   const int width_, height_;
   const double steradians_;  // of relative_solid_angle()
   std::array<StrainLimits, std::size(kStrains)> limits_{};
@@ -141,41 +164,54 @@ double Judge::steradians_of_pixel() const {
   return solid / double{relative_solid_angle(projection, home, home)};
 }
 
-Judge::Place Judge::place_of(int x, int y, const ViewDirection& look) const {
-  Place place{look};
-  const float depth = *seen_.depth.at(x, y);
-  if (!is_surface(depth)) return place;
-  const Ray ray = camera_ray(camera_, seen_.eye, middle_of(x, y));
-  const vec3 away = ray.origin + ray.direction * depth - camera_.center;
-  const vec3 local(dot(away, camera_.right), dot(away, camera_.up), dot(away, camera_.back));
-  place.half_parallax = half_parallax_of(camera_, seen_.eye, look, local);
-  place.across = std::hypot(double{local.x}, double{local.z}), place.height = double{local.y};
-  place.distance = double{length(local)};
-  return place;
+Judge::View Judge::view_of(int x, int y) const {
+  const vec2 uv = pixel_middle(x, y, seen_.depth);
+  View view{look_of(camera_.projection, uv, uv), 0.0, 0.0, 0.0, 0.0f};
+  view.elevation = elevation_of(view.look), view.looked = looked_at(view.elevation);
+  view.solid_angle = static_cast<float>(steradians_ * double{relative_solid_angle(camera_.projection, uv, uv)});
+  if (is_even_) view.radius = 0.5 * double{camera_.ipd * merge_at(camera_, view.look.direction, view.look.elevation)};
+  return view;
 }
 
-void Judge::judge_pixel(int x, int y) {
+// On an even row the eye, its ray and the circle's centre are a right triangle.
+Place Judge::place_at(int x, int y, const View& view) const {
+  const float depth = *seen_.depth.at(x, y);
+  if (!is_even_) return place_of(camera_, seen_.eye, pixel_middle(x, y, seen_.depth), view.look, depth);
+  if (!is_surface(depth)) return {};
+  const double along = double{depth} * std::cos(view.elevation), height = double{depth} * std::sin(view.elevation);
+  const double across = std::hypot(along, view.radius);
+  return {std::atan2(view.radius, along), across, height, std::hypot(across, height)};
+}
+
+void Judge::judge_row(int y) {
+  View view = view_of(0, y);
+  for (int x = 0; x < width_; x++) {
+    if (!is_even_ && x > 0) view = view_of(x, y);
+    judge_pixel(x, y, view);
+  }
+}
+
+void Judge::judge_pixel(int x, int y, View& view) {
   Point& point = points_[pixel(x, y)];
-  const ViewDirection look = look_at(x, y);
-  point.is_known = look.seen && *seen_.depth.at(x, y) > 0.0f;
+  point.is_known = view.look.seen && *seen_.depth.at(x, y) > 0.0f;
   if (!point.is_known) return;
-  const vec2 uv = middle_of(x, y);
-  point.solid_angle = static_cast<float>(steradians_ * double{relative_solid_angle(camera_.projection, uv, uv)});
-  const double elevation = elevation_of(look);
-  point.looked = looked_at(elevation);
-  const Place place = place_of(x, y, look);
+  point.solid_angle = view.solid_angle, point.looked = view.looked;
+  const Place place = place_at(x, y, view);
   if (place.distance == kFar) return;
   point.distance = static_cast<float>(place.distance);
-  const double converged = vergence(place.half_parallax, elevation);
+  const double converged = vergence(place.half_parallax, view.elevation);
   point.vergence = static_cast<float>(converged);
   const auto set = [&](Strain strain, double value) {
     point.strains[static_cast<size_t>(strain)] = static_cast<float>(value);
   };
   if (options_.rules != ComfortRules::kStrain) {
-    return set(Strain::kRule, rule_distance(options_, elevation) / place.distance);
+    return set(Strain::kRule, rule_distance(options_, view.elevation) / place.distance);
   }
   set(Strain::kNear, vergence_dioptres(converged, options_.viewer));
-  set(Strain::kVertical, worst_vertical_disparity(place.half_parallax, elevation, gaze()) / kArcMinute);
+  if (place.half_parallax <= view.harmless) return;  // vertical disparity grows with it
+  const double vertical = worst_vertical_disparity(place.half_parallax, view.elevation, gaze()) / kArcMinute;
+  set(Strain::kVertical, vertical);
+  if (vertical <= limits_[static_cast<size_t>(Strain::kVertical)].caution) view.harmless = place.half_parallax;
 }
 
 // Each pixel against those a degree to its sides, above and below; the nearer one has the strain.
@@ -187,7 +223,7 @@ void Judge::add_steps(int y) {
     const double side = std::sqrt(std::max(double{point.solid_angle}, 1e-12));  // of a pixel
     const int reach = std::clamp(static_cast<int>(std::lround(kDegree / side)), 1, width_ / 4 + 1);
     const auto compare = [&](int to_x, int to_y) {
-      if (is_whole_turn()) to_x = (to_x + width_) % width_;
+      if (wraps_around(camera_.projection)) to_x = (to_x + width_) % width_;
       if (to_x < 0 || to_x >= width_ || to_y < 0 || to_y >= height_) return;
       const Point& beside = points_[pixel(to_x, to_y)];
       if (!beside.is_known) return;
@@ -200,7 +236,7 @@ void Judge::add_steps(int y) {
 
 // What the sides of a picture cut that does not go all around: one eye shows more of it than the other.
 void Judge::add_edges(int y) {
-  if (is_whole_turn() || is_cube(camera_.projection.kind)) return;
+  if (wraps_around(camera_.projection) || is_cube(camera_.projection.kind)) return;
   for (int x = 0; x < width_; x++) {
     Point& point = points_[pixel(x, y)];
     if (!point.is_known) continue;
@@ -245,7 +281,7 @@ double Judge::circle_for(size_t pixel) const {
   const Point& point = points_[pixel];
   if (point.level < ComfortLevel::kWarning || options_.rules != ComfortRules::kStrain) return 1.0;
   const int x = static_cast<int>(pixel) % width_, y = static_cast<int>(pixel) / width_;
-  const Place place = place_of(x, y, look_at(x, y));
+  const Place place = place_at(x, y, view_of(x, y));
   const double circle = place.across * std::sin(place.half_parallax);
   double share = 1.0;
   for (int i = 0; i < 8; i++) {
@@ -253,13 +289,29 @@ double Judge::circle_for(size_t pixel) const {
     const double near = vergence_dioptres(vergence(half, elevation), options_.viewer);
     const double vertical = worst_vertical_disparity(half, elevation, gaze()) / kArcMinute;
     const double over = std::max(near / limit(Strain::kNear), vertical / limit(Strain::kVertical));
-    if (over <= 1.0 && over > 0.9999) break;
+    if (over <= 1.0 && (over > 0.9999 || share == 1.0)) break;
     share = std::min(1.0, share / over);
   }
+  return std::min(share, circle_by_steps(point));
+}
+
+double Judge::circle_by_steps(const Point& point) const {
+  double share = 1.0;
   for (const Strain strain : {Strain::kStep, Strain::kEdge}) {
     share = std::min(share, limit(strain) / std::max(double{point.strains[static_cast<size_t>(strain)]}, 1e-9));
   }
   return share;
+}
+
+// On an even row, the pixel for which the eyes converge most has the most of all but steps.
+double Judge::circle_for_row(int y) const {
+  size_t worst = pixel(0, y);
+  double share = 1.0;
+  for (size_t i = pixel(0, y); i < pixel(0, y + 1); i++) {
+    share = std::min(share, is_even_ ? circle_by_steps(points_[i]) : circle_for(i));
+    if (points_[i].vergence > points_[worst].vergence) worst = i;
+  }
+  return std::min(share, circle_for(worst));
 }
 
 // Strains go nearly as one over the distance.
@@ -281,7 +333,7 @@ StrainedPlace Judge::describe(size_t pixel, double share) const {
 
 // What strains and has no name is an area: numbered after the names.
 std::vector<int> Judge::things_or_areas() const {
-  AreaGrid grid{width_, height_, is_whole_turn(), {}, {}};
+  AreaGrid grid{width_, height_, wraps_around(camera_.projection), {}, {}};
   const bool has_things = !seen_.things.empty();
   for (size_t i = 0; i < points_.size(); i++) {
     grid.is_in.push_back(points_[i].level != ComfortLevel::kOk && !(has_things && seen_.things[i] >= 0));
@@ -338,17 +390,14 @@ void Judge::list_places(ComfortReport& report, double all) const {
 
 ComfortReport Judge::report() {
   points_.resize(seen_.depth.pixels.size());
-  tbb::parallel_for(0, height_, [&](int y) {
-    for (int x = 0; x < width_; x++) judge_pixel(x, y);
-  });
+  tbb::parallel_for(0, height_, [&](int y) { judge_row(y); });
   std::vector<double> circles(static_cast<size_t>(height_), 1.0);
   tbb::parallel_for(0, height_, [&](int y) {
     if (options_.rules == ComfortRules::kStrain) add_steps(y), add_edges(y);
     for (int x = 0; x < width_; x++) {
       rate(points_[pixel(x, y)]);
-      double& circle = circles[static_cast<size_t>(y)];
-      circle = std::min(circle, circle_for(pixel(x, y)));
     }
+    circles[static_cast<size_t>(y)] = circle_for_row(y);
   });
   ComfortReport report;
   report.level = Image(width_, height_, 1);
@@ -384,12 +433,29 @@ ComfortReport judge_comfort(const SeenDepth& seen, const ComfortOptions& options
   return Judge(seen, options).report();
 }
 
+PointComfort judge_point(const StereoCamera& setting, int eye, vec2 uv, float depth, const Viewer& viewer) {
+  const Camera camera = make_camera(setting);
+  const ViewDirection look = look_of(camera.projection, uv, uv);
+  const Place place = place_of(camera, eye, uv, look, depth);
+  const double elevation = elevation_of(look), gaze = double{viewer.gaze_degrees} * kDegree;
+  PointComfort point{ComfortLevel::kOk, place.distance};
+  point.near = vergence_dioptres(vergence(place.half_parallax, elevation), viewer);
+  point.vertical = worst_vertical_disparity(place.half_parallax, elevation, gaze) / kArcMinute;
+  point.level = std::max(level_of(point.near, strain_limits(Strain::kNear, viewer)),
+                         level_of(point.vertical, strain_limits(Strain::kVertical, viewer)));
+  return point;
+}
+
 ComfortLevel worst_level(const ComfortReport& report) {
   ComfortLevel worst = ComfortLevel::kOk;
   for (const ComfortLevel level : kComfortLevels) {
     if (report.share[static_cast<size_t>(level)] > 0.0) worst = level;
   }
   return worst;
+}
+
+double azimuth_of(vec3 direction) {
+  return std::atan2(double{direction.x}, -double{direction.z});
 }
 
 std::string direction_text(double azimuth, double elevation) {

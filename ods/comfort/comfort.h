@@ -67,8 +67,21 @@ struct ComfortReport {
 // Throws Error(kInput) if no pixel has a depth. Precondition: the depth has 1 channel, `things` its size or none.
 ComfortReport judge_comfort(const SeenDepth& seen, const ComfortOptions& options = {});
 
+// What one point does to the eyes.
+struct PointComfort {
+  ComfortLevel level = ComfortLevel::kOk;
+  double distance = 0.0;              // metres from the circle's centre; infinite if nothing is there
+  double near = 0.0, vertical = 0.0;  // of Strain::kNear and kVertical
+};
+
+// Of what an eye's picture shows at uv, which is `depth` along its ray.
+PointComfort judge_point(const StereoCamera& camera, int eye, vec2 uv, float depth, const Viewer& viewer = {});
+
 // The worst level of anything.
 ComfortLevel worst_level(const ComfortReport& report);
+
+// How far around a direction is from -Z: radians to the right.
+double azimuth_of(vec3 direction);
 
 // "23 degrees right, 12 down".
 std::string direction_text(double azimuth, double elevation);

@@ -12,8 +12,9 @@
 #include <numbers>
 #include <utility>
 
+#include "ods/base/angles.h"
 #include "ods/base/error.h"
-#include "ods/camera/projection.h"
+#include "ods/camera/pixel.h"
 #include "ods/disparity/alignment.h"
 #include "ods/disparity/dense_match.h"
 #include "ods/picture/picture.h"
@@ -22,7 +23,6 @@ namespace ods {
 
 namespace {
 
-constexpr double kArcMinute = std::numbers::pi / 180.0 / 60.0;
 constexpr double kNearHorizon = 30.0;  // degrees
 constexpr int kLeastMatches = 15;      // of tiles, that two eyes of one picture have
 
@@ -63,8 +63,7 @@ float depth_of_parallax(const Camera& camera, int eye, vec2 uv, float around) {
   const vec3 from = ray.origin - camera.center;
   const glm::dvec2 origin(dot(from, camera.right), dot(from, camera.back));
   const glm::dvec2 along(dot(ray.direction, camera.right), dot(ray.direction, camera.back));
-  const double azimuth =
-      std::atan2(double{look.direction.x}, -double{look.direction.z}) + 0.5 * double{eye_side(eye)} * double{around};
+  const double azimuth = azimuth_of(look.direction) + 0.5 * double{eye_side(eye)} * double{around};
   const glm::dvec2 line(std::sin(azimuth), -std::cos(azimuth));
   const auto cross = [](glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; };
   const double depth = -cross(origin, line) / cross(along, line);
@@ -84,8 +83,7 @@ MatchedEyes match_views_for_depth(std::vector<GrayView> views, const StereoCamer
     Image& around = match.around[static_cast<size_t>(eye)];
     tbb::parallel_for(0, around.height, [&](int y) {
       for (int x = 0; x < around.width; x++) {
-        const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(around.width),
-                      (static_cast<float>(y) + 0.5f) / static_cast<float>(around.height));
+        const vec2 uv = pixel_middle(x, y, around);
         float& value = *around.at(x, y);
         if (!std::isnan(value)) value = depth_of_parallax(kernel, eye, uv, value);
       }

@@ -9,6 +9,9 @@
 #include <numbers>
 #include <utility>
 
+#include "ods/base/angles.h"
+#include "ods/camera/pixel.h"
+#include "ods/convert/reproject.h"
 #include "ods/picture/picture.h"
 
 namespace ods {
@@ -17,9 +20,9 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double kArcMinute = pi / 180.0 / 60.0;
 constexpr int kReach = 5;         // rows over which the curve is smoothed, to either side
 constexpr int kBetween = 2;       // rows more, for what lies between rows and between the pixels that were looked at
+constexpr int kLookReach = 8;     // looks of a video, likewise
 constexpr float kSafety = 0.98f;  // eyes beside the middle see a little past the edges of what the middle sees
 constexpr int kColumns = 4;       // of the map, all alike
 
@@ -40,9 +43,61 @@ Allowed allowed(double across, double height, double radius, double gaze, double
     const CircleView view = seen_from_circle(circle, across, height);
     result.elevation = view.elevation;
     const double worst = worst_vertical_disparity(view.half_parallax, view.elevation, gaze);
-    result.share = std::min({1.0, result.share, worst > 0.0 ? circle / radius * limit / worst : 1.0});
+    const double share = worst > 0.0 ? circle / radius * limit / worst : 1.0;
+    if (share >= result.share) break;
+    result.share = share;
   }
   return result;
+}
+
+// The mean over `reach` values to either side of the least within reach of each and `between` more: no more than the
+// value itself, and even.
+std::vector<float> eased(const std::vector<float>& values, int reach, int between) {
+  const int count = static_cast<int>(values.size());
+  const auto at = [count](const std::vector<float>& row, int i) {
+    return row[static_cast<size_t>(std::clamp(i, 0, count - 1))];
+  };
+  std::vector<float> least, even;
+  for (int i = 0; i < count; i++) {
+    float value = at(values, i);
+    for (int k = -reach - between; k <= reach + between; k++) value = std::min(value, at(values, i + k));
+    least.push_back(value);
+  }
+  for (int i = 0; i < count; i++) {
+    float sum = 0.0f;
+    for (int k = -reach; k <= reach; k++) sum += at(least, i + k);
+    even.push_back(sum / static_cast<float>(2 * reach + 1));
+  }
+  return even;
+}
+
+// What eyes show, as the middle between the target's eyes sees it: the nearest in each direction.
+SeenDepth seen_from_middle(const std::vector<SeenDepth>& eyes, const StereoCamera& target) {
+  constexpr int kWidth = 512;
+  SeenDepth middle;
+  middle.camera.ipd = target.ipd;
+  middle.eye = kMono;
+  middle.depth = Image(kWidth, kWidth / 2, 1);
+  std::ranges::fill(middle.depth.pixels, kFarDepth);
+  const Camera to = make_camera(target);
+  for (const SeenDepth& seen : eyes) {
+    const Camera from = make_camera(seen.camera);
+    for (int i = 0; i < seen.depth.width * seen.depth.height; i++) {
+      const float distance = seen.depth.pixels[static_cast<size_t>(i)];
+      if (!is_surface(distance)) continue;
+      const vec2 uv = pixel_middle(i % seen.depth.width, i / seen.depth.width, seen.depth);
+      const Ray ray = camera_ray(from, seen.eye, uv);
+      if (ray.direction == vec3(0.0f)) continue;
+      const vec3 point = ray.origin - from.center + ray.direction * distance;
+      const vec3 own(dot(point, to.right), dot(point, to.up), dot(point, to.back));
+      const vec2 at = direction_to_lat_long(normalize(own));
+      const int x = std::clamp(static_cast<int>(at.x * kWidth), 0, kWidth - 1);
+      const int y = std::clamp(static_cast<int>(at.y * (kWidth / 2)), 0, middle.depth.height - 1);
+      float& nearest = *middle.depth.at(x, y);
+      nearest = std::min(nearest, length(own));
+    }
+  }
+  return middle;
 }
 
 }  // namespace
@@ -55,18 +110,31 @@ std::vector<float> comfortable_shares(const SeenDepth& seen, const Viewer& viewe
   for (int y = 0; y < seen.depth.height; y++) {
     for (int x = 0; x < seen.depth.width; x++) {
       const float depth = seen.depth.at(x, y)[0];
-      const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(seen.depth.width),
-                    (static_cast<float>(y) + 0.5f) / static_cast<float>(seen.depth.height));
+      const vec2 uv = pixel_middle(x, y, seen.depth);
       const ViewDirection look = look_of(camera.projection, uv, uv);
       if (!look.seen || !is_surface(depth) || radius == 0.0) continue;
       const glm::dvec3 point = glm::dvec3(look.direction) * double{depth};
       const double across = std::max(std::hypot(point.x, point.z), 1e-6);
-      const Allowed own = allowed(across, point.y, radius, gaze, double{limit} * kArcMinute);
+      const Allowed own = allowed(across, point.y, radius, gaze, double{kSafety * limit} * kArcMinute);
       float& least = shares[static_cast<size_t>(row_of(own.elevation))];
       least = std::min(least, static_cast<float>(own.share));
     }
   }
   return shares;
+}
+
+std::vector<SeenDepth> seen_by_eyes(const StoredPicture& picture) {
+  constexpr int kMostWidth = 2048;
+  std::vector<SeenDepth> eyes;
+  for (size_t i = 0; i < picture.eyes.size(); i++) {
+    Image depth = nearest_of_blocks(depth_of_eye(picture, i), kMostWidth);
+    eyes.push_back({picture.camera, picture.eyes[i].eye, std::move(depth), {}, {}});
+  }
+  return eyes;
+}
+
+std::vector<float> comfortable_shares(const std::vector<SeenDepth>& eyes, const StereoCamera& target, float limit) {
+  return comfortable_shares(seen_from_middle(eyes, target), {}, limit);
 }
 
 void take_least(std::vector<float>& shares, const std::vector<float>& others) {
@@ -78,26 +146,49 @@ void use_merge_map(StereoCamera& camera, Image map) {
   camera.top.mode = camera.bottom.mode = kMergeMap;
 }
 
-// The least within reach of each row, and then the mean of these, which is no more than what the row itself allows.
 Image merge_map_of(std::vector<float> shares) {
   const int middle = kMergeRows / 2;
   const auto at = [&](int row) -> float& { return shares[static_cast<size_t>(std::clamp(row, 0, kMergeRows - 1))]; };
   for (int row = middle - 2; row >= 0; row--) at(row) = std::min(at(row), at(row + 1));
   for (int row = middle + 1; row < kMergeRows; row++) at(row) = std::min(at(row), at(row - 1));
-  std::vector<float> least;
-  for (int row = 0; row < kMergeRows; row++) {
-    float value = at(row);
-    for (int i = -kReach - kBetween; i <= kReach + kBetween; i++) value = std::min(value, at(row + i));
-    least.push_back(value < 1.0f ? kSafety * value : 1.0f);
-  }
+  shares = eased(shares, kReach, kBetween);
   Image map(kColumns, kMergeRows, 1);
-  for (int row = 0; row < kMergeRows; row++) {
-    float sum = 0.0f;
-    for (int i = -kReach; i <= kReach; i++) sum += least[static_cast<size_t>(std::clamp(row + i, 0, kMergeRows - 1))];
-    const float value = sum / (2 * kReach + 1);
-    for (int x = 0; x < kColumns; x++) map.at(x, row)[0] = value;
-  }
+  for (int row = 0; row < kMergeRows; row++) std::fill_n(map.at(0, row), kColumns, at(row));
   return map;
+}
+
+// --- videos ----------------------------------------------------------------------------------------------------------
+
+// Between two looks lies what both allow: the least reaches a look farther.
+SteadyMerge::SteadyMerge(const std::vector<std::vector<float>>& looks, int step) : step_(step) {
+  assert(!looks.empty() && step > 0);
+  std::vector<std::vector<float>> shares = looks;
+  for (size_t row = 0; row < kMergeRows; row++) {
+    std::vector<float> over_time;
+    for (const std::vector<float>& look : looks) over_time.push_back(look[row]);
+    over_time = eased(over_time, kLookReach, 1);
+    for (size_t i = 0; i < shares.size(); i++) shares[i][row] = over_time[i];
+  }
+  for (std::vector<float>& each : shares) maps_.push_back(merge_map_of(std::move(each)));
+}
+
+std::shared_ptr<const Image> SteadyMerge::at(int picture) const {
+  const size_t last = maps_.size() - 1, before = std::min(static_cast<size_t>(picture / step_), last);
+  const Image &from = maps_[before], &to = maps_[std::min(before + 1, last)];
+  const float beyond = static_cast<float>(picture % step_) / static_cast<float>(step_);
+  auto map = std::make_shared<Image>(from);
+  for (size_t i = 0; i < map->pixels.size(); i++) map->pixels[i] += beyond * (to.pixels[i] - from.pixels[i]);
+  return map;
+}
+
+Image SteadyMerge::least() const {
+  Image least = maps_[0];
+  for (const Image& map : maps_) take_least(least.pixels, map.pixels);
+  return least;
+}
+
+bool SteadyMerge::varies() const {
+  return std::ranges::any_of(maps_, [&](const Image& map) { return map.pixels != maps_[0].pixels; });
 }
 
 }  // namespace ods

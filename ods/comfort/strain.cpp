@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "ods/base/angles.h"
+
 namespace ods {
 
 using std::numbers::pi;
@@ -14,7 +16,6 @@ using std::numbers::pi;
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kDegree = pi / 180.0;
 
 double nearest_in_zone(double focus_dioptres) {
   return focus_dioptres / 1.035 + 0.626;

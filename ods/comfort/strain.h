@@ -47,9 +47,10 @@ struct StrainRow {
 };
 inline constexpr StrainRow kStrainTable[] = {
     {Strain::kNear, "near", "dioptres", "the eyes converge nearer than they focus",
-     "one degree rule; Shibata et al. 2011, The zone of comfort; Google's 60 cm"},
+     "caution: the one-degree rule (provisional); warning: Shibata et al. 2011, The zone of comfort (its numbers "
+     "provisional); error: Google's 60 cm"},
     {Strain::kVertical, "vertical", "minutes of arc", "the eyes must turn apart vertically when the head turns",
-     "Qin et al., limits of Panum's area; a degree: severe"},
+     "caution: provisional; warning: Qin et al., limits of Panum's area; error: a degree, which is severe"},
     {Strain::kStep, "step", "degrees", "a large step in depth to what is beside it",
      "Nagata 2002, limits of fusion of 392 people"},
     {Strain::kEdge, "edge", "degrees", "the picture's side cuts it, and one eye shows more of it",

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "ods/base/angles.h"
 #include "ods/base/error.h"
 #include "ods/base/median.h"
 #include "ods/comfort/matched.h"
@@ -22,13 +23,12 @@ namespace ods {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kWidth = 512;        // of the views that are matched
 constexpr int kLeastMoments = 8;   // of a short video
 constexpr int kGlance = 256;       // the width of the views that tell a cut
 constexpr double kSameShot = 0.3;  // the least share of their tiles that two frames of a shot have in common
 constexpr int kMostCuts = 12;      // that are looked for
-constexpr double kNearHorizon = 30.0 * kDegree;
+constexpr double kHorizonBand = 30.0 * kDegree;
 
 // A frame as it is looked at.
 struct Frame {
@@ -52,7 +52,7 @@ double median_vergence(const SeenDepth& seen) {
   std::vector<double> all;
   for (int y = 0; y < seen.depth.height; y++) {
     const double phi = std::numbers::pi * (0.5 - (y + 0.5) / seen.depth.height);
-    if (std::abs(phi) > kNearHorizon) continue;
+    if (std::abs(phi) > kHorizonBand) continue;
     for (int x = 0; x < seen.depth.width; x++) {
       const double depth = double{*seen.depth.at(x, y)};
       if (depth > 0.0) all.push_back(2.0 * std::atan(0.5 * ipd / depth) / kDegree);
@@ -64,7 +64,7 @@ double median_vergence(const SeenDepth& seen) {
 class VideoJudge {
  public:
   VideoJudge(const std::string& path, const VideoComfortOptions& options)
-      : options_(options), video_(open_video(path, options.format)), decoder_(path, video_.track) {
+      : options_(options), video_(open_video(path, options.format)), decoder_(path, video_.track, video_.views) {
     if (video_.prototype.eyes.size() != 2) {
       throw Error(ErrorKind::kInput, fmt::format("'{}' has one eye: nothing in it tells how far things are", path));
     }

@@ -23,24 +23,27 @@ static float depth_at(const LayerPixels& layer, int x, int y) {
   return depth;
 }
 
-static float depth_at(const Reprojection& reprojection, const Texel& texel) {
-  const StoredEye& eye = reprojection.source->picture->eyes[static_cast<size_t>(texel.source_eye)];
-  return depth_at(eye.layers[reprojection.layer], texel.x, texel.y);
+// Depths are compared as 1/metres: nearly linear over the picture of a plane, and 0 where the ray hit nothing.
+static float nearness_of(float depth) {
+  return is_surface(depth) ? 1.0f / depth : 0.0f;
 }
 
-// Depths are compared as 1/metres: nearly linear over the picture of a plane, and 0 where the ray hit nothing.
 static float nearness_at(const Reprojection& reprojection, const Texel& texel) {
-  const float depth = depth_at(reprojection, texel);
-  return is_surface(depth) ? 1.0f / depth : 0.0f;
+  const StoredEye& eye = reprojection.source->picture->eyes[static_cast<size_t>(texel.source_eye)];
+  return nearness_of(depth_at(eye.layers[reprojection.layer], texel.x, texel.y));
 }
 
 std::optional<size_t> depth_layer(const StoredPicture& picture) {
   const std::vector<LayerPixels>& layers = picture.eyes[0].layers;
+  std::optional<size_t> foreign;
   for (size_t i = 0; i < layers.size(); i++) {
-    const bool fits = layers[i].rule == LayerRule::kNearest && layers[i].channels == std::vector<std::string>{"Z"};
-    if (fits && (layers[i].sample == SampleType::kFloat || layers[i].sample == SampleType::kHalf)) return i;
+    const bool is_float = layers[i].sample == SampleType::kFloat || layers[i].sample == SampleType::kHalf;
+    if (layers[i].rule != LayerRule::kNearest || layers[i].channels.size() != 1 || !is_float) continue;
+    if (layers[i].channels[0] == "Z") return i;
+    if (layers[i].channels[0].ends_with(".Depth.Z") && !foreign) foreign = i;
   }
-  return {};
+  if (picture.camera.projection.kind == kPerspective) return {};  // Blender measures those along the axis
+  return foreign;
 }
 
 Image depth_of_eye(const StoredPicture& picture, size_t eye) {
@@ -60,7 +63,7 @@ void read_nearness(const Reprojection& reprojection, int source_eye, int y, floa
   } else {
     for (int x = 0; x < picture.size.width; x++) out[x] = depth_at(layer, x, y);
   }
-  for (int x = 0; x < picture.size.width; x++) out[x] = is_surface(out[x]) ? 1.0f / out[x] : 0.0f;
+  for (int x = 0; x < picture.size.width; x++) out[x] = nearness_of(out[x]);
 }
 
 Reprojection make_reprojection(const Source& source) {
@@ -78,7 +81,7 @@ Reprojection make_reprojection(const Source& source) {
       int64_t invalid = 0;
       for (int x = 0; x < picture.size.width; x++) {
         const float depth = depth_at(layer, x, y);
-        nearest = std::max(nearest, is_surface(depth) ? 1.0f / depth : 0.0f);
+        nearest = std::max(nearest, nearness_of(depth));
         invalid += !(depth > 0.0f);
       }
       most[static_cast<size_t>(y)] = nearest;

@@ -26,7 +26,8 @@ struct Reprojection {
   std::vector<std::vector<float>> row_most;  // of each eye: 1 / metres of the nearest in each row
 };
 
-// The index of the layer with the distance along the ray, metres (Z, as save.h defines it).
+// The index of the layer with the distance along the ray, metres: Z, as save.h defines it, or that of Blender's
+// panoramas, Depth.Z of some layer.
 std::optional<size_t> depth_layer(const StoredPicture& picture);
 
 // An eye's depths as they are stored, 1 channel; eye: index in StoredPicture::eyes. Precondition: there is a depth

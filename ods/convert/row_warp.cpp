@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ods/kernel/camera/project.h"
+#include "ods/kernel/counterpart.h"
 
 namespace ods {
 
@@ -47,9 +47,8 @@ RowWarp::RowWarp(const Mapping& mapping, const Reprojection& reprojection)
     : mapping_(&mapping), reprojection_(&reprojection) {
   const Projection &from = mapping.source.camera.projection, &to = mapping.camera.projection;
   const Extent size = mapping.source.picture->size;
-  const bool is_whole = from.span.x > 1.9999f * kPi;
   scale_ = density(from, size) / density(to, mapping.size);
-  period_ = is_whole ? static_cast<float>(size.width) / scale_ : 0.0f;
+  period_ = wraps_around(from) ? static_cast<float>(size.width) / scale_ : 0.0f;
   // A surface at a slant of 88 degrees, but no more than is_one_surface() allows.
   one_surface_ = std::clamp(25.0f / density(from, size), 0.01f, 0.1f);
 }
@@ -59,7 +58,7 @@ RowWarp::RowWarp(const Mapping& mapping, const Reprojection& reprojection)
 namespace {
 
 // Where the picture has what the target's pixel 0 would see at some distance, if the row went on to both sides.
-struct Node {
+struct WarpNode {
   float column = 0.0f, row = 0.0f;  // texels
   float inverse_depth = 0.0f;       // along the target's ray
 };
@@ -67,15 +66,15 @@ struct Node {
 // By the surface's nearness in the picture.
 class Shifts {
  public:
-  std::vector<Node> nodes;
+  std::vector<WarpNode> nodes;
   float most = 1e-6f;      // the nearness of the last node
   float nodes_per = 0.0f;  // nearness
 
-  Node at(float nearness) const {
+  WarpNode at(float nearness) const {
     const float t = std::clamp(nearness, 0.0f, most) * nodes_per;
     const size_t i = std::min(static_cast<size_t>(t), nodes.size() - 2);
     const float beyond = t - static_cast<float>(i);
-    const Node &a = nodes[i], &b = nodes[i + 1];
+    const WarpNode &a = nodes[i], &b = nodes[i + 1];
     return {a.column + (b.column - a.column) * beyond, a.row + (b.row - a.row) * beyond,
             a.inverse_depth + (b.inverse_depth - a.inverse_depth) * beyond};
   }
@@ -85,7 +84,7 @@ class Shifts {
  private:
   float extreme(float sign) const {
     float row = nodes[0].row;
-    for (const Node& node : nodes) row = sign * node.row > sign * row ? node.row : row;
+    for (const WarpNode& node : nodes) row = sign * node.row > sign * row ? node.row : row;
     return row;
   }
 };
@@ -114,7 +113,7 @@ bool find_shifts(const Mapping& mapping, RowOfTarget target, int source_eye, flo
       if (!found.seen) return false;
       if (round < 2) inverse *= wanted * found.depth;
     }
-    Node& node = shifts.nodes[i];
+    WarpNode& node = shifts.nodes[i];
     node = {found.uv.x * width - scale * static_cast<float>(middle),
             found.uv.y * static_cast<float>(source.picture->size.height), inverse};
     if (i > 0) node.column -= width * std::round((node.column - shifts.nodes[i - 1].column) / width);
@@ -382,7 +381,7 @@ static void draw_surfaces(const Surfaces& surfaces, Extent picture, float scale,
 
 static SurfaceHit hit_of(const Found& found, const Shifts& shifts, float turn) {
   if (found.nearness < 0.0f) return {};
-  const Node node = shifts.at(found.nearness);
+  const WarpNode node = shifts.at(found.nearness);
   const float column = turn > 0.0f ? found.column - turn * std::floor(found.column / turn) : found.column;
   const float depth = node.inverse_depth > 1e-6f ? 1.0f / node.inverse_depth : kFarDepth;
   return {{found.source_eye, {column, node.row}, true}, depth, found.is_filled};

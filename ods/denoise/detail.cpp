@@ -12,12 +12,12 @@ namespace {
 constexpr int kReach = 2;  // of the window, in strides
 
 // Of the pixels of a row of a block: what a window shows.
-struct Sums {
+struct DetailSums {
   float found[kBlockWidth];     // squares of what the pass took away
   float variance[kBlockWidth];  // three times, as far as the pass could take it away
 };
 
-void add_window(const RowPair& pair, const float* took, const float* share, float weight, int count, Sums& sums) {
+void add_window(const RowPair& pair, const float* took, const float* share, float weight, int count, DetailSums& sums) {
   for (int x = 0; x < count; x++) {
     const float theirs = pair.next[kVariance][x];
     const float alike = feature_weight(squared_distance(pair, kNormalX, x), squared_distance(pair, kAlbedoR, x));
@@ -28,7 +28,8 @@ void add_window(const RowPair& pair, const float* took, const float* share, floa
 }
 
 // A single pixel that stands out from its window is a rare sample, unless it does so by four of its deviations.
-void begin_window(const RowPair& pair, const float* took, const float* share, float detail, int count, Sums& sums) {
+void begin_window(const RowPair& pair, const float* took, const float* share, float detail, int count,
+                  DetailSums& sums) {
   for (int x = 0; x < count; x++) {
     sums.variance[x] = 3.0f * std::max(pair.own[kVariance][x], 0.0f) * share[x];
     sums.found[x] = took[x] > 16.0f * detail * sums.variance[x] ? took[x] : 0.0f;
@@ -57,7 +58,7 @@ void add_detail(const NoisyPicture& noisy, const std::vector<Level>& before, con
   load_block(noisy, after, smooth, false);
   take_squares(block, smooth, squares);
   const int count = block.inside.right - block.inside.left;
-  Sums sums;
+  DetailSums sums;
   for (int y = block.inside.top; y < block.inside.bottom; y++) {
     const int stride_across = pass.stride * stretch_of(noisy, pass, y);
     begin_window(pair_rows(block, y, 0, 0), squares.data() + block.offset(y), smooth.row(kShare, y), pass.noise.detail,

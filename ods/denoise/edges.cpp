@@ -12,8 +12,8 @@
 namespace ods {
 namespace {
 
-constexpr int kReach = 2;
-constexpr int kMost = (2 * kReach + 1) * (2 * kReach + 1) - 1;
+constexpr int kEdgeReach = 2;
+constexpr int kMostNeighbours = (2 * kEdgeReach + 1) * (2 * kEdgeReach + 1) - 1;
 constexpr int kTerms = 7;             // a constant, normal, albedo
 constexpr int kFewest = 6;            // pixels that a fit needs
 constexpr float kRidge = 0.003f;      // of the features' squares
@@ -27,7 +27,7 @@ struct Neighbour {
 };
 
 struct Neighbourhood {
-  Neighbour list[kMost];
+  Neighbour list[kMostNeighbours];
   int count = 0;
   float weight = 0.0f;
   float squares = 0.0f;  // of the weights
@@ -56,8 +56,8 @@ vec3 radiance_at(const Block& block, int at, int y) {
 void look_around(const Block& block, int at, int y, Neighbourhood& around) {
   around.count = 0, around.weight = around.squares = 0.0f;
   const vec3 normal = three(block, kNormalX, at, y), albedo = three(block, kAlbedoR, at, y);
-  for (int dy = -kReach; dy <= kReach; dy++) {
-    for (int dx = -kReach; dx <= kReach; dx++) {
+  for (int dy = -kEdgeReach; dy <= kEdgeReach; dy++) {
+    for (int dx = -kEdgeReach; dx <= kEdgeReach; dx++) {
       if ((dx == 0 && dy == 0) || block.row(kVariance, y + dy)[at + dx] < 0.0f) continue;
       Neighbour& one = around.list[around.count++];
       const vec3 dn = three(block, kNormalX, at + dx, y + dy) - normal;
@@ -113,7 +113,7 @@ bool fit(const Neighbourhood& around, vec3& middle, float& residual) {
 
 void fit_edges(const NoisyPicture& noisy, const std::vector<Level>& from, std::vector<Level>& to) {
   for_each_block(noisy, [&](Block& block) {
-    block.across = block.down = kReach;
+    block.across = block.down = kEdgeReach;
     load_block(noisy, from, block);
     const Level& before = from[static_cast<size_t>(block.eye)];
     Level& after = to[static_cast<size_t>(block.eye)];

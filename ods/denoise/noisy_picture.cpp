@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ods/kernel/counterpart.h"
+
 namespace ods {
 
 static std::vector<Cell> cells_of(const Projection& projection, Extent size) {
@@ -28,8 +30,7 @@ void open_noisy(NoisyPicture& noisy, const Picture& picture, const StereoCamera&
   noisy.source = make_source(noisy.shape);
   noisy.camera = make_camera(camera);
   noisy.cells = cells_of(noisy.camera.projection, noisy.shape.size);
-  const Projection& projection = noisy.camera.projection;
-  noisy.turns = has_range(projection.kind) && std::abs(projection.span.x - 2.0f * kPi) < 1e-4f;
+  noisy.turns = wraps_around(noisy.camera.projection);
 }
 
 std::optional<Texel> neighbour_of(const NoisyPicture& noisy, int eye, const Cell& cell, int x, int y) {
@@ -92,8 +93,8 @@ static float variance_at(const EyeImage& eye, size_t pixel, vec3 divided_by) {
 // --- levels and blocks
 // -------------------------------------------------------------------------------------------------
 
-// Where only sky is seen, within a pixel. At silhouettes the other eye's paths may bring light of a surface that none of
-// the pixel's own samples meets: that is noise, like that of the pixels beside it.
+// Where only sky is seen, within a pixel. At silhouettes the other eye's paths may bring light of a surface that none
+// of the pixel's own samples meets: that is noise, like that of the pixels beside it.
 static bool is_only_sky(const NoisyPicture& noisy, const EyeImage& eye, int x, int y) {
   if (!is_bare_sky(eye, noisy.index(x, y))) return false;
   for (int row = std::max(y - 1, 0); row <= std::min(y + 1, noisy.height() - 1); row++) {

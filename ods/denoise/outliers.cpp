@@ -14,7 +14,7 @@
 namespace ods {
 namespace {
 
-constexpr int kReach = 2;                  // of the window that tells an outlier
+constexpr int kOutlierReach = 2;           // of the window that tells an outlier
 constexpr float kMostOfNeighbours = 2.0f;  // an outlier is brighter than all neighbours' light, over this
 constexpr float kSigmas = 3.0f;            // brighter than its surroundings by more of its own deviations: no outlier
 constexpr float kSeen = 0.03f;             // share of the light that spread light adds at most, if it can
@@ -42,12 +42,12 @@ struct Taken {
   bool exists = false;
 };
 
-// The neighbours within kReach; `see` returns false to end.
+// The neighbours within kOutlierReach; `see` returns false to end.
 template <typename See>
 void each_neighbour(const NoisyPicture& noisy, const std::vector<Level>& levels, const Outlier& at, const Cell& cell,
                     const See& see) {
-  for (int dy = -kReach; dy <= kReach; dy++) {
-    for (int dx = -kReach; dx <= kReach; dx++) {
+  for (int dy = -kOutlierReach; dy <= kOutlierReach; dy++) {
+    for (int dx = -kOutlierReach; dx <= kOutlierReach; dx++) {
       if (dx == 0 && dy == 0) continue;
       const auto texel = texel_at(noisy, at.eye, cell, at.x + dx, at.y + dy);
       if (!texel) continue;

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "ods/base/median.h"
+#include "ods/camera/pixel.h"
+#include "ods/kernel/random.h"
 #include "ods/picture/picture.h"
 
 namespace ods {
@@ -29,8 +31,7 @@ std::vector<Look> looks_at(const Image& nearness, const Camera& camera, int eye)
     for (int column = 0; column < kColumns; column++) {
       const int x = (2 * column + 1) * nearness.width / (2 * kColumns),
                 y = (2 * row + 1) * nearness.height / (2 * kRows);
-      const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(nearness.width),
-                    (static_cast<float>(y) + 0.5f) / static_cast<float>(nearness.height));
+      const vec2 uv = pixel_middle(x, y, nearness);
       const vec3 direction = camera_ray(camera, eye, uv).direction;
       looks.push_back({direction, *nearness.at(x, y), relative_solid_angle(camera.projection, uv, uv)});
     }
@@ -55,11 +56,6 @@ std::optional<Plane> plane_through(vec3 a, vec3 b, vec3 c) {
   return Plane{normal, height};
 }
 
-uint32_t next_random(uint32_t& state) {
-  state = state * 1664525u + 1013904223u;
-  return state >> 8;
-}
-
 }  // namespace
 
 std::optional<double> floor_below(const Image& nearness, const Camera& camera, int eye) {
@@ -79,8 +75,8 @@ std::optional<double> floor_below(const Image& nearness, const Camera& camera, i
   if (points.size() < 50) return std::nullopt;
   Plane best;
   double most = 0.0;
-  uint32_t state = 1;
-  const auto pick = [&] { return points[next_random(state) % points.size()]; };
+  uint32_t picks = 0;
+  const auto pick = [&] { return points[hash(picks++) % points.size()]; };
   for (int round = 0; round < kRounds; round++) {
     const vec3 a = pick(), b = pick(), c = pick();
     const std::optional<Plane> plane = plane_through(a, b, c);

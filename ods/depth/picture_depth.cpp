@@ -11,10 +11,12 @@
 #include <memory>
 
 #include "ods/base/error.h"
+#include "ods/camera/pixel.h"
 #include "ods/depth/floor.h"
 #include "ods/depth/nearness.h"
 #include "ods/depth/sharpen.h"
 #include "ods/files/scratch.h"
+#include "ods/kernel/counterpart.h"
 #include "ods/picture/load_eyes.h"
 
 namespace ods {
@@ -49,10 +51,6 @@ void check_shape(const DepthNumbers& depth, Extent size) {
                           depth.path, depth.numbers.width, depth.numbers.height, size.width, size.height));
 }
 
-bool is_around(const ProjectionSetting& projection) {
-  return projection.kind == kLatLong && projection.longitude.y - projection.longitude.x > 359.999f;
-}
-
 GuideImage guide_of(const StoredPicture& picture, size_t eye) {
   GuideImage guide{picture.size.width, picture.size.height, {}};
   guide.pixels.resize(3 * static_cast<size_t>(guide.width) * static_cast<size_t>(guide.height));
@@ -80,9 +78,7 @@ void turn_along_ray(Image& nearness, const StoredPicture& picture, const std::st
   }
   tbb::parallel_for(0, nearness.height, [&](int y) {
     for (int x = 0; x < nearness.width; x++) {
-      const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(nearness.width),
-                    (static_cast<float>(y) + 0.5f) / static_cast<float>(nearness.height));
-      *nearness.at(x, y) *= std::max(along_axis(projection, uv), 0.0f);
+      *nearness.at(x, y) *= std::max(along_axis(projection, pixel_middle(x, y, nearness)), 0.0f);
     }
   });
 }
@@ -201,7 +197,8 @@ DepthReport add_depth(StoredPicture& picture, const std::vector<DepthNumbers>& d
   }
   DepthReport report;
   report.scale = options.scale.value_or(1.0);
-  const bool wraps = is_around(picture.camera.projection), sharpens = options.edges == DepthEdges::kSharp;
+  const bool wraps = wraps_around(make_projection(picture.camera.projection));
+  const bool sharpens = options.edges == DepthEdges::kSharp;
   const auto kept = std::make_shared<Kept>(Kept{picture.memory, {}});
   int64_t invalid = 0, sharpened = 0, all = 0;
   for (size_t i = 0; i < depth.size(); i++) {

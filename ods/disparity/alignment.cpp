@@ -9,13 +9,13 @@
 #include <numbers>
 #include <optional>
 
+#include "ods/base/angles.h"
 #include "ods/base/median.h"
 
 namespace ods {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kSectors = 16;
 constexpr size_t kEnough = 10;      // matches
 constexpr double kSure = 4.0;       // standard errors that a term needs to be taken

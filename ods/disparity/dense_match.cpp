@@ -11,13 +11,13 @@
 #include <limits>
 #include <numbers>
 
+#include "ods/base/angles.h"
 #include "ods/base/median.h"
 
 namespace ods {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kHighest = 78.0 * kDegree;
 constexpr double kOutwards = 2.0 * kDegree, kInwards = 20.0 * kDegree;  // how far is searched
 constexpr int kAcross = 4, kDown = 3;                                   // of the transform's window, to either side

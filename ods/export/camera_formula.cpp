@@ -8,17 +8,17 @@
 #include <cassert>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include "ods/base/decimal.h"
 
 namespace ods {
 namespace {
 
-const double kExactPi = std::acos(-1.0);
 using Vector = std::array<Formula, 3>;
 
 double radians(float degrees) {
-  return decimal(degrees) * kExactPi / 180.0;
+  return decimal(degrees) * std::numbers::pi / 180.0;
 }
 
 Formula squared(const Formula& a) {
@@ -43,11 +43,11 @@ struct MergeCurve {
 };
 const MergeCurve kMergeCurves[] = {
     {kMergeLinear, [](const Formula& t) { return 1.0 - t; }},
-    {kMergeCosine, [](const Formula& t) { return max(cos(kExactPi / 2.0 * t), 0.0); }},
+    {kMergeCosine, [](const Formula& t) { return max(cos(std::numbers::pi / 2.0 * t), 0.0); }},
     {kMergeSmoothstep, [](const Formula& t) { return 1.0 - t * t * (3.0 - 2.0 * t); }},
     {kMergeSmootherstep, [](const Formula& t) { return 1.0 - t * t * t * (t * (6.0 * t - 15.0) + 10.0); }},
     {kMergeGaussian, [](const Formula& t) { return (exp(-(t * t)) - std::exp(-1.0)) / (1.0 - std::exp(-1.0)); }},
-    {kMergeTiltBrush, [](const Formula& t) { return 1.0 - sin(t / (2.0 * kExactPi)); }},
+    {kMergeTiltBrush, [](const Formula& t) { return 1.0 - sin(t / (2.0 * std::numbers::pi)); }},
 };
 static_assert(std::size(kMergeCurves) == kMergeCount - 3, "a new merge needs its curve; none, power and map have none");
 
@@ -131,7 +131,7 @@ class Writer {
   Formula turn_to_right() {
     if (view_.camera_frame || !level_ || camera_.yaw == 0.0f) return 0.0;
     const Formula yaw = parameter("yaw", camera_.yaw, "degrees to the right");
-    return (camera_.mirrored ? -1.0 : 1.0) * (kExactPi / 180.0) * yaw;
+    return (camera_.mirrored ? -1.0 : 1.0) * (std::numbers::pi / 180.0) * yaw;
   }
 
   // theta and phi of the direction, relative to the viewing circle's axis.
@@ -184,7 +184,8 @@ class Writer {
       return combine(columns, {half * x, half / decimal(setting_.aspect) * y, -1.0});
     }
     if (is_cube(setting_.kind)) return cube_direction();
-    if (setting_.kind == kEacFace) return combine(columns, {tan(kExactPi / 4.0 * x), tan(kExactPi / 4.0 * y), -1.0});
+    if (setting_.kind == kEacFace)
+      return combine(columns, {tan(std::numbers::pi / 4.0 * x), tan(std::numbers::pi / 4.0 * y), -1.0});
     if (setting_.kind == kFisheyePolynomial) return polynomial_direction(columns);
     const Formula px = step("lens_x", x), py = step("lens_y", y);
     const Formula radius = step("off_axis", sqrt(squared(px) + squared(py)));
@@ -226,7 +227,7 @@ class Writer {
     const Formula row = rows == 1 ? Formula(0.0) : step("row", cell_of(eye_v_, rows));
     Formula s = 2.0 * (double(columns) * eye_u_ - column) - 1.0;
     Formula t = 1.0 - 2.0 * (double(rows) * eye_v_ - row);
-    if (setting_.kind == kEac) s = tan(kExactPi / 4.0 * s), t = tan(kExactPi / 4.0 * t);
+    if (setting_.kind == kEac) s = tan(std::numbers::pi / 4.0 * s), t = tan(std::numbers::pi / 4.0 * t);
     s = step("face_s", s), t = step("face_t", t);
     Vector d{0.0, 0.0, 0.0};
     for (int axis = 0; axis < 3; axis++) {
@@ -286,7 +287,7 @@ class Writer {
     }
     const Formula start = parameter(pole + "merge_start", merge.start, "elevation, degrees");
     const Formula end = parameter(pole + "merge_end", merge.end, "elevation, degrees");
-    const Formula elevation = 180.0 / kExactPi * abs(phi_);
+    const Formula elevation = 180.0 / std::numbers::pi * abs(phi_);
     const Formula t = step(pole + "merge_t", min(max((elevation - start) / (end - start), 0.0), 1.0));
     if (merge.mode == kMergePower) return 1.0 - pow(t, merge_exponent(merge, pole));
     const Formula left = merge_curve(merge.mode, t);

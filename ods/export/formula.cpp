@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cctype>
 #include <cmath>
+#include <numbers>
 
 namespace ods {
 
@@ -154,8 +155,6 @@ namespace {
 // How tightly an expression binds.
 enum Binding { kSum, kProduct, kAtom };
 
-const double kExactPi = std::acos(-1.0);
-
 class Printer {
  public:
   explicit Printer(Language language) : language_(language) {}
@@ -184,10 +183,10 @@ class Printer {
   // Prints a multiple of pi as "pi", "2*pi", "pi/180", and a multiple of 1/pi as "180/pi"; all else with 10 digits.
   std::string number(double value) const {
     for (const double times : {0.5, 180.0}) {
-      if (std::abs(value * kExactPi - times) < 1e-12 * times) return plain(times) + "/pi";
+      if (std::abs(value * std::numbers::pi - times) < 1e-12 * times) return plain(times) + "/pi";
     }
     for (const double part : {1.0, 2.0, 3.0, 4.0, 180.0, 360.0}) {
-      const double times = value * part / kExactPi;
+      const double times = value * part / std::numbers::pi;
       if (times < 0.5 || times > 12.5 || std::abs(times - std::round(times)) > 1e-12) continue;
       return fmt::format("{}pi{}", std::round(times) == 1.0 ? "" : plain(std::round(times)) + "*",
                          part == 1.0 ? "" : fmt::format("/{}", plain(part)));

@@ -18,7 +18,7 @@ std::string group_text(const FarmPlan& plan, const TaskGroup& group) {
                      json_text(group.option), group.tasks, words);
 }
 
-constexpr const char* kScript =
+constexpr const char* kFlamencoScript =
     R"(// A job type of Flamenco 3 for one job of ods: each group of tasks starts when the one before is done.
 const JOB_TYPE = {{
   label: {0},
@@ -53,7 +53,7 @@ function compileJob(job) {{
 std::vector<FarmFile> write_flamenco(const FarmPlan& plan, const SchedulerWishes&) {
   std::string groups;
   for (const TaskGroup& group : plan.groups) groups += group_text(plan, group);
-  return {{plan.name + ".js", fmt::format(kScript, json_text(plan.name), json_text(plan.program), groups)}};
+  return {{plan.name + ".js", fmt::format(kFlamencoScript, json_text(plan.name), json_text(plan.program), groups)}};
 }
 
 }  // namespace ods

@@ -89,7 +89,7 @@ void check_mount(const FarmPlan& plan, const SchedulerWishes& wishes) {
   }
 }
 
-constexpr const char* kSubmit = R"sh(#!/bin/sh
+constexpr const char* kKubernetesSubmit = R"sh(#!/bin/sh
 # Sends the jobs to the cluster that kubectl knows, each when the one before is complete, and waits for the last; ends
 # with 1 when one fails. Started again it goes on: a job that runs is waited for, one that has ended is sent anew, and
 # its tasks skip what is there.
@@ -133,7 +133,7 @@ std::vector<FarmFile> write_kubernetes(const FarmPlan& plan, const SchedulerWish
                 "Kubernetes has no word for a whole machine: --cpus N says how many of its processors");
   }
   std::vector<FarmFile> files;
-  std::string submit = kSubmit;
+  std::string submit = kKubernetesSubmit;
   for (const TaskGroup& group : plan.groups) {
     const std::string file = group.name + ".yaml";
     files.push_back({file, job_of(plan, group, wishes)});

@@ -21,7 +21,7 @@ namespace ods {
 
 namespace {
 
-constexpr const char* kMark = "omnistereo_farm_plan";
+constexpr const char* kPlanMark = "omnistereo_farm_plan";
 constexpr int kVersion = 1;
 
 Json json_of(const TaskGroup& group) {
@@ -71,7 +71,7 @@ std::vector<std::string> task_words(const FarmPlan& plan, const TaskGroup& group
 }
 
 std::string write_plan(const FarmPlan& plan) {
-  Json json = {{kMark, kVersion},       {"name", plan.name},       {"scheduler", plan.scheduler},
+  Json json = {{kPlanMark, kVersion},   {"name", plan.name},       {"scheduler", plan.scheduler},
                {"folder", plan.folder}, {"program", plan.program}, {"cpus", plan.cpus},
                {"memory", plan.memory}, {"paths", Json::array()},  {"groups", Json::array()}};
   for (const PlanPath& path : plan.paths) json["paths"].push_back(json_of(path));
@@ -85,7 +85,7 @@ FarmPlan read_plan(std::string_view text, const std::string& path) {
     return Error(ErrorKind::kInput, fmt::format("'{}' is no plan of a farm's job: {}", path, one_line(why)));
   };
   try {
-    if (json.at(kMark) != kVersion) throw bad("it was made by another version of ods");
+    if (json.at(kPlanMark) != kVersion) throw bad("it was made by another version of ods");
     FarmPlan plan{json.at("name"), json.at("folder"), json.at("program"), json.at("cpus"), json.at("memory"), {}, {}};
     for (const Json& each : json.at("paths")) plan.paths.push_back(path_of(each));
     for (const Json& each : json.at("groups")) plan.groups.push_back(group_of(each));

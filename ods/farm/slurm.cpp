@@ -68,7 +68,7 @@ std::string unfinished_file(const TaskGroup& group) {
 // network disks show files late, and machines break; so does a task at the end of its time limit, whose next start
 // finds what it left. The third start without a file is the last, also of a task whose node dies under it or takes it
 // back.
-constexpr const char* kScript = R"sh(#!/bin/sh
+constexpr const char* kSlurmScript = R"sh(#!/bin/sh
 {0}
 folder={1}
 task={2}
@@ -146,12 +146,12 @@ bool runs_anywhere(const SchedulerWishes& wishes) {
 std::string script_of(const FarmPlan& plan, const Array& array, const SchedulerWishes& wishes) {
   const std::string task =
       array.group.option.empty() ? "1" : fmt::format("$((SLURM_ARRAY_TASK_ID + {}))", array.before);
-  return fmt::format(kScript, directives(plan, array, wishes), shell_word(plan.folder), task, array.group.name,
+  return fmt::format(kSlurmScript, directives(plan, array, wishes), shell_word(plan.folder), task, array.group.name,
                      array.group.tasks, command_line(plan, array.group), unfinished_file(array.group),
                      runs_anywhere(wishes) ? "anywhere" : "where told");
 }
 
-constexpr const char* kSubmit = R"sh(#!/bin/sh
+constexpr const char* kSlurmSubmit = R"sh(#!/bin/sh
 # Sends the job to Slurm, each group of tasks behind the one before, and prints the number of every array. What was sent
 # is cancelled if something cannot be sent.
 set -eu
@@ -171,7 +171,7 @@ send() {{  # SCRIPT COMMENT
 
 std::vector<FarmFile> write_slurm(const FarmPlan& plan, const SchedulerWishes& wishes) {
   std::vector<FarmFile> files;
-  std::string submit = fmt::format(kSubmit, shell_word(plan.folder));
+  std::string submit = fmt::format(kSlurmSubmit, shell_word(plan.folder));
   for (const TaskGroup& group : plan.groups) {
     if (&group != &plan.groups.front()) submit += "next\n";
     for (const Array& array : arrays_of(group, wishes.largest_array)) {

@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view kMark = "ods:";
+constexpr std::string_view kAnswersMark = "ods:";
 
 std::optional<int> number_of(std::string_view text) {
   int value = 0;
@@ -126,8 +126,8 @@ std::vector<int> indices_of(const json& job) {
 }  // namespace
 
 std::optional<SlurmArray> array_of_comment(std::string_view comment) {
-  if (!comment.starts_with(kMark)) return std::nullopt;
-  comment.remove_prefix(kMark.size());
+  if (!comment.starts_with(kAnswersMark)) return std::nullopt;
+  comment.remove_prefix(kAnswersMark.size());
   SlurmArray array;
   array.group = take_field(comment, ':');
   const std::optional<int> before = number_of(take_field(comment, ':'));
@@ -138,7 +138,7 @@ std::optional<SlurmArray> array_of_comment(std::string_view comment) {
 }
 
 std::string slurm_comment(const std::string& group, int before) {
-  return fmt::format("{}{}:{}", kMark, group, before);
+  return fmt::format("{}{}:{}", kAnswersMark, group, before);
 }
 
 std::vector<SlurmTask> read_queue(std::string_view text) {

@@ -23,7 +23,7 @@ namespace ods {
 
 namespace fs = std::filesystem;
 
-static Error cannot_write(const std::string& path, const std::string& why) {
+Error cannot_write(const std::string& path, const std::string& why) {
   return Error(ErrorKind::kOutput, fmt::format("cannot write '{}': {}", path, why));
 }
 

@@ -9,7 +9,12 @@
 #include <string>
 #include <string_view>
 
+#include "ods/base/error.h"
+
 namespace ods {
+
+// "cannot write 'PATH': WHY", of kind kOutput.
+Error cannot_write(const std::string& path, const std::string& why);
 
 // Throws Error(kOutput) if a file cannot be written there: the name is a folder or a device or too long, or the folder
 // (or its nearest existing ancestor) is not writable. Leaves nothing on the disk.
@@ -52,8 +57,8 @@ void write_file(const std::string& path, std::string_view bytes);
 // Commits files that belong together: renames none until all are on disk.
 void commit_all(std::list<AtomicFile>& files);
 
-// Gives a complete file of the same disk another name. False if anything has that name, be it a link that leads nowhere.
-// Throws Error(kOutput).
+// Gives a complete file of the same disk another name. False if anything has that name, be it a link that leads
+// nowhere. Throws Error(kOutput).
 bool rename_as_new(const std::string& from, const std::string& to);
 
 // Removes the temporary files of this process (of those open at once, the first 16). Async-signal-safe, for a signal

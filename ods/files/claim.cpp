@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kMark = "omnistereo claim";
+constexpr const char* kFirstLine = "omnistereo claim";
 
 // Closes, and thereby unlocks, a descriptor unless it is released first.
 class File {
@@ -88,7 +88,7 @@ Lock lock(int file, int how) {
 }
 
 void write_holder(int file, const std::string& path) {
-  const std::string text = fmt::format("{}\nhost {}\nboot {}\nprocess {}\nsince {:%Y-%m-%d %H:%M:%S} UTC\n", kMark,
+  const std::string text = fmt::format("{}\nhost {}\nboot {}\nprocess {}\nsince {:%Y-%m-%d %H:%M:%S} UTC\n", kFirstLine,
                                        host_name(), boot_name(), getpid(), fmt::gmtime(std::time(nullptr)));
   if (pwrite(file, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size())) return;
   const int code = errno;
@@ -104,7 +104,7 @@ Holder read_holder(int file, const std::string& path) {
   Holder holder;
   std::string line;
   if (!std::getline(text, line)) return holder;
-  if (line != kMark) throw cannot_claim(path, "another kind of file has that name; remove it");
+  if (line != kFirstLine) throw cannot_claim(path, "another kind of file has that name; remove it");
   while (std::getline(text, line)) {
     const size_t space = std::min(line.find(' '), line.size());
     const std::string key = line.substr(0, space), value = line.substr(std::min(space + 1, line.size()));

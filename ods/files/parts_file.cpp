@@ -18,7 +18,7 @@
 namespace ods {
 
 static constexpr std::string_view kHead = "omnistereo parts, 1\n";
-static constexpr size_t kMark = 0xffffffff;
+static constexpr size_t kCheckpoint = 0xffffffff;
 
 static std::string number(uint64_t value, size_t count) {
   std::string bytes;
@@ -84,7 +84,7 @@ void PartsFile::find_end() {
     const std::string length = read_bytes(stream_, 4);
     if (length.size() < 4) return;
     const uint64_t size = get_number(length, 0, 4);
-    if (size != kMark) {
+    if (size != kCheckpoint) {
       check(fseeko(stream_, static_cast<off_t>(size), SEEK_CUR) == 0);
       continue;
     }
@@ -100,8 +100,8 @@ void PartsFile::read(const std::function<void(std::string_view record)>& take) {
   check(fseeko(stream_, static_cast<off_t>(begin_), SEEK_SET) == 0);
   while (place_in(stream_) < end_) {
     const size_t size = get_number(read_bytes(stream_, 4), 0, 4);
-    const std::string record = read_bytes(stream_, size == kMark ? 8 : size);
-    if (size != kMark) take(record);
+    const std::string record = read_bytes(stream_, size == kCheckpoint ? 8 : size);
+    if (size != kCheckpoint) take(record);
   }
   check(ftruncate(fileno(stream_), static_cast<off_t>(end_)) == 0 &&
         fseeko(stream_, static_cast<off_t>(end_), SEEK_SET) == 0);
@@ -121,7 +121,7 @@ void PartsFile::add(std::string_view record) {
 // A mark is written only when all before it is on the disk.
 void PartsFile::end_part() {
   check(std::fflush(stream_) == 0 && fsync(fileno(stream_)) == 0);
-  const std::string mark = number(kMark, 4) + number(place_in(stream_), 8);
+  const std::string mark = number(kCheckpoint, 4) + number(place_in(stream_), 8);
   check(std::fwrite(mark.data(), 1, mark.size(), stream_) == mark.size() && std::fflush(stream_) == 0);
   forget_unfinished(path_.c_str());
   count_++;

@@ -46,7 +46,7 @@ void remove_folder_of_files(const char* path) {
 }
 
 // Whoever made it is dead: nobody has it locked. Without locks it may be alive.
-static bool is_left_alone(const fs::path& path) {
+static bool is_unlocked(const fs::path& path) {
   const int folder = open_folder(path.c_str());
   if (folder < 0) return false;
   const bool is_free = flock(folder, LOCK_EX | LOCK_NB) == 0;
@@ -55,14 +55,14 @@ static bool is_left_alone(const fs::path& path) {
 }
 
 // start: what the names of all such folders of this machine have in common; the process follows.
-static void remove_leftovers(const fs::path& parent, const std::string& start) {
+static void remove_left_folders(const fs::path& parent, const std::string& start) {
   std::error_code error;
   for (fs::directory_iterator at(parent, error), end; !error && at != end; at.increment(error)) {
     const std::string name = at->path().filename().native();
     if (!name.starts_with(start)) continue;
     const int process = std::atoi(name.c_str() + start.size());
     const bool is_dead = process > 0 && kill(process, 0) != 0 && errno == ESRCH;
-    if (is_dead && is_left_alone(at->path())) remove_folder_of_files(at->path().c_str());
+    if (is_dead && is_unlocked(at->path())) remove_folder_of_files(at->path().c_str());
   }
 }
 
@@ -72,7 +72,7 @@ PrivateFolder::PrivateFolder(const std::string& prefix) {
   std::error_code error;
   const fs::path start = fs::weakly_canonical(fs::absolute(prefix), error);
   const std::string all = fmt::format("{}{}.", start.filename().native(), host);
-  remove_leftovers(start.parent_path(), all);
+  remove_left_folders(start.parent_path(), all);
   path_ = start.parent_path() / fmt::format("{}{}.XXXXXX", all, getpid());
   if (!mkdtemp(path_.data())) {
     throw Error(ErrorKind::kOutput,

@@ -16,6 +16,7 @@
 
 #include "ods/base/error.h"
 #include "ods/base/memory.h"
+#include "ods/files/atomic_file.h"
 
 namespace ods {
 
@@ -47,10 +48,6 @@ static void* map_file(const std::string& folder, size_t size) {
   close(file);
   if (map == MAP_FAILED) throw no_room(folder, size, code);
   return map;
-}
-
-static Error cannot_write(const std::string& path, const std::string& why) {
-  return Error(ErrorKind::kOutput, fmt::format("cannot write '{}': {}", path, why));
 }
 
 // Why an open file cannot be used; empty if it can. An empty file is what a killed process left.

@@ -12,12 +12,12 @@ namespace ods {
 namespace {
 
 // Low resolution averages noise out and makes the match less sensitive to parallax.
-constexpr int kCoarse = 192;
+constexpr int kCoarseWidth = 192;
 
-constexpr double kPrecision = 0.25;  // of a match, in pixels of its view
+constexpr double kMatchPrecision = 0.25;  // of a match, in pixels of its view
 
 double sign_of(const Match& match, float pixel) {
-  const double moved = static_cast<double>(match.around / pixel) / kPrecision;
+  const double moved = static_cast<double>(match.around / pixel) / kMatchPrecision;
   return std::copysign(std::tanh(moved * moved), moved);
 }
 
@@ -30,7 +30,7 @@ double EyeMatch::mark() const {
 }
 
 EyeMatch match_eyes(const std::vector<Image>& eyes) {
-  const std::vector<GrayView> views = make_gray_views(eyes, ProjectionSetting(), false, kCoarse);
+  const std::vector<GrayView> views = make_gray_views(eyes, ProjectionSetting(), false, kCoarseWidth);
   Search search;
   search.correlation = 0.7f;
   search.down = 0.05f;

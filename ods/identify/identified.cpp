@@ -123,7 +123,7 @@ static FormatHint identified_picture(const std::string& path, const FormatHint& 
 static FormatHint identified_film(const std::string& path, const FormatHint& known, std::vector<std::string>& notes) {
   const VideoFile info = read_video_file(path);
   const VideoTrack& track = choose_track(info, {}, path);
-  if (track.has_layers) return known;  // its pixels are those of one eye; opening it says where the other one is
+  if (track.layers) return known;  // it says itself what its eyes show
   SphericalMetadata told;
   if (known.layout) {
     told.stereo = *known.layout == Layout::kSeparate ? VideoStereo::kOneView : video_stereo(*known.layout);

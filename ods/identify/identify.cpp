@@ -143,28 +143,6 @@ constexpr double kOther = -3.0;                           // a projection that i
 constexpr double kElse = 20.0;                            // what is known to circulate and none of these
 constexpr double kSqueezed = 0.84, kSqueezedLess = 0.94;  // aspects of vr180 in halves of 16:9
 
-// How usual it is, as a logarithm. eac-face, fisheye-polynomial: nobody's files are, without saying so.
-double usual(std::string_view projection) {
-  constexpr std::pair<std::string_view, double> kUsual[] = {{"lat-long", 0.0},
-                                                            {"vr180", -0.5},
-                                                            {"fisheye", -0.5},
-                                                            {"fisheye-equisolid", -1.7},
-                                                            {"fisheye-polynomial", -4.0},
-                                                            {"mirror-ball", -1.5},
-                                                            {"dome", -1.5},
-                                                            {"perspective", -1.5},
-                                                            {"cube-3x2", -1.0},
-                                                            {"cube-6x1", -1.0},
-                                                            {"cube-1x6", -1.0},
-                                                            {"eac", -1.0},
-                                                            {"eac-face", -3.0},
-                                                            {"cylinder", -1.0}};
-  for (const auto& [name, odds] : kUsual) {
-    if (name == projection) return odds;
-  }
-  return -4.0;
-}
-
 bool fits_shape(const ProjectionSetting& setting, Extent eye) {
   const int natural = natural_height(setting, eye.width);
   return std::abs(eye.height - natural) <= std::max(1.0, 0.012 * natural);
@@ -316,7 +294,7 @@ void add_candidates(Cut& cut, Layout layout, const FormatHint& known, Extent fil
     candidate.reading.projection = setting;
     if (layout != Layout::kSeparate) candidate.reading.layout = layout;
     const bool is_part = setting.kind == kLatLong && !is_full_lat_long(setting) && !is_vr180(setting);
-    candidate.odds += (is_part ? -4.0 : usual(name)) + kEyes * cut.two_eyes;
+    candidate.odds += (is_part ? -4.0 : find_projection(name)->usual) + kEyes * cut.two_eyes;
     if (layout == Layout::kSeparate && is_vr180(setting)) candidate.odds -= 2.0;  // square photographs are many
     if (layout == Layout::kSeparate && !is_cube(setting.kind)) candidate.odds -= kBroken * std::max(0.0, cut.broken);
     if (cut.how == EyePacking::kBeside) candidate.odds += 0.5 * kBroken * std::max(0.0, cut.broken);

@@ -97,7 +97,7 @@ static void set_fov(std::vector<FisheyeLens>& lenses, float fov) {
   for (FisheyeLens& lens : lenses) lens.fov = fov;
 }
 
-// One number after the other, in ever smaller steps.
+// One number after the other, in ever reduced steps.
 static float refine(const Halves& halves, std::vector<FisheyeLens>& lenses) {
   float best = alikeness(halves, lenses);
   using Change = void (*)(std::vector<FisheyeLens>&, float);
@@ -232,7 +232,7 @@ static std::optional<StoredPicture> look_at(const std::string& path) {
 }
 
 // Whole pixels become one, so that no place moves.
-static Image smaller(const Image& image, int by) {
+static Image reduced(const Image& image, int by) {
   Image small(image.width / by, image.height / by, 1);
   for (int y = 0; y < small.height; y++) {
     for (int x = 0; x < small.width; x++) {
@@ -289,7 +289,7 @@ FormatHint with_lenses(const std::string& path, const FormatHint& known, std::ve
   constexpr int kLongest = 1100;  // of a half
   const int by = 1 + std::max(eye->width, eye->height) / kLongest;
   const Image grey = grey_eyes(*whole)[0];
-  const auto half = [&](int index) { return shown(smaller(cut(grey, eye_corner(*layout, *eye, index), *eye), by)); };
+  const auto half = [&](int index) { return shown(reduced(cut(grey, eye_corner(*layout, *eye, index), *eye), by)); };
   std::optional<SeenLenses> seen = find_lenses(half(0), half(1), told ? told->fov : 180.0f);
   if (!seen) return known;
   if (known.front_and_back && !seen->front_and_back) return known;  // as told, by the edges of the halves

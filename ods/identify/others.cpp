@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ods/base/median.h"
+#include "ods/camera/pixel.h"
 #include "ods/camera/projection.h"
 #include "ods/identify/pairs.h"
 
@@ -77,8 +78,7 @@ double y_up_mark(const Image& eye, const ProjectionSetting& cube) {
   const int step = std::max(1, std::min(eye.width, eye.height) / 128);
   for (int y = step; y < eye.height - step; y += step) {
     for (int x = step; x < eye.width - step; x += step) {
-      const vec2 place((static_cast<float>(x) + 0.5f) / static_cast<float>(eye.width),
-                       (static_cast<float>(y) + 0.5f) / static_cast<float>(eye.height));
+      const vec2 place = pixel_middle(x, y, eye);
       const vec3 direction = normalize(look_of(projection, place, place).direction);
       const double here = static_cast<double>(*eye.at(x, y));
       const double change = std::abs(static_cast<double>(*eye.at(x + step, y)) - here) +

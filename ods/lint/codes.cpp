@@ -53,8 +53,8 @@ static void check_highlights(const Subject& subject, LintReport& report) {
 
 namespace {
 
-constexpr float kFlat = 0.75f;  // code values: within a stair, from its mean
-constexpr float kLeast = 2.5f;  // code values: from one stair to the next; 1 is what 8 bits do
+constexpr float kFlat = 0.75f;       // code values: within a stair, from its mean
+constexpr float kLeastStair = 2.5f;  // code values: from one stair to the next; 1 is what 8 bits do
 constexpr float kMost = 24.0f;
 constexpr int kWide = 6;     // pixels of a stair, at least
 constexpr int kSteps = 3;    // in a row that make stairs
@@ -75,7 +75,7 @@ int stairs_in(const std::vector<float>& line) {
     const bool is_wide = i - start >= kWide;
     const float level = line[start + (i - start) / 2], step = level - last_level;
     const bool is_like = steps == 0 || (step * last_step > 0.0f && std::abs(step - last_step) < 0.5f * std::abs(step));
-    const bool is_step = is_wide && std::abs(step) >= kLeast && std::abs(step) <= kMost && is_like;
+    const bool is_step = is_wide && std::abs(step) >= kLeastStair && std::abs(step) <= kMost && is_like;
     if (is_step) steps++;
     if (is_wide && !is_step) steps = 0;
     if (i - start > 2 && !is_wide) steps = 0;  // not a step but a slope
@@ -120,7 +120,7 @@ static void check_banding(const Subject& subject, LintReport& report) {
   report.findings.push_back({Fault::kBanding, certainty,
                              fmt::format("{:.0f} % of {} rows and columns have stairs of {} or more steps of {} to {} "
                                          "code values: {} in all",
-                                         100.0 * share, lines, kSteps, kLeast, kMost, stairs),
+                                         100.0 * share, lines, kSteps, kLeastStair, kMost, stairs),
                              "keep 10 bits or more until the last step, or add grain before it"});
 }
 

@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kViewWidth = 512;
 constexpr float kDark = 0.06f, kBright = 0.93f;  // as displayed: beyond, noise or clipping decides
-constexpr size_t kEnough = 20;
+constexpr size_t kEnoughColors = 20;
 
 struct Pair {
   vec3 left, right;  // natural logarithms of linear light
@@ -162,7 +162,7 @@ std::string cure_of(const Subject& subject, const Response& response) {
 
 void check_colors(const Subject& subject, LintReport& report) {
   const std::vector<Pair> pairs = find_pairs(subject);
-  if (pairs.size() < kEnough) {
+  if (pairs.size() < kEnoughColors) {
     return skip(report, Check::kColors, "not enough places that both eyes show, neither dark nor clipped");
   }
   judge(report, Check::kColors);

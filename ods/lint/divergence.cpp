@@ -11,6 +11,7 @@
 #include <numbers>
 #include <vector>
 
+#include "ods/base/angles.h"
 #include "ods/comfort/matched.h"
 #include "ods/lint/checks.h"
 #include "ods/picture/picture.h"
@@ -19,11 +20,10 @@ namespace ods {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kHighest = 50.0;  // degrees: nearer to the poles, a difference of headings is a small angle
 constexpr double kFar = 0.25;      // the share of the places that is taken for far
 constexpr double kHarmless = 0.3, kPainful = 0.7;  // degrees; told from their middle on
-constexpr size_t kLeast = 20;                      // places
+constexpr size_t kLeastPlaces = 20;                // places
 
 // The parallax that this share of the places is below; its error is a quarter of the spread between its neighbours.
 Difference percentile(std::vector<double> angles, double share) {
@@ -45,7 +45,7 @@ void check_divergence(const Subject& subject, double swapped, LintReport& report
     if (std::abs(phi) > kHighest * kDegree) continue;
     angles.push_back((static_cast<double>(match.around) + convergence_at(subject, phi)) / kDegree);
   }
-  if (angles.size() < kLeast) return skip(report, Check::kConvergence, "not enough detail that both eyes show");
+  if (angles.size() < kLeastPlaces) return skip(report, Check::kConvergence, "not enough detail that both eyes show");
   judge(report, Check::kConvergence);
   Difference far = percentile(angles, kFar);
   const double yaw = -far.size;

@@ -20,9 +20,9 @@ namespace {
 constexpr float kCutLikeness = 0.6f;  // two shots correlate by less
 constexpr float kStill = 4e-4f;       // of a frame that is the one before again: what a codec adds
 constexpr float kMoves = 8e-3f;       // around such a frame, if it should not be there
-constexpr int kReach = 12;            // frames by which eyes may be apart in time
+constexpr int kReachInTime = 12;      // frames by which eyes may be apart in time
 constexpr int kNeighbours = 3;        // frames on either side of a duplicate
-constexpr size_t kEnough = 24;        // frames, to compare series
+constexpr size_t kEnoughFrames = 24;  // frames, to compare series
 constexpr size_t kPairs = 16;         // likewise, that count at a lag
 constexpr size_t kBesideJump = 3;     // frames on either side of a jump, which change by a third at most
 constexpr size_t kAfterJump = 6;      // frames from a jump on that a codec needs for it
@@ -247,13 +247,13 @@ double FrameTrace::correlation(const Series& series, int lag) {
 
 void FrameTrace::check_time(LintReport& report) const {
   if (changes_.size() < 2) return skip(report, Check::kEyeTime, "there is only one eye");
-  if (changes_[0].size() < kEnough) return skip(report, Check::kEyeTime, "the video is too short");
+  if (changes_[0].size() < kEnoughFrames) return skip(report, Check::kEyeTime, "the video is too short");
   int best = 0;
   double most = 0.0, here = 0.0;
   for (const Series& series : {rises(), speeds()}) {
     if (most >= 0.7) break;
     best = 0, here = most = correlation(series, 0);
-    for (int lag = -kReach; lag <= kReach; lag++) {
+    for (int lag = -kReachInTime; lag <= kReachInTime; lag++) {
       const double alike = correlation(series, lag);
       if (alike > most) most = alike, best = lag;
     }

@@ -12,20 +12,20 @@
 #include <cmath>
 #include <numbers>
 
+#include "ods/base/angles.h"
 #include "ods/lint/checks.h"
 
 namespace ods {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kMostTilt = 15.0;  // degrees
 constexpr double kWidth = 2.0;      // degrees: of the peak of edges that are vertical
 constexpr double kNearly = 30.0;    // degrees: edges this far from vertical are compared with the peak
 constexpr float kEdge = 0.05f;      // least gradient, per pixel of the view
 constexpr double kLine = 0.85;      // least coherence of a line
-constexpr int kReach = 2;           // pixels around a place that decide its direction
-constexpr size_t kEnough = 400;
+constexpr int kDirectionReach = 2;  // pixels around a place that decide its direction
+constexpr size_t kEnoughPlaces = 400;
 constexpr size_t kMostEdges = 20000;
 
 struct Edge {
@@ -44,8 +44,8 @@ struct Tensor {
 
 Tensor tensor_at(const GrayView& view, int x, int y, double stretch) {
   Tensor sum;
-  for (int j = y - kReach; j <= y + kReach; j++) {
-    for (int i = x - kReach; i <= x + kReach; i++) {
+  for (int j = y - kDirectionReach; j <= y + kDirectionReach; j++) {
+    for (int i = x - kDirectionReach; i <= x + kDirectionReach; i++) {
       const int column = (i + view.width) % view.width, left = (i + view.width - 1) % view.width;
       const double across = static_cast<double>(*view.at((i + 1) % view.width, j) - *view.at(left, j)) / 2.0 * stretch;
       const double up = static_cast<double>(*view.at(column, j - 1) - *view.at(column, j + 1)) / 2.0;
@@ -58,8 +58,8 @@ Tensor tensor_at(const GrayView& view, int x, int y, double stretch) {
 std::vector<Edge> find_edges(const GrayView& view) {
   std::vector<Edge> edges;
   const double pixel = 2.0 * std::numbers::pi / view.width;
-  const double least = static_cast<double>(kEdge * kEdge) * (2 * kReach + 1);
-  for (int y = kReach + 1; y + kReach + 1 < view.height; y++) {
+  const double least = static_cast<double>(kEdge * kEdge) * (2 * kDirectionReach + 1);
+  for (int y = kDirectionReach + 1; y + kDirectionReach + 1 < view.height; y++) {
     const double phi = pixel * (0.5 * view.height - y - 0.5);
     if (std::abs(phi) > 60.0 * kDegree) continue;
     for (int x = 0; x < view.width; x++) {
@@ -139,7 +139,7 @@ void check_horizon(const Subject& subject, LintReport& report) {
     for (const Edge& edge : find_edges(view)) edges.push_back(edge);
   }
   edges = some_of(edges);
-  if (edges.size() < kEnough) return skip(report, Check::kHorizon, "too few lines that could be vertical");
+  if (edges.size() < kEnoughPlaces) return skip(report, Check::kHorizon, "too few lines that could be vertical");
   const Tilt tilt = find_tilt(edges);
   // Edges of all directions have this share of theirs within the peak.
   const double chance = kWidth * std::sqrt(0.5 * std::numbers::pi) / kNearly;

@@ -131,9 +131,8 @@ static std::string advice(const VideoFile& video, const VideoTrack& track, const
 std::vector<std::string> video_warnings(const VideoFile& video, const VideoTrack& track, const std::string& path) {
   std::vector<std::string> warnings;
   const PlayerView v2 = v2_view(video, track), name = name_view(path);
-  if (track.has_layers) {
-    warnings.emplace_back(
-        "its eyes are layers of its stream (MV-HEVC): ods, and players that do not support this, see only one");
+  if (track.layers) {
+    warnings.emplace_back("its eyes are layers of its stream (MV-HEVC): players that do not support this see only one");
   }
   const std::string make_one = advice(video, track, path, "makes them one");
   if (track.v1 && track.v2 && !agree(shown_as(*track.v1), shown_as(*track.v2))) {

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ods/base/angles.h"
 #include "ods/base/median.h"
 #include "ods/disparity/match.h"
 #include "ods/lint/checks.h"
@@ -17,8 +18,6 @@
 namespace ods {
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Eyes do not fuse pictures that differ in height by more than 19 to 26 minutes of arc, depending on the source.
 constexpr double kTolerable = 0.43;

@@ -75,11 +75,11 @@ Columns breaks_of(const Columns& row, size_t wide) {
 }
 
 // A seam is compared with the columns where JPEG's blocks end, as it does. The last of them is the seam.
-constexpr size_t kBlock = 8;
+constexpr size_t kSeamBlock = 8;
 
 Columns compared_columns(const Columns& columns) {
   Columns some;
-  for (size_t x = kBlock - 1; x + 1 < columns.size(); x += kBlock) some.push_back(columns[x]);
+  for (size_t x = kSeamBlock - 1; x + 1 < columns.size(); x += kSeamBlock) some.push_back(columns[x]);
   some.push_back(columns.back());
   return some;
 }
@@ -189,7 +189,7 @@ bool check_break(const std::vector<Image>& eyes, bool is_smoothed, LintReport& r
          fmt::format(
              "from the last column to the first, {} break by {:.2g} of what rows vary there, at the worst of {} "
              "other columns by {:.2g}",
-             is_smoothed ? "means of columns" : "pixels", found.seam, eyes[0].width / static_cast<int>(kBlock) - 1,
+             is_smoothed ? "means of columns" : "pixels", found.seam, eyes[0].width / static_cast<int>(kSeamBlock) - 1,
              found.others),
          "make it cover exactly 360 degrees, in one light and level: nothing cropped, doubled or blended there"});
   }

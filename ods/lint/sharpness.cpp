@@ -20,7 +20,7 @@ namespace {
 constexpr int kStep = 2;              // pixels of the eye: what one resampling takes off is finer
 constexpr int kHalf = 12;             // of a patch
 constexpr size_t kMostPatches = 400;  // more say no more
-constexpr size_t kEnough = 20;
+constexpr size_t kEnoughBlocks = 20;
 constexpr float kContrast = 1e-3f;  // least variance of a patch, of the square root of light
 
 struct Center {
@@ -86,7 +86,7 @@ std::vector<double> ratios_of(const Subject& subject) {
 
 void check_sharpness(const Subject& subject, LintReport& report) {
   const std::vector<double> ratios = ratios_of(subject);
-  if (ratios.size() < kEnough) return skip(report, Check::kSharpness, "not enough edges that both eyes show");
+  if (ratios.size() < kEnoughBlocks) return skip(report, Check::kSharpness, "not enough edges that both eyes show");
   judge(report, Check::kSharpness);
   const double ratio = median(ratios);
   const double same = static_cast<double>(std::count_if(ratios.begin(), ratios.end(),

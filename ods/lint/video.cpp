@@ -94,7 +94,7 @@ class VideoJudge {
   VideoJudge(const std::string& path, const VideoLintOptions& options)
       : options_(options),
         video_(open_video(path, hint(options.picture))),
-        decoder_(path, video_.track),
+        decoder_(path, video_.track, video_.views),
         trace_(decoder_.stream().size, video_.prototype.layout) {
     const int count = decoder_.stream().count;
     every_ = options.every > 0 ? options.every : std::max(1, count / kUsualFrames);

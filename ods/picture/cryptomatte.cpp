@@ -84,11 +84,24 @@ std::optional<Cryptomatte> find_cryptomatte(const FileInfo& info) {
 }
 
 // The first rank of the first layer: `LAYER00.R`, in some files `LAYER00.r`.
+static bool is_matte(const LayerPixels& layer, const std::string& channel, const Cryptomatte& matte) {
+  const auto [group, last] = split_name(channel);
+  return group == matte.layer + "00" && small_letters(last) == "r" && layer.sample == SampleType::kFloat;
+}
+
+std::string matte_channel(const StoredPicture& picture, const Cryptomatte& matte) {
+  for (const LayerPixels& layer : picture.eyes[0].layers) {
+    for (const std::string& channel : layer.channels) {
+      if (is_matte(layer, channel, matte)) return channel;
+    }
+  }
+  return "";
+}
+
 Image matte_of_eye(const StoredPicture& picture, size_t eye, const Cryptomatte& matte) {
   for (const LayerPixels& layer : picture.eyes[eye].layers) {
     for (size_t channel = 0; channel < layer.channels.size(); channel++) {
-      const auto [group, last] = split_name(layer.channels[channel]);
-      if (group != matte.layer + "00" || small_letters(last) != "r" || layer.sample != SampleType::kFloat) continue;
+      if (!is_matte(layer, layer.channels[channel], matte)) continue;
       Image numbers(picture.size.width, picture.size.height, 1);
       for (int y = 0; y < numbers.height; y++) {
         for (int x = 0; x < numbers.width; x++) {

@@ -32,6 +32,9 @@ struct Cryptomatte {
 // is an empty one.
 std::optional<Cryptomatte> find_cryptomatte(const FileInfo& info);
 
+// The channel with the numbers of what covers most of each pixel; empty: the picture has none.
+std::string matte_channel(const StoredPicture& picture, const Cryptomatte& matte);
+
 // What covers most of each pixel of an eye: its number, 0 for nothing. 1 channel; empty if the picture has no such
 // layer. eye: index in StoredPicture::eyes.
 Image matte_of_eye(const StoredPicture& picture, size_t eye, const Cryptomatte& matte);

@@ -7,12 +7,9 @@
 #include <algorithm>
 
 #include "ods/base/error.h"
+#include "ods/files/read_file.h"
 
 namespace ods {
-
-static Error unreadable(const std::string& path, const std::string& why) {
-  return Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", path, why));
-}
 
 FisheyeLens inscribed_lens(Extent eye, float fov) {
   FisheyeLens lens;
@@ -44,7 +41,7 @@ void take_lenses(StoredPicture& picture, const FormatHint& known, const std::str
   if (known.bars.any()) return take_bars(picture, known.bars);
   if (known.lenses.empty() && !known.front_and_back) return;
   if (known.front_and_back && (picture.eyes.size() != 2 || !arrangement_of(picture.layout).is_halves())) {
-    throw unreadable(path, "fisheyes that look ahead and back are two halves: `layout` side-by-side or top-bottom");
+    throw cannot_read(path, "fisheyes that look ahead and back are two halves: `layout` side-by-side or top-bottom");
   }
   std::vector<FisheyeLens> lenses = known.lenses;
   if (lenses.empty()) lenses.push_back(inscribed_lens(picture.size, kUsualFov));
@@ -52,7 +49,7 @@ void take_lenses(StoredPicture& picture, const FormatHint& known, const std::str
   if (known.front_and_back) lenses[1].yaw += 180.0f;
   picture.maps.clear();
   for (const FisheyeLens& lens : lenses) {
-    if (const std::string fault = lens_fault(lens, picture.size); !fault.empty()) throw unreadable(path, fault);
+    if (const std::string fault = lens_fault(lens, picture.size); !fault.empty()) throw cannot_read(path, fault);
     picture.maps.push_back(make_map(lens, picture.size));
   }
   picture.front_and_back = known.front_and_back;

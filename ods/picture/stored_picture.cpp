@@ -14,6 +14,7 @@
 #include "ods/base/text.h"
 #include "ods/camera/odd_halves.h"
 #include "ods/files/memory_file.h"
+#include "ods/files/read_file.h"
 #include "ods/files/scratch.h"
 #include "ods/picture/channel_layers.h"
 #include "ods/picture/checkerboard.h"
@@ -21,10 +22,6 @@
 #include "ods/picture/stored_lenses.h"
 
 namespace ods {
-
-static Error unreadable(const std::string& path, const std::string& why) {
-  return Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", path, why));
-}
 
 // --- the files -------------------------------------------------------------------------------------------------------
 
@@ -35,6 +32,7 @@ using Readers = std::vector<std::unique_ptr<RowReader>>;  // of the files of a p
 // A layer of one view of a file, and where its pixels go.
 struct Plane : ChannelLayer {
   std::byte* to = nullptr;
+  bool is_read = true;
   size_t pixel_size() const { return channels.size() * bytes_of(sample); }
 };
 
@@ -54,10 +52,10 @@ static FileShare make_share(RowReader& reader, const std::string& path, ViewChan
   if (!light && !info.is_float && info.channels.size() >= 3) {
     light = ChannelLayer{"", {"R", "G", "B"}, {0, 1, 2}, LayerRule::kLight, {}};
   }
-  if (!light) throw unreadable(path, "it has no colour: no channels R, G and B");
+  if (!light) throw cannot_read(path, "it has no colour: no channels R, G and B");
   light->sample = info.samples[light->from[0]];
   for (size_t c : light->from) {
-    if (info.samples[c] != light->sample) throw unreadable(path, "its colour channels have different number types");
+    if (info.samples[c] != light->sample) throw cannot_read(path, "its colour channels have different number types");
   }
   share.planes.push_back({*light});
   if (color_only || !info.is_float) return share;
@@ -78,7 +76,7 @@ static void keep_common(std::vector<FileShare>& shares, const std::string& path,
       share.planes[0].from.resize(3);
     }
     if (!same_layer(shares[0].planes[0], shares[1].planes[0])) {
-      throw unreadable(path, "its eyes have different number types; convert one of them first");
+      throw cannot_read(path, "its eyes have different number types; convert one of them first");
     }
   }
   std::string lost;
@@ -107,13 +105,14 @@ static std::vector<FileShare> shares_of(Readers& readers, const std::string& pat
   const FileInfo& info = readers[0]->info();
   const ViewChannels left = channels_of_view(info, "left", false), right = channels_of_view(info, "right", false);
   const ViewChannels bare = channels_of_view(info, "left", true);
-  if (!bare.contains("R")) throw unreadable(path, "it has the colour of the right view only");
-  if (left.contains("R") || right.contains("R")) {
-    shares.push_back(make_share(*readers[0], path, channels_of_view(info, "left", !left.contains("R")), color_only));
-    shares.push_back(make_share(*readers[0], path, channels_of_view(info, "right", !right.contains("R")), color_only));
+  const auto has_color = [](ViewChannels channels) { return take_color(channels).has_value(); };
+  if (!has_color(bare)) throw cannot_read(path, "it has the colour of the right view only");
+  if (has_color(left) || has_color(right)) {
+    shares.push_back(make_share(*readers[0], path, channels_of_view(info, "left", !has_color(left)), color_only));
+    shares.push_back(make_share(*readers[0], path, channels_of_view(info, "right", !has_color(right)), color_only));
     return shares;
   }
-  throw unreadable(path, "it does not hold two views");
+  throw cannot_read(path, "it does not hold two views");
 }
 
 static size_t plane_size(const Plane& plane, const FileInfo& info) {
@@ -149,6 +148,7 @@ static Packing packing_of(const FileInfo& info, const std::vector<FileShare>& sh
   for (const FileShare& share : shares) {
     if (share.reader != reader) continue;
     for (const Plane& plane : share.planes) {
+      if (!plane.is_read) continue;
       packing.count = std::max(packing.count, 1 + *std::max_element(plane.from.begin(), plane.from.end()));
     }
   }
@@ -209,7 +209,9 @@ static void read_file(RowReader& reader, const std::vector<FileShare>& shares, c
   std::vector<const Plane*> planes;
   for (const FileShare& share : shares) {
     if (share.reader != &reader) continue;
-    for (const Plane& plane : share.planes) planes.push_back(&plane);
+    for (const Plane& plane : share.planes) {
+      if (plane.is_read) planes.push_back(&plane);
+    }
   }
   std::vector<size_t> all(packing.count);
   std::iota(all.begin(), all.end(), size_t{0});
@@ -278,10 +280,10 @@ static StoredEye make_eye(int which, const FileShare& share, const EyeView& view
 static void check_pair(Readers& readers, const std::string& path) {
   const FileInfo &one = readers[0]->info(), &other = readers[1]->info();
   if (one.width != other.width || one.height != other.height) {
-    throw unreadable(
+    throw cannot_read(
         path, fmt::format("its eyes have {}x{} and {}x{} pixels", one.width, one.height, other.width, other.height));
   }
-  if (one.is_float != other.is_float) throw unreadable(path, "one eye is scene-linear, the other display-encoded");
+  if (one.is_float != other.is_float) throw cannot_read(path, "one eye is scene-linear, the other display-encoded");
   const auto is_ours = [&](const RowReader& reader) { return is_our_own(reader.color_space(), one.is_float); };
   if (!is_ours(*readers[0]) || !is_ours(*readers[1])) {  // both become 16 bits if one has been converted to them
     for (const auto& reader : readers) reader->widen();
@@ -304,7 +306,7 @@ static void open_right_eye(Readers& readers, const MemoryFile& file, const std::
     readers.push_back(open_rows(file.path()));
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kInput) throw;
-    throw unreadable(path, "the JPEG of its right eye is damaged");
+    throw cannot_read(path, "the JPEG of its right eye is damaged");
   }
   check_pair(readers, path);
 }
@@ -313,13 +315,13 @@ static Extent eye_size(const StoredPicture& picture, const FileInfo& info, const
   const std::optional<Extent> size =
       unpacked_size(picture.layout, without_middle(picture.layout, Extent{info.width, info.height}));
   if (!size) {
-    throw unreadable(
+    throw cannot_read(
         path, fmt::format("{}x{} pixels are not two eyes, {}", info.width, info.height, layout_name(picture.layout)));
   }
   const int columns = width_step(picture.camera.projection);
   if (size->width * squeeze_of(picture.layout, 2).width % columns != 0) {
-    throw unreadable(path, fmt::format("{} has {} faces in a row, and {} pixels do not divide by that",
-                                       projection_name(picture.camera.projection), columns, size->width));
+    throw cannot_read(path, fmt::format("{} has {} faces in a row, and {} pixels do not divide by that",
+                                        projection_name(picture.camera.projection), columns, size->width));
   }
   return *size;
 }
@@ -330,6 +332,7 @@ static std::shared_ptr<Scratch> make_room(std::vector<FileShare>& shares, const 
   std::vector<size_t> starts{0};
   for (FileShare& share : shares) {
     for (Plane& plane : share.planes) {
+      if (!plane.is_read) continue;
       planes.push_back(&plane);
       starts.push_back(starts.back() + plane_size(plane, info));
     }
@@ -357,7 +360,7 @@ static void leave_out_unreadable(std::vector<FileShare>& shares, const std::stri
       for (const Plane& plane : share.planes) {
         if (std::find(plane.from.begin(), plane.from.end(), channel) == plane.from.end()) continue;
         if (std::find(lost.begin(), lost.end(), plane.channels) != lost.end()) continue;
-        if (&plane == &share.planes[0]) throw unreadable(path, "its colours are integers too large for a float");
+        if (&plane == &share.planes[0]) throw cannot_read(path, "its colours are integers too large for a float");
         lost.push_back(plane.channels);
         guesses.push_back(fmt::format("its channel {} has the integer {}, too large for a float: left out",
                                       share.reader->info().channels[channel], number));
@@ -424,6 +427,25 @@ PictureReader& PictureReader::operator=(PictureReader&& other) noexcept = defaul
 
 const StoredPicture& PictureReader::header() const {
   return state_->header;
+}
+
+static void leave_out_unwanted(std::vector<FileShare>& shares, const PictureReader::Wants& wants) {
+  for (FileShare& share : shares) {
+    for (Plane& plane : share.planes) {
+      std::vector<std::string> channels;
+      std::vector<size_t> from;
+      for (size_t c = 0; c < plane.channels.size(); c++) {
+        if (wants(plane.channels[c])) channels.push_back(plane.channels[c]), from.push_back(plane.from[c]);
+      }
+      plane.is_read = !channels.empty();
+      if (plane.is_read) plane.channels = std::move(channels), plane.from = std::move(from);
+    }
+  }
+}
+
+StoredPicture PictureReader::read(const std::string& scratch_folder, const Wants& wants) {
+  leave_out_unwanted(state_->shares, wants);
+  return read(scratch_folder);
 }
 
 StoredPicture PictureReader::read(const std::string& scratch_folder) {

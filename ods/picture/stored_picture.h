@@ -6,6 +6,7 @@
 // fit into memory as floats.
 #pragma once
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -91,6 +92,11 @@ class PictureReader {
   // The picture with its pixels. It may have fewer layers than the header: those with numbers too large for a float are
   // left out. `scratch_folder` replaces that of OpenOptions. Precondition: not called before.
   StoredPicture read(const std::string& scratch_folder);
+
+  // Likewise of the channels that are wanted, by their names in LayerPixels, as if the layers had no others: the rest
+  // takes no memory. A layer of which none is wanted stays as in the header.
+  using Wants = std::function<bool(const std::string& channel)>;
+  StoredPicture read(const std::string& scratch_folder, const Wants& wants);
 
  private:
   struct State;

@@ -27,7 +27,7 @@ double point_triangle_distance(dvec3 p, dvec3 a, dvec3 b, dvec3 c) {
   return glm::length(ap - (ab * vb + ac * vc) / (va + vb + vc));
 }
 
-static dvec3 to_world(const Instance& instance, vec3 p) {
+static dvec3 exact_to_world(const Instance& instance, vec3 p) {
   const dvec4 q(p, 1.0);
   return {dot(dvec4(instance.row0), q), dot(dvec4(instance.row1), q), dot(dvec4(instance.row2), q)};
 }
@@ -42,7 +42,7 @@ static double nearest_in(const Scene& scene, const Instance& instance, dvec3 cam
   std::vector<dvec3> corners(mesh.vertex_count);
   dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
   for (uint i = 0; i < mesh.vertex_count; i++) {
-    corners[i] = to_world(instance, scene.vertices[mesh.first_vertex + i].position);
+    corners[i] = exact_to_world(instance, scene.vertices[mesh.first_vertex + i].position);
     low = min(low, corners[i]);
     high = max(high, corners[i]);
   }

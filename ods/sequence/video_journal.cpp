@@ -84,14 +84,11 @@ void VideoJournal::begin(bool restart) {
     }
     return;
   }
-  const std::string difference = settings_difference(then, settings_);
-  if (restart || (!difference.empty() && !has_frames())) {
+  if (restart || (!has_frames() && !settings_difference(then, settings_).empty())) {
     remove();
     frames_.clear();
-  } else if (!difference.empty()) {
-    throw Error(ErrorKind::kUsage,
-                fmt::format("'{}' has frames rendered with other options: {}; `restart` renders them again", folder_,
-                            difference));
+  } else {
+    expect_same_settings(folder_, then, settings_, "`restart` renders its frames again");
   }
 }
 

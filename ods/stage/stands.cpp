@@ -13,7 +13,7 @@ namespace ods {
 
 namespace {
 
-constexpr int kColumns = 20;      // of the grid over the scene, each way
+constexpr int kGridColumns = 20;  // of the grid over the scene, each way
 constexpr int kMostStoreys = 24;  // surfaces above each other that are looked at
 constexpr int kAzimuths = 16;
 constexpr float kLevel = 0.7071f;                                      // the least upward part of a floor's normal
@@ -161,9 +161,9 @@ float cell(int i, int count) {
 std::optional<Stand> best_stand(const SceneRays& rays, const Bounds& core, float metres_per_unit) {
   Stand best;
   const float above = 0.01f * length(core.high - core.low);
-  for (int i = 0; i < kColumns; i++) {
-    for (int k = 0; k < kColumns; k++) {
-      vec3 top = grid_point(core, {cell(i, kColumns), 1.0f, cell(k, kColumns)});
+  for (int i = 0; i < kGridColumns; i++) {
+    for (int k = 0; k < kGridColumns; k++) {
+      vec3 top = grid_point(core, {cell(i, kGridColumns), 1.0f, cell(k, kGridColumns)});
       top.y += above;
       const Stand stand = best_in_column(rays, core, top, metres_per_unit);
       if (stand.worth > best.worth) best = stand;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ods/camera/pixel.h"
 #include "ods/convert/convert.h"
 
 namespace ods {
@@ -55,9 +56,7 @@ void View::measure_along_rays(size_t index) {
   for (int y = 0; y < size.height; y++) {
     for (int x = 0; x < size.width; x++) {
       const float depth = sample_value(layer.sample, layer.first + y * layer.row_stride + x * layer.pixel_stride);
-      const vec2 at((static_cast<float>(x) + 0.5f) / static_cast<float>(size.width),
-                    (static_cast<float>(y) + 0.5f) / static_cast<float>(size.height));
-      const vec2 slope = (2.0f * at - 1.0f) * half;
+      const vec2 slope = (2.0f * pixel_middle(x, y, size) - 1.0f) * half;
       distances_.push_back(depth < 0.1f * kFarDepth ? depth * std::sqrt(1.0f + dot(slope, slope)) : kFarDepth);
     }
   }

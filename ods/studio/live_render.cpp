@@ -55,12 +55,6 @@ struct Canvas {
   bool is_patch = false;
 };
 
-// What can be picked from.
-struct Seen {
-  StereoCamera camera;
-  std::shared_ptr<const Picture> picture;
-};
-
 Canvas make_canvas(const StereoCamera& camera, bool is_patch, Extent size) {
   Canvas canvas;
   canvas.camera = camera;
@@ -127,7 +121,7 @@ bool shows(const StereoCamera& patch, const LiveView& view) {
 }
 
 // What an eye sees at a position of its picture. whole: the camera in whose pictures LivePick has its places.
-std::optional<LivePick> pick_at(const Seen& seen, const Camera& camera, int eye, vec2 uv, const Camera& whole) {
+std::optional<LivePick> pick_at(const LiveSeen& seen, const Camera& camera, int eye, vec2 uv, const Camera& whole) {
   const Image& depth = seen.picture->eyes[static_cast<size_t>(eye)].depth;
   const int x = std::clamp(static_cast<int>(uv.x * float(depth.width)), 0, depth.width - 1);
   const int y = std::clamp(static_cast<int>(uv.y * float(depth.height)), 0, depth.height - 1);
@@ -184,7 +178,7 @@ struct LiveRender::State {
   mutable Clock::time_point asked = Clock::now();  // when somebody last waited for one
   int last_number = 0;
   std::shared_ptr<const LiveFrame> frames[2];  // of the base and the patch
-  Seen seen[2];                                // likewise
+  LiveSeen seen[2];                            // likewise
   std::string fault;
 
   // The thread's own.
@@ -406,13 +400,18 @@ std::string LiveRender::fault() const {
   return state_->fault;
 }
 
+LiveSeen LiveRender::whole() const {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  return state_->seen[0];
+}
+
 std::optional<LivePick> LiveRender::pick(int eye, vec3 direction) const {
-  std::array<Seen, 2> seen;  // the base, the patch
+  std::array<LiveSeen, 2> seen;  // the base, the patch
   {
     const std::lock_guard<std::mutex> lock(state_->mutex);
     std::ranges::copy(state_->seen, seen.begin());
   }
-  for (const Seen& each : {seen[1], seen[0]}) {
+  for (const LiveSeen& each : {seen[1], seen[0]}) {
     if (!each.picture) continue;
     const Camera camera = make_camera(each.camera);
     const ImagePoint place = place_of_line(camera, eye, direction);

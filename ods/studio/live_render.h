@@ -67,6 +67,12 @@ struct LivePick {
   std::optional<vec2> places[2];  // 0..1 in the picture of the left and the right eye; none: not seen
 };
 
+// A picture with depth, and its camera. Null: there is none yet.
+struct LiveSeen {
+  StereoCamera camera;
+  std::shared_ptr<const Picture> picture;
+};
+
 class LiveRender {
  public:
   // Starts a thread that renders with this many threads (0: all processors), which stops with the object, and rests
@@ -93,6 +99,9 @@ class LiveRender {
   // What an eye (kLeft, kRight) sees in a direction of the picture's frame, in the finest picture there is; none: the
   // sky, or there is no picture yet.
   std::optional<LivePick> pick(int eye, vec3 direction) const;
+
+  // The whole picture as it is by now.
+  LiveSeen whole() const;
 
  private:
   struct State;

@@ -18,7 +18,10 @@ extern "C" {
 #include <libavformat/avformat.h>
 #include <libavutil/display.h>
 #include <libavutil/frame.h>
+#include <libavutil/imgutils.h>
+#include <libavutil/opt.h>
 #include <libavutil/pixdesc.h>
+#include <libavutil/stereo3d.h>
 }
 
 namespace ods {
@@ -153,6 +156,42 @@ static Owned<AVFrame> upright(const AVFrame& from) {
   return to;
 }
 
+// --- two eyes --------------------------------------------------------------------------------------------------------
+
+bool can_decode_both_views() {
+  const AVCodec* codec = avcodec_find_decoder(AV_CODEC_ID_HEVC);
+  if (codec == nullptr || codec->priv_class == nullptr) return false;
+  const AVClass* options = codec->priv_class;
+  return av_opt_find(&options, "view_ids", nullptr, 0, AV_OPT_SEARCH_FAKE_OBJ) != nullptr;
+}
+
+// Whether the second of two views is the left eye's.
+static bool is_left_second(const AVFrame& first, const AVFrame& second, Views views) {
+  const auto eye_of = [](const AVFrame& frame) {
+    const AVFrameSideData* said = av_frame_get_side_data(&frame, AV_FRAME_DATA_STEREO3D);
+    return said == nullptr ? AV_STEREO3D_VIEW_PACKED : reinterpret_cast<const AVStereo3D*>(said->data)->view;
+  };
+  if (eye_of(first) == AV_STEREO3D_VIEW_LEFT || eye_of(second) == AV_STEREO3D_VIEW_RIGHT) return false;
+  if (eye_of(first) == AV_STEREO3D_VIEW_RIGHT || eye_of(second) == AV_STEREO3D_VIEW_LEFT) return true;
+  return views == Views::kRightAndLeft;
+}
+
+// Both have the same format.
+static void put_beside(const AVFrame& left, const AVFrame& right, AVFrame& both) {
+  checked(av_frame_copy_props(&both, &left), ErrorKind::kMemory, "cannot join two views");
+  both.decode_error_flags |= right.decode_error_flags;
+  both.width = left.width + right.width, both.height = left.height, both.format = left.format;
+  checked(av_frame_get_buffer(&both, 0), ErrorKind::kMemory, "cannot join two views");
+  const auto format = static_cast<AVPixelFormat>(left.format);
+  const AVPixFmtDescriptor& words = *av_pix_fmt_desc_get(format);
+  for (int i = 0; i < words.nb_components; i++) {
+    const int bytes = av_image_get_linesize(format, left.width, i);
+    const int height = i == 1 || i == 2 ? left.height >> words.log2_chroma_h : left.height;
+    av_image_copy_plane(both.data[i], both.linesize[i], left.data[i], left.linesize[i], bytes, height);
+    av_image_copy_plane(both.data[i] + bytes, both.linesize[i], right.data[i], right.linesize[i], bytes, height);
+  }
+}
+
 // --- decoding --------------------------------------------------------------------------------------------------------
 
 static std::vector<std::string> unkept_words(const AVFrame& frame) {
@@ -169,6 +208,7 @@ static std::vector<std::string> unkept_words(const AVFrame& frame) {
 
 struct VideoDecoder::State {
   std::string what;  // for messages
+  Views views = Views::kFirst;
   VideoStream stream;
   Owned<AVFormatContext> file;
   const AVStream* source = nullptr;
@@ -219,6 +259,7 @@ struct VideoDecoder::State {
       fail(fmt::format("{}x{} pixels with chroma {}: its sides are odd", stream.size.width, stream.size.height,
                        chroma_name(stream.chroma)));
     }
+    if (views != Views::kFirst) stream.size.width *= 2;
     stream.clock = {source->time_base.den, source->time_base.num};
     if (file->start_time != AV_NOPTS_VALUE) {
       stream.file_start = static_cast<double>(file->start_time) / AV_TIME_BASE;
@@ -244,6 +285,10 @@ struct VideoDecoder::State {
     decoder->pkt_timebase = source->time_base;
     decoder->thread_count = threads;
     decoder->thread_type = FF_THREAD_FRAME | FF_THREAD_SLICE;
+    if (views != Views::kFirst) {
+      const char* all = "-1";
+      checked(av_opt_set(decoder->priv_data, "view_ids", all, 0), ErrorKind::kInput, what);
+    }
     checked(avcodec_open2(decoder.get(), codec, nullptr), ErrorKind::kInput, what);
     if (alpha != nullptr && other != nullptr) stream.has_alpha = true;
   }
@@ -265,6 +310,22 @@ struct VideoDecoder::State {
       checked(sent, ErrorKind::kInput, fmt::format("{}: picture {}", what, count));
       av_packet_unref(packet.get());
     }
+  }
+
+  // The views of a picture follow each other.
+  bool receive_both(AVFrame& both) {
+    const Owned<AVFrame> first(made(av_frame_alloc())), second(made(av_frame_alloc()));
+    if (!receive(*first)) return false;
+    if (!receive(*second) || second->pts != first->pts) fail(fmt::format("picture {} has one eye of two", count));
+    for (const AVFrame* eye : {first.get(), second.get()}) {
+      if (2 * eye->width == stream.size.width && eye->height == stream.size.height && eye->format == first->format)
+        continue;
+      fail(fmt::format("picture {} has eyes of other sizes or formats than the first", count));
+    }
+    // A frame that is turned later has its eyes at the other sides until then.
+    const bool swap = is_left_second(*first, *second, views) != stream.is_turned;
+    put_beside(swap ? *second : *first, swap ? *first : *second, both);
+    return true;
   }
 
   void check(const AVFrame& frame) {
@@ -297,7 +358,8 @@ struct VideoDecoder::State {
   std::shared_ptr<AVFrame> take() {
     if (waiting) return std::exchange(waiting, nullptr);
     std::shared_ptr<AVFrame> frame(made(av_frame_alloc()), av::Free());
-    return receive(*frame) ? frame : nullptr;
+    const bool has_frame = views == Views::kFirst ? receive(*frame) : receive_both(*frame);
+    return has_frame ? frame : nullptr;
   }
 
   // HEVC says of its light only in its pictures.
@@ -313,8 +375,10 @@ struct VideoDecoder::State {
   }
 };
 
-VideoDecoder::VideoDecoder(const std::string& path, uint64_t track, int threads) : state_(std::make_unique<State>()) {
+VideoDecoder::VideoDecoder(const std::string& path, uint64_t track, Views views, int threads)
+    : state_(std::make_unique<State>()) {
   State& state = *state_;
+  state.views = views;
   state.what = fmt::format("cannot read '{}'", path);
   state.file = av::open_file(path, state.what);
   state.find_stream(track);

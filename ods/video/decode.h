@@ -45,12 +45,20 @@ struct DecodedFrame {
   std::shared_ptr<const void> memory;
 };
 
+// What to decode of a stream that has the eyes as layers (MV-HEVC): the first layer, as of any other stream, or both as
+// one frame, the left eye's at the left. Where the stream does not say which is which, the first one is the left or the
+// right eye's.
+enum class Views { kFirst, kLeftAndRight, kRightAndLeft };
+
+// Whether this machine's libavcodec can decode both: since FFmpeg 7.1.
+bool can_decode_both_views();
+
 class VideoDecoder {
  public:
   // track: as in video_file.h. threads: 0 lets the decoder choose. Throws Error(kInput): a damaged video, no decoder
   // for it, pictures stored rotated by 90 degrees, pixel formats other than planar Y'CbCr, matrices other than
-  // ColorCode's.
-  VideoDecoder(const std::string& path, uint64_t track, int threads = 0);
+  // ColorCode's. Precondition: views is kFirst, or can_decode_both_views().
+  VideoDecoder(const std::string& path, uint64_t track, Views views = Views::kFirst, int threads = 0);
   VideoDecoder(const VideoDecoder&) = delete;
   VideoDecoder& operator=(const VideoDecoder&) = delete;
   ~VideoDecoder();
@@ -58,7 +66,7 @@ class VideoDecoder {
   const VideoStream& stream() const;
 
   // The next picture; nothing after the last. Pictures that the file's edit list leaves out are skipped. Times ascend.
-  // Throws Error(kInput): it is damaged, or in another format than the first.
+  // Throws Error(kInput): it is damaged, in another format than the first, or lacks an eye.
   std::optional<DecodedFrame> next();
 
   // Makes the first picture at or after this time, in seconds of the file, the next one. Throws as next().

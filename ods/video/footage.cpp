@@ -25,7 +25,7 @@ Footage::Footage(const std::string& path, const FormatHint& known)
     : path_(path), known_(known), kind_(footage_kind(path)), names_(frame_names(path)) {
   if (kind_ != FootageKind::kVideo) return;
   video_ = open_video(path, known);
-  decoder_ = std::make_unique<VideoDecoder>(path, video_->track);
+  decoder_ = std::make_unique<VideoDecoder>(path, video_->track, video_->views);
 }
 
 std::vector<int> Footage::frames() const {

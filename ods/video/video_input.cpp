@@ -10,6 +10,7 @@
 
 #include "ods/base/error.h"
 #include "ods/files/scratch.h"
+#include "ods/picture/metadata/phone_window.h"
 #include "ods/picture/stored_lenses.h"
 #include "ods/video/container/complete_metadata.h"
 #include "ods/video/container/mesh_box.h"
@@ -41,6 +42,30 @@ static ProjectionSetting projection_of(const SphericalMetadata& metadata, const 
   projection.latitude = vec2(-90.0f + part(metadata.bounds[1], 180.0), 90.0f - part(metadata.bounds[0], 180.0));
   projection.longitude = vec2(-180.0f + part(metadata.bounds[2], 360.0), 180.0f - part(metadata.bounds[3], 360.0));
   return projection;
+}
+
+// A track whose eyes are layers, as it is decoded. `known` says what the caller wants of it.
+static VideoTrack decoded_track(const VideoTrack& stored, const FormatHint& known, VideoInput& video) {
+  VideoTrack track = stored;
+  if (!track.layers) return track;
+  track.vexu = track.layers->beside;
+  if (known.layout) {
+    track.vexu->stereo = VideoStereo::kOneView;
+    return track;
+  }
+  if (!can_decode_both_views()) {
+    throw unusable(
+        video.path,
+        "its eyes are layers of its stream (MV-HEVC, a spatial video of a phone), which this machine's FFmpeg does not "
+        "take apart. 7.1 does: ffmpeg -i VIDEO -filter_complex '[0:v:view:0][0:v:view:1]hstack' FLAT_SBS.mp4; "
+        "`layout` separate takes the first eye alone");
+  }
+  video.views = track.layers->right_first ? Views::kRightAndLeft : Views::kLeftAndRight;
+  track.size.width *= 2;
+  for (std::optional<SphericalMetadata>* said : {&track.v1, &track.v2}) {
+    if (*said) (*said)->stereo = VideoStereo::kSideBySide;
+  }
+  return track;
 }
 
 static SphericalMetadata metadata_of(const VideoTrack& track, const FormatHint& known, const std::string& path,
@@ -94,16 +119,9 @@ static void take_mesh(VideoInput& video, const VideoTrack& track) {
 
 VideoInput open_video(const std::string& path, const FormatHint& known) {
   const VideoFile info = read_video_file(path);
-  const VideoTrack& track = choose_track(info, {}, path);
-  if (track.has_layers && !known.layout) {
-    throw unusable(
-        path,
-        "its eyes are layers of its stream (MV-HEVC, a spatial video of a phone), which ods does not take "
-        "apart. FFmpeg 7.1 does: ffmpeg -i VIDEO -filter_complex '[0:v:view:0][0:v:view:1]hstack' FLAT_SBS.mp4; "
-        "`layout` separate takes the first eye alone");
-  }
   VideoInput video;
   video.path = path;
+  const VideoTrack track = decoded_track(choose_track(info, {}, path), known, video);
   video.track = track.id;
   video.fps = track.fps;
   StoredPicture& prototype = video.prototype;
@@ -115,13 +133,6 @@ VideoInput open_video(const std::string& path, const FormatHint& known) {
   file.is_float = true;  // skips the search for a picture's XMP
   FormatHint all;
   all.layout = known.layout ? known.layout : layout_of_video(*video.metadata.stereo, path);
-  all.projection = known.projection ? *known.projection : projection_of(video.metadata, path);
-  prototype.camera = find_format(file, path, all).camera;
-  set_orientation(prototype.camera, video.metadata);
-  if (video.metadata.ipd > 0.0) {
-    prototype.camera.ipd = static_cast<float>(video.metadata.ipd);
-    prototype.has_ipd = true;
-  }
   prototype.layout = *all.layout;
   prototype.layout_reason = "the video says so";
   const std::optional<Extent> eye = unpacked_size(prototype.layout, track.size);
@@ -134,6 +145,16 @@ VideoInput open_video(const std::string& path, const FormatHint& known) {
                                      eye->height));
   }
   prototype.size = *eye;
+  const bool is_window = track.layers && video.metadata.projection == VideoProjection::kFlat;
+  all.projection = known.projection ? *known.projection
+                   : is_window      ? phone_window(track.layers->fov, *eye, prototype.guesses)
+                                    : projection_of(video.metadata, path);
+  prototype.camera = find_format(file, path, all).camera;
+  set_orientation(prototype.camera, video.metadata);
+  if (video.metadata.ipd > 0.0) {
+    prototype.camera.ipd = static_cast<float>(video.metadata.ipd);
+    prototype.has_ipd = true;
+  }
   prototype.eyes.resize(prototype.layout == Layout::kSeparate ? 1 : 2);
   for (size_t i = 0; prototype.eyes.size() == 2 && i < 2; i++) prototype.eyes[i].eye = i == 0 ? kLeft : kRight;
   take_lenses(prototype, known, path);

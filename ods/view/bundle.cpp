@@ -68,7 +68,7 @@ bool is_of_studio(std::string_view name) {
 }
 
 std::string bundle(const std::string& entry, std::map<std::string, std::string> files) {
-  for (const char* const name : {"panorama.frag", "player.css"}) files[name] = find_page_file(name)->data;
+  for (const char* const name : {"panorama.glsl", "player.css"}) files[name] = find_page_file(name)->data;
   std::set<std::string> known;
   std::string modules;
   add(entry, known, modules);

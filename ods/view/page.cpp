@@ -25,7 +25,7 @@ std::string_view media_type(std::string_view name) {
       {".css", "text/css; charset=utf-8"},
       {".js", "text/javascript; charset=utf-8"},
       {".frag", "text/plain; charset=utf-8"},
-      {".vert", "text/plain; charset=utf-8"},
+      {".glsl", "text/plain; charset=utf-8"},
       {".json", "application/json"},
       {".svg", "image/svg+xml"},
       {".png", "image/png"},

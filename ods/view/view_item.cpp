@@ -5,14 +5,18 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
+#include <cmath>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "ods/base/error.h"
 #include "ods/convert/convert.h"
 #include "ods/files/file_input.h"
 #include "ods/image/format/file_format.h"
+#include "ods/image/small_rows.h"
 #include "ods/video/container/video_file.h"
 #include "ods/video/video_input.h"
 #include "ods/view/camera_json.h"
@@ -49,6 +53,12 @@ ViewItem open_view_item(const std::string& path, const FormatHint& known) {
                               "unwrap: ods convert makes a video of it that they show",
                               path));
     }
+    if (video.views != Views::kFirst) {
+      throw Error(ErrorKind::kInput,
+                  fmt::format("cannot show '{}': its eyes are layers of its stream (MV-HEVC), of which browsers show "
+                              "one: ods convert makes a video of it that they show",
+                              path));
+    }
     item.is_video = item.has_own_file = true;
     item.picture = video.prototype;
     item.fps = video.fps;
@@ -76,8 +86,28 @@ std::vector<std::string> item_files(const ViewItem& item, size_t index) {
   return files;
 }
 
+// How light_png() arranges the eyes: as the file, if it is so simple.
+static Layout light_layout(const StoredPicture& picture) {
+  if (picture.eyes.size() == 1) return Layout::kSeparate;
+  return arrangement_of(picture.layout).is_halves() ? picture.layout : Layout::kTopBottom;
+}
+
+bool has_light(const ViewItem& item) {
+  constexpr int kLargest = 8192;  // pixels that every GPU with WebGL 2 takes, nearly
+  if (!item.is_light || !item.picture.maps.empty()) return false;
+  const int eyes = static_cast<int>(item.picture.eyes.size());
+  const Extent size = packed_size(light_layout(item.picture), item.picture.size, eyes);
+  return 2 * size.width <= kLargest && size.height <= kLargest;
+}
+
+// Of other files a server has nothing earlier than the whole.
+bool has_preview(const ViewItem& item, bool is_live) {
+  if (item.is_video || !item.has_own_file || item.picture.size.width < 2 * kPreviewWidth) return false;
+  return !is_live || format_of_path(item.path) == FileFormat::kJpeg;
+}
+
 // Of a file with both eyes: the fractions at which an eye begins, and its size.
-static Json eye_rectangle(Layout layout, int eye_count, int index) {
+static std::array<double, 4> eye_part(Layout layout, int eye_count, int index) {
   const Extent eye{2, 2}, whole = packed_size(layout, eye, eye_count);
   const EyeCorner corner = eye_count == 1 ? EyeCorner() : eye_corner(layout, eye, index);
   const auto part = [](int n, int of) { return static_cast<double>(n) / of; };
@@ -87,12 +117,12 @@ static Json eye_rectangle(Layout layout, int eye_count, int index) {
 
 static Json layouts() {
   Json list = Json::array();
-  const Json whole = eye_rectangle(Layout::kSeparate, 1, 0);
+  const Json whole = eye_part(Layout::kSeparate, 1, 0);
   list.push_back({{"name", "mono"}, {"left", whole}, {"right", whole}});
   for (const Layout layout : kLayouts) {
     if (!arrangement_of(layout).is_halves()) continue;
     list.push_back(
-        {{"name", layout_name(layout)}, {"left", eye_rectangle(layout, 2, 0)}, {"right", eye_rectangle(layout, 2, 1)}});
+        {{"name", layout_name(layout)}, {"left", eye_part(layout, 2, 0)}, {"right", eye_part(layout, 2, 1)}});
   }
   return list;
 }
@@ -117,6 +147,8 @@ static Json item_json(const ViewItem& item, size_t index, bool is_live) {
     json["left"] = files.front();
     json["right"] = files.back();
   }
+  json["thumbnail"] = fmt::format("item/{}/thumbnail.jpg", index);
+  if (has_preview(item, is_live)) json["preview"] = fmt::format("item/{}/preview.jpg", index);
   json["layout"] = is_mono ? "mono" : layout_name(item.picture.layout);
   json["layout_reason"] = item.picture.layout_reason;
   json["projection"] = projection_name(item.picture.camera.projection);
@@ -124,6 +156,10 @@ static Json item_json(const ViewItem& item, size_t index, bool is_live) {
   json["size"] = {item.picture.size.width, item.picture.size.height};
   json["notes"] = item.picture.guesses;
   json["live"] = item.is_light;
+  if (has_light(item)) {
+    json["light"] = fmt::format("item/{}/light.png", index);
+    json["light_layout"] = is_mono ? "mono" : layout_name(light_layout(item.picture));
+  }
   if (item.is_light) json["exposure"] = 0, json["tone"] = tone_curve_name(ToneCurve::kNeutral);
   if (!item.notes.caption.empty()) json["caption"] = item.notes.caption;
   for (const Hotspot& spot : item.notes.hotspots) {
@@ -147,20 +183,127 @@ std::string view_json(std::span<const ViewItem> items, bool is_live, const Json&
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-static std::string jpeg_of(const StoredPicture& picture, const ConvertTarget& target, const EyeOptions& options) {
-  SaveOptions save;
-  save.tone = picture.is_float ? options.tone : ToneCurve::kLinear;
-  save.exposure = picture.is_float ? options.exposure : 0.0f;
-  // Image libraries want a file. It is removed at once, by us or by whoever ends the process.
+// What `write` writes. Image libraries want a file. It is removed at once, by us or by whoever ends the process.
+static std::string bytes_of(const std::string& extension, const std::function<void(const std::string& path)>& write) {
   static std::atomic<int> made{0};
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
-  const std::string path = (folder / fmt::format("ods-view-{}-{}.jpg", getpid(), made++)).string();
-  const Conversion conversion = convert(picture, target);
-  save_picture(conversion.rows, nullptr, save, path);
+  const std::string path = (folder / fmt::format("ods-view-{}-{}{}", getpid(), made++, extension)).string();
+  write(path);
   const FileInput file(path);
   std::string bytes = file.read(0, file.size());
   std::filesystem::remove(path);
   return bytes;
+}
+
+static std::string file_of(FileHeader header, Extent size, const RowSource& rows) {
+  header.width = size.width, header.height = size.height;
+  header.channels = {{"R"}, {"G"}, {"B"}};
+  return bytes_of(header.format == FileFormat::kPng ? ".png" : ".jpg", [&](const std::string& path) {
+    AtomicFile file(path);
+    write_image(file, header, rows);
+    file.commit();
+  });
+}
+
+static std::string jpeg_of(const StoredPicture& picture, const ConvertTarget& target, const EyeOptions& options) {
+  SaveOptions save;
+  save.tone = picture.is_float ? options.tone : ToneCurve::kLinear;
+  save.exposure = picture.is_float ? options.exposure : 0.0f;
+  const Conversion conversion = convert(picture, target);
+  return bytes_of(".jpg", [&](const std::string& path) { save_picture(conversion.rows, nullptr, save, path); });
+}
+
+// Means of the file's code values over whole pixels; `part`: 0..1 of the file, x, y, width, height.
+static Image small_image(const std::string& path, int width, const std::array<double, 4>& part) {
+  const std::unique_ptr<RowReader> rows =
+      open_small_rows(path, static_cast<int>(std::ceil(static_cast<double>(width) / part[2])));
+  const FileInfo& info = rows->info();
+  const auto pixels = [](double share, int of) { return static_cast<int>(std::lround(share * of)); };
+  const int left = pixels(part[0], info.width), top = pixels(part[1], info.height);
+  const int wide = std::max(pixels(part[2], info.width), 1), high = std::max(pixels(part[3], info.height), 1);
+  const int divide = std::max(wide / width, 1);
+  Image image(std::max(wide / divide, 1), std::max(high / divide, 1), 3);
+  const bool is_grey = info.channels.size() < 3;
+  const size_t channels = is_grey ? 1 : 3, sample = bytes_of(info.samples[0]);
+  const size_t row = static_cast<size_t>(info.width) * channels * sample;
+  std::vector<std::byte> band(row * static_cast<size_t>(rows->band_rows()));
+  for (int begin = 0; begin < std::min(info.height, top + high); begin += rows->band_rows()) {
+    const int end = std::min(begin + rows->band_rows(), info.height);
+    rows->read(begin, end, channels, band.data());
+    for (int y = std::max(begin, top); y < std::min(end, top + image.height * divide); y++) {
+      for (int x = 0; x < image.width * divide; x++) {
+        const std::byte* const from = band.data() + row * static_cast<size_t>(y - begin) +
+                                      static_cast<size_t>(std::min(left + x, info.width - 1)) * channels * sample;
+        for (size_t c = 0; c < 3; c++) {
+          image.at(x / divide, (y - top) / divide)[c] +=
+              sample_value(info.samples[0], from + (is_grey ? 0 : c * sample));
+        }
+      }
+    }
+  }
+  for (float& value : image.pixels) value /= static_cast<float>(divide * divide);
+  return image;
+}
+
+static std::string small_jpeg(const std::string& path, int width, const std::array<double, 4>& part) {
+  const Image image = small_image(path, width, part);
+  FileHeader header;
+  header.format = FileFormat::kJpeg;
+  header.quality = 85;
+  return file_of(header, {image.width, image.height},
+                 [&](int y, std::span<float> row) { std::copy_n(image.at(0, y), row.size(), row.data()); });
+}
+
+std::string light_png(const StoredPicture& picture) {
+  const Conversion conversion = convert(picture, same_format(picture));
+  const PictureRows& rows = conversion.rows;
+  const int count = static_cast<int>(rows.eyes.size());
+  const Layout layout = light_layout(picture);
+  const Extent whole = packed_size(layout, rows.eye, count);
+  const size_t width = static_cast<size_t>(whole.width), channels = count_channels(rows.layers);
+  FileHeader header;
+  header.format = FileFormat::kPng;
+  return file_of(header, {2 * whole.width, whole.height}, [&](int y, std::span<float> row) {
+    std::vector<float> pixels(static_cast<size_t>(rows.eye.width) * channels);
+    for (int i = 0; i < count; i++) {
+      const EyeCorner corner = count == 1 ? EyeCorner() : eye_corner(layout, rows.eye, i);
+      if (y < corner.y || y >= corner.y + rows.eye.height) continue;
+      rows.fill(i, y - corner.y, pixels);
+      for (size_t x = 0; x < static_cast<size_t>(rows.eye.width); x++) {
+        std::array<uint16_t, 3> halves{};
+        floats_to_halves({&pixels[x * channels], 3}, halves.data());
+        float* const to = &row[3 * (static_cast<size_t>(corner.x) + x)];
+        for (size_t c = 0; c < 3; c++) {
+          to[c] = static_cast<float>(halves[c] >> 8) / 255.0f;
+          to[3 * width + c] = static_cast<float>(halves[c] & 255) / 255.0f;
+        }
+      }
+    }
+  });
+}
+
+std::string preview_jpeg(const ViewItem& item) {
+  return small_jpeg(item.path, kPreviewWidth, {0.0, 0.0, 1.0, 1.0});
+}
+
+std::string thumbnail_jpeg(const ViewItem& item) {
+  if (item.has_own_file && !item.is_video) {
+    return small_jpeg(item.path, kThumbnailWidth,
+                      eye_part(item.picture.layout, static_cast<int>(item.picture.eyes.size()), 0));
+  }
+  EyeOptions options;
+  options.most_wide = kThumbnailWidth;
+  if (item.is_video) {
+    const VideoInput video = open_video(item.path, item.known);
+    VideoDecoder decoder(video.path, video.track);
+    const std::optional<DecodedFrame> frame = decoder.next();
+    if (!frame) throw Error(ErrorKind::kInput, fmt::format("'{}' has no picture", item.path));
+    return eye_jpeg(picture_of(video, decoder.stream(), *frame), item.picture.eyes[0].eye, options);
+  }
+  OpenOptions open;
+  open.format = item.known;
+  open.color_only = true;
+  return eye_jpeg(open_picture(item.path, open), item.picture.eyes[0].eye, options);
 }
 
 std::string eye_jpeg(const StoredPicture& picture, int eye, const EyeOptions& options) {

@@ -42,6 +42,22 @@ std::string view_json(std::span<const ViewItem> items, bool is_live, const Json&
 // and item/0/right.jpg.
 std::vector<std::string> item_files(const ViewItem& item, size_t index);
 
+constexpr int kPreviewWidth = 1024, kThumbnailWidth = 256;  // pixels, at least and at most twice as much
+
+// Whether there is a preview, which view.json names: a small copy of a file that browsers read, both eyes as they are.
+// is_live: as view_json().
+bool has_preview(const ViewItem& item, bool is_live);
+
+// As JPEGs: the preview, and a small left eye of any item, of a video its first picture. Throw Error(kInput) where the
+// file cannot be read, Error(kOutput) as eye_jpeg().
+std::string preview_jpeg(const ViewItem& item);
+std::string thumbnail_jpeg(const ViewItem& item);
+
+// Whether an item's light is sent as it is, and what is sent: a PNG of both eyes, twice as wide. Its left half has the
+// high bytes of the halves of R, G and B, its right half the low ones. The eyes are as view.json's "light_layout" says.
+bool has_light(const ViewItem& item);
+std::string light_png(const StoredPicture& picture);
+
 struct EyeOptions {
   float exposure = 0.0f;  // stops, and with the tone curve only for scene-linear pictures
   ToneCurve tone = ToneCurve::kNeutral;

@@ -64,11 +64,11 @@ constexpr size_t kLibraries = 1024;
 GltfBuilder make_scene() {
   GltfBuilder file = make_triangle();
   file.json["images"] = {{{"bufferView", file.add_view(small_png())}, {"mimeType", "image/png"}}};
-  file.json["textures"] = Json::parse(R"([{"source": 0}])");
-  file.json["materials"] = Json::parse(R"([{"name": "a name that is longer than a short string holds",
+  file.json["textures"] = GltfJson::parse(R"([{"source": 0}])");
+  file.json["materials"] = GltfJson::parse(R"([{"name": "a name that is longer than a short string holds",
       "emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}, "extras": {"a": [0, {"b": [1, 2, 3]}]}}])");
   file.primitive()["material"] = 0;
-  file.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([{"type": "point"}])");
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = GltfJson::parse(R"([{"type": "point"}])");
   file.node(0)["extensions"]["KHR_lights_punctual"]["light"] = 0;
   const int times = file.add<float>({0, 1}, kFloat, "SCALAR");
   const int places = file.add<float>({0, 0, 0, 2, 0, 0}, kFloat, "VEC3");

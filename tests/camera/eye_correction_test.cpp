@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ods {
-namespace {
+namespace ods::eye_correction_test {
 
 vec3 toward(double theta, double phi) {
   const double t = glm::radians(theta), p = glm::radians(phi);
@@ -68,5 +67,4 @@ TEST(EyeCorrection, RaisesLightToAPowerAndThenMultipliesIt) {
   EXPECT_FALSE(moves_pixels(both));
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::eye_correction_test

@@ -17,8 +17,7 @@
 #include "tests/support/programs.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::blender_bridge_test {
 
 namespace fs = std::filesystem;
 
@@ -496,5 +495,4 @@ say('VERSION', own is None or '.'.join(map(str, own)) == manifest['version'])
             "VERSION True\n");
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::blender_bridge_test

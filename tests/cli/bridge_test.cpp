@@ -15,8 +15,7 @@
 #include "tests/support/gltf_builder.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::bridge_test {
 
 namespace fs = std::filesystem;
 
@@ -233,5 +232,4 @@ TEST_F(Bridge, CameraAndLightAreTheFiles) {
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::bridge_test

@@ -14,7 +14,7 @@
 
 namespace fs = std::filesystem;
 
-namespace {
+namespace ods::cli_confine_test {
 
 constexpr const char* kSecret = "root:x:0:0:secret";
 
@@ -196,13 +196,13 @@ class Empty : public Confine {
 
 TEST_F(Empty, NoNodes) {
   ods::GltfBuilder file;
-  file.json = ods::Json::parse(R"({"asset": {"version": "2.0"}})");
+  file.json = ods::GltfJson::parse(R"({"asset": {"version": "2.0"}})");
   expect_nothing_to_render(file);
 }
 
 TEST_F(Empty, ASceneWithoutNodes) {
   ods::GltfBuilder file = ods::make_triangle();
-  file.json["scenes"] = ods::Json::parse(R"([{"nodes": []}])");
+  file.json["scenes"] = ods::GltfJson::parse(R"([{"nodes": []}])");
   expect_nothing_to_render(file);
 }
 
@@ -218,4 +218,4 @@ TEST_F(Empty, EverythingIsScaledToNothing) {
   expect_nothing_to_render(file);
 }
 
-}  // namespace
+}  // namespace ods::cli_confine_test

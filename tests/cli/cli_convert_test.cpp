@@ -17,7 +17,7 @@
 #include "tests/support/cli_runner.h"
 #include "tests/support/decoded_video.h"
 
-namespace {
+namespace ods::cli_convert_test {
 
 class CliConvert : public Cli {
  protected:
@@ -281,4 +281,4 @@ TEST_F(CliConvert, OurCubesAreThoseOfV360InItsWords) {
   }
 }
 
-}  // namespace
+}  // namespace ods::cli_convert_test

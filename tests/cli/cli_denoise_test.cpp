@@ -11,7 +11,7 @@
 #include "ods/picture/stored_picture.h"
 #include "tests/support/cli_runner.h"
 
-namespace {
+namespace ods::cli_denoise_test {
 
 class CliDenoise : public Cli {
  protected:
@@ -83,4 +83,4 @@ TEST_F(CliDenoise, OpenImageDenoiseMustBeInstalled) {
   EXPECT_EQ(files(), 0u);
 }
 
-}  // namespace
+}  // namespace ods::cli_denoise_test

@@ -14,7 +14,7 @@
 
 #include "tests/support/cli_runner.h"
 
-namespace {
+namespace ods::cli_errors_test {
 
 constexpr int kUsage = 2, kInput = 3, kOutput = 4;
 
@@ -268,4 +268,4 @@ TEST_F(CliErrors, EveryCommandSaysThatItWasInterrupted) {
   EXPECT_EQ(command.err, "ods: interrupted\n");
 }
 
-}  // namespace
+}  // namespace ods::cli_errors_test

@@ -13,7 +13,7 @@
 #include "tests/support/cli_runner.h"
 #include "tests/support/moving_files.h"
 
-namespace {
+namespace ods::cli_frames_test {
 
 class CliFrames : public Cli {
  protected:
@@ -23,7 +23,7 @@ class CliFrames : public Cli {
     file.node(0).erase("translation");
     file.node(1)["translation"] = {-1.0, 0.0, 2.0};
     file.primitive()["material"] = 0;
-    file.json["materials"] = ods::Json::parse(R"([{"pbrMetallicRoughness": {"baseColorFactor": [0.2, 0.5, 0.8, 1]}}])");
+    file.json["materials"] = ods::GltfJson::parse(R"([{"pbrMetallicRoughness": {"baseColorFactor": [0.2, 0.5, 0.8, 1]}}])");
     const ods::Binary bytes = file.glb();
     std::ofstream(scene, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
   }
@@ -67,8 +67,8 @@ TEST_F(CliFrames, NoiseIsFixedOrChanges) {
 // A camera that flies from 0,1,4 to 0,3,4 in two seconds.
 TEST_F(CliFrames, AFilesCameraThatMovesIsNamedWhereItBeginsAndChangesTheNoise) {
   ods::GltfBuilder file = ods::make_skinned(false);
-  file.json["cameras"] = ods::Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
-  file.json["nodes"].push_back(ods::Json::parse(R"({"camera": 0, "translation": [5, 5, 5]})"));
+  file.json["cameras"] = ods::GltfJson::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
+  file.json["nodes"].push_back(ods::GltfJson::parse(R"({"camera": 0, "translation": [5, 5, 5]})"));
   file.json["scenes"][0]["nodes"] = {0, 1, 3};
   ods::animate(file, ods::node_target(3, "translation"), {0, 2}, {0, 1, 4, 0, 3, 4}, "VEC3");
   const ods::Binary bytes_of_file = file.glb();
@@ -238,4 +238,4 @@ TEST_F(CliFrames, MistakesAreExplained) {
   expect_one_error();
 }
 
-}  // namespace
+}  // namespace ods::cli_frames_test

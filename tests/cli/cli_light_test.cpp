@@ -6,7 +6,7 @@
 #include "tests/support/cli_runner.h"
 #include "tests/support/gltf_builder.h"
 
-namespace {
+namespace ods::cli_light_test {
 
 // A picture of a triangle of a file without light, which is an object on its own.
 class Light : public Cli {
@@ -90,7 +90,7 @@ TEST_F(Light, BackgroundIsSeenBehind) {
 TEST_F(Light, UnlitShowsColorsAsTheyArePainted) {
   ods::GltfBuilder painted = ods::make_triangle();
   painted.json["materials"] =
-      ods::Json::parse(R"([{"pbrMetallicRoughness": {"baseColorFactor": [0.25, 0.5, 0.125, 1]}}])");
+      ods::GltfJson::parse(R"([{"pbrMetallicRoughness": {"baseColorFactor": [0.25, 0.5, 0.125, 1]}}])");
   painted.primitive()["material"] = 0;
   write(painted);
   const std::vector<float> pixels = render("--unlit --background 0 --env 0 --filter box --denoise none");
@@ -145,4 +145,4 @@ TEST_F(Light, OfATransparentPictureThereIsNoGround) {
   EXPECT_EQ(pixels[3 * (32 * 14 + 16)], 0.0f) << "nothing below";
 }
 
-}  // namespace
+}  // namespace ods::cli_light_test

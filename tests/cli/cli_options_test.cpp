@@ -16,7 +16,7 @@
 #include "ods/picture/metadata/sidecar.h"
 #include "tests/support/cli_runner.h"
 
-namespace {
+namespace ods::cli_options_test {
 
 TEST_F(Cli, BadOptionsAreUsageErrors) {
   for (const char* words :
@@ -254,4 +254,4 @@ TEST_F(Cli, ATitleThatIsTooWideIsWarnedOf) {
   EXPECT_NE(err.find("--text-height 0.2"), std::string::npos) << err;
 }
 
-}  // namespace
+}  // namespace ods::cli_options_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/cli_runner.h"
 
-namespace {
+namespace ods::cli_resume_test {
 
 class Resume : public Cli {
  protected:
@@ -172,4 +172,4 @@ TEST_F(Merge, PartsAreExact) {
   EXPECT_EQ(run(render("a.#.exr", "--resume --frames 1-2")), 2) << err;
 }
 
-}  // namespace
+}  // namespace ods::cli_resume_test

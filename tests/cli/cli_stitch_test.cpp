@@ -5,13 +5,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "ods/picture/load_eyes.h"
 #include "ods/video/container/video_file.h"
 #include "tests/support/cli_runner.h"
 
-namespace {
+namespace ods::cli_stitch_test {
 
 class CliStitch : public Cli {
  protected:
@@ -231,6 +232,41 @@ TEST_F(CliStitch, ATiltedHeadIsRefused) {
   EXPECT_NE(err.find("slits are level and cannot show a tilted head"), std::string::npos) << err;
 }
 
+// From the scene when the rig is planned, or from the views' depth when they are put together.
+TEST_F(CliStitch, TheMergeFollowsDepth) {
+  const auto worst = [&](const std::string& picture) {
+    EXPECT_LE(run("comfort " + picture + " --json"), 1) << err;
+    const size_t at = out.find("\"vertical\": ");
+    return at == std::string::npos ? -1.0 : std::atof(out.c_str() + at + 12);
+  };
+  const auto render_room = [&] { return run("render room -q --samples 1 --rig " + rig + " -o " + views); };
+  ASSERT_EQ(plan("--slits 24 --width 128 --depth ray"), 0) << err;
+  ASSERT_EQ(render_room(), 0) << err;
+  ASSERT_EQ(stitch("free.exr"), 0) << err;
+  ASSERT_EQ(stitch("calm.exr", "--merge auto,20 --sidecar"), 0) << err;
+  EXPECT_NE(err.find("merge by depth: full stereo up to "), std::string::npos) << err;
+  EXPECT_GT(worst(folder.path("free.exr")), 25.0);
+  EXPECT_LE(worst(folder.path("calm.exr")), 20.5);
+  EXPECT_GE(worst(folder.path("calm.exr")), 12.0);
+  EXPECT_EQ(ods::open_picture(folder.path("calm.exr")).camera.top.mode, ods::kMergeMap);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("calm.exr.merging.exr")));
+  std::filesystem::remove_all(folder.path("views"));
+  ASSERT_EQ(plan("--slits 24 --width 128 --pitches 6 --depth ray --scene room --merge auto,20"), 0) << err;
+  EXPECT_NE(err.find("merge by depth: full stereo up to "), std::string::npos) << err;
+  ASSERT_EQ(render_room(), 0) << err;
+  ASSERT_EQ(stitch("planned.exr", "--sidecar"), 0) << err;
+  EXPECT_LE(worst(folder.path("planned.exr")), 20.5);
+  // Where there is no depth.
+  EXPECT_EQ(plan("--slits 12 --width 64 --merge auto"), 2);
+  EXPECT_NE(err.find("add --scene SCENE"), std::string::npos) << err;
+  ASSERT_EQ(plan(), 0) << err;
+  EXPECT_EQ(stitch("no.exr", "--merge auto"), 2);
+  EXPECT_NE(err.find("ods rig --depth plane"), std::string::npos) << err;
+  EXPECT_EQ(stitch("no.exr", "--merge cosine"), 2);
+  EXPECT_EQ(stitch("no.####.exr", "--merge auto --frames 1-2"), 2);
+  EXPECT_NE(err.find("ods convert --merge auto"), std::string::npos) << err;
+}
+
 TEST_F(CliStitch, ExitCodesSayWhatWasWrong) {
   EXPECT_EQ(run("rig --slits 12 --width 66 --projection cube-3x2"), 2);
   EXPECT_NE(err.find("lat-long"), std::string::npos) << err;
@@ -245,4 +281,4 @@ TEST_F(CliStitch, ExitCodesSayWhatWasWrong) {
   EXPECT_EQ(run("render axis --rig " + rig + " -o " + views + " --width 100"), 2);
 }
 
-}  // namespace
+}  // namespace ods::cli_stitch_test

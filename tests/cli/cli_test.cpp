@@ -21,7 +21,7 @@
 #include "tests/support/cli_runner.h"
 #include "tests/support/gltf_builder.h"
 
-namespace {
+namespace ods::cli_test {
 
 TEST_F(Cli, HelpStartsWithExamples) {
   for (const char* words : {"--help",         "-h",
@@ -493,4 +493,4 @@ TEST_F(Cli, LintTellsByItsExitCode) {
   EXPECT_EQ(run("lint"), 2);
 }
 
-}  // namespace
+}  // namespace ods::cli_test

@@ -5,16 +5,23 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
 
 #include "ods/files/atomic_file.h"
 #include "ods/image/image_file.h"
 #include "tests/support/cli_runner.h"
+#include "tests/support/exr_files.h"
 #include "tests/support/gltf_builder.h"
 
-namespace {
+namespace ods::comfort_command_test {
 
 using Json = nlohmann::json;
 
@@ -29,8 +36,36 @@ class ComfortCommand : public Cli {
     code = run("comfort " + words + " --json");
     return Json::parse(out);
   }
+  // A mono lat-long whose depth follows the elevation, but for pillars ahead and behind.
+  void write_depth(const std::string& name, const std::string& channel, const std::function<float(float)>& depth) {
+    constexpr int kWidth = 256, kHeight = 128;
+    ods::ExrForm form;
+    form.width = kWidth, form.height = kHeight;
+    form.channels = {"B", "G", "R", channel};
+    form.types = {Imf::FLOAT, Imf::FLOAT, Imf::FLOAT, Imf::FLOAT};
+    std::vector<float> values;
+    for (int y = 0; y < kHeight; y++) {
+      for (int x = 0; x < kWidth; x++) {
+        const bool is_pillar = x % 32 < 8 && y > kHeight / 4 && y < kHeight * 5 / 8;
+        const float elevation = 90.0f - 180.0f * (static_cast<float>(y) + 0.5f) / kHeight;
+        values.insert(values.end(), {0.2f, 0.2f, 0.2f, depth(is_pillar ? -20.0f : elevation)});
+      }
+    }
+    write_exr_of(folder.path(name), form, values);
+  }
+
   int code = 0;
 };
+
+// Metres: a floor 1.6 m below, and the sky.
+float street(float elevation) {
+  return elevation < 0.0f ? 1.6f / std::sin(-elevation * 3.14159f / 180.0f) : 1e10f;
+}
+
+// What should be 1 / metres, or a share of the farthest, taken for metres.
+float inverted_street(float elevation) {
+  return 0.5f + 20.0f / std::min(street(elevation), 40.0f);
+}
 
 // In the scene, and in the picture of it that is rendered afterwards.
 TEST_F(ComfortCommand, ASceneAndItsPictureAreJudgedAlike) {
@@ -136,6 +171,40 @@ TEST_F(ComfortCommand, ThingsAreNamedInPictures) {
   EXPECT_NE(out.find("'Sail <1>', 0."), std::string::npos) << out;
 }
 
+// Whoever reads only the report, and moves the first thing as it says, has a clean one at last.
+TEST_F(ComfortCommand, AReaderOfTheReportKnowsWhatToMove) {
+  std::array<double, 3> place = {0.35, 0.1, -0.2};  // of the sail, from the camera
+  const std::string scene = folder.path("sail.glb");
+  const auto report = [&] {
+    ods::GltfBuilder builder = ods::make_triangle();
+    builder.node(0)["name"] = "Sail";
+    builder.node(0)["scale"] = {0.2, 0.2, 0.2};
+    builder.node(0)["translation"] = place;
+    const auto bytes = builder.glb();
+    ods::write_file(scene, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    code = run("comfort " + scene + " --unit m --width 512 --position 0,0,0");
+    return out;
+  };
+  int moves = 0;
+  for (std::string text = report(); code != 0 || text.find("warning: ") != std::string::npos; text = report()) {
+    ASSERT_LT(moves++, 3) << text;
+    std::smatch words;
+    ASSERT_TRUE(std::regex_search(
+        text, words,
+        std::regex("(?:error|warning): 'Sail', ([0-9.]+) m away, (?:([0-9]+) degrees "
+                   "(left|right)|ahead)(?:, ([0-9]+)(?: degrees)? (up|down))?.*; ([0-9.]+) m would do")))
+        << text;
+    const auto number = [&](size_t i) { return words[i].matched ? std::stod(words[i]) : 0.0; };
+    const double away = number(6) - number(1) + 0.02;
+    const double around = number(2) * (words[3] == "left" ? -1 : 1) * 3.14159 / 180.0;
+    const double above = number(4) * (words[5] == "down" ? -1 : 1) * 3.14159 / 180.0;
+    place[0] += away * std::cos(above) * std::sin(around);
+    place[1] += away * std::sin(above);
+    place[2] -= away * std::cos(above) * std::cos(around);
+  }
+  EXPECT_GE(moves, 1) << "nothing was wrong";
+}
+
 // One line before a long rendering, none before a short one.
 TEST_F(ComfortCommand, ALongRenderingIsWarnedOf) {
   const std::string words = "render room --bounces 0 --indirect path --position 1.9,0.5,0.4 --merge none -o ";
@@ -160,6 +229,34 @@ TEST_F(ComfortCommand, ViewersAndHeadsetsByName) {
               1.0, 1e-6);
 }
 
+// Each fault of a layer of depth has its line and its exit code.
+TEST_F(ComfortCommand, DepthWithoutSenseIsSaid) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  struct Row {
+    const char* says;
+    int code;
+    std::function<float(float elevation)> depth;  // degrees
+  };
+  const Row rows[] = {{"0, negative or NaN everywhere", 3, [](float) { return 0.0f; }},
+                      {"0, negative or NaN everywhere", 3, [](float) { return -2.0f; }},
+                      {"0, negative or NaN everywhere", 3, [](float) { return std::nanf(""); }},
+                      {"infinite everywhere", 0, [](float) { return kInfinity; }},
+                      {"have no depth, and are not judged", 1, [](float e) { return e > 0.0f ? std::nanf("") : 3.0f; }},
+                      {"looks inverted", 1, inverted_street}};
+  for (const Row& row : rows) {
+    write_depth("bad.exr", "Z", row.depth);
+    EXPECT_EQ(run("comfort " + folder.path("bad.exr")), row.code) << row.says << "\n" << err;
+    EXPECT_NE(err.find(row.says), std::string::npos) << row.says << "\n" << err;
+    EXPECT_NE(err.find("bad.exr"), std::string::npos) << err;
+    EXPECT_EQ(err.find("bad.exr"), err.rfind("bad.exr")) << err;
+  }
+  // Blender's name, and an upright street, which is no mistake.
+  write_depth("blender.exr", "ViewLayer.Depth.Z", street);
+  const Json found = judged(folder.path("blender.exr"));
+  EXPECT_EQ(err.find("inverted"), std::string::npos) << err;
+  EXPECT_NEAR(found["nearest"], 1.6, 0.1);
+}
+
 TEST_F(ComfortCommand, BadInputIsOneLine) {
   ASSERT_EQ(run("render lamp --width 64 --samples 1 -q -o " + folder.path("flat.png")), 0) << err;
   EXPECT_EQ(run("comfort " + folder.path("flat.png") + " --layout top-bottom"), 3);
@@ -176,4 +273,4 @@ TEST_F(ComfortCommand, BadInputIsOneLine) {
   EXPECT_NE(err.find("--ipd is for scenes"), std::string::npos) << err;
 }
 
-}  // namespace
+}  // namespace ods::comfort_command_test

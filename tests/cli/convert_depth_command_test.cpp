@@ -4,13 +4,15 @@
 // ods convert with depth beside the input, as its user meets it.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
 #include "ods/picture/stored_picture.h"
 #include "tests/support/cli_runner.h"
 
-namespace {
+namespace ods::convert_depth_command_test {
 
 class ConvertDepth : public Cli {
  protected:
@@ -28,6 +30,19 @@ class ConvertDepth : public Cli {
     EXPECT_LE(run(in_folder("comfort @" + name + " --json")), 1) << err;
     const size_t at = out.find("\"vertical\": ");
     return at == std::string::npos ? -1.0 : std::atof(out.c_str() + at + 12);
+  }
+
+  // Metres, 64x32: a level ceiling this far above, and all else far away.
+  static std::string room_depth(float ceiling) {
+    std::string file = "Pf\n64 32\n-1\n";
+    for (int y = 31; y >= 0; y--) {
+      for (int x = 0; x < 64; x++) {
+        const float up = std::sin((0.5f - (static_cast<float>(y) + 0.5f) / 32.0f) * 3.14159265f);
+        const float metres = up > 0.0f ? std::min(ceiling / up, 40.0f + static_cast<float>(x)) : 50.0f;
+        file.append(reinterpret_cast<const char*>(&metres), sizeof metres);
+      }
+    }
+    return file;
   }
 
   // A mono panorama without depth, and its depth.
@@ -85,6 +100,50 @@ TEST_F(ConvertDepth, MergesByDepth) {
   EXPECT_EQ(run(in_folder("convert @panorama.png --eyes both --merge auto -o @no.png")), 2);
 }
 
+// A ceiling comes down over the viewer, and goes again.
+TEST_F(ConvertDepth, TheMergeOfAVideoFollowsItsDepthSteadily) {
+  make_panorama();
+  constexpr int kFrames = 41;
+  for (int i = 0; i < kFrames; i++) {
+    folder.write("depth." + std::to_string(i) + ".pfm", room_depth(i < 4 ? 0.6f : 30.0f));
+    std::filesystem::copy(folder.path("panorama.png"), folder.path("panorama." + std::to_string(i) + ".png"));
+  }
+  run_well("encode -q --fps 4 --projection lat-long --layout separate @panorama.#.png -o @mono_360.mp4");
+  run_well("convert @mono_360.mp4 --depth @depth.#.pfm --merge auto --sidecar -o @made_360_TB.####.exr");
+  EXPECT_NE(err.find("where the depth allows least; more elsewhere"), std::string::npos) << err;
+  float before = -1.0f;
+  for (int i = 0; i < kFrames; i++) {
+    char name[32];
+    std::snprintf(name, sizeof name, "made_360_TB.%04d.exr", i);
+    const auto map = open(name).camera.merge_map;
+    ASSERT_TRUE(map) << name;
+    const float up = map->pixels.front();
+    if (i < 4) {
+      EXPECT_LT(up, 0.2f) << name;
+    }
+    if (i > 38) {
+      EXPECT_EQ(up, 1.0f) << name;
+    }
+    if (i > 0) {
+      EXPECT_LE(std::abs(up - before), 0.06f) << name << ": it pumps";
+    }
+    EXPECT_EQ(map->pixels[map->pixels.size() / 2], 1.0f);
+    before = up;
+  }
+  run_well("convert @mono_360.mp4 --depth @depth.#.pfm --merge auto -q -o @made_360_TB.mp4");
+  // Frames do the same, whoever makes which of them.
+  run_well(
+      "convert @panorama.#.png --fps 4 --depth @depth.#.pfm --merge auto --only 2/2 -q --sidecar -o "
+      "@part_360_TB.#.exr");
+  EXPECT_EQ(open("part_360_TB.21.exr").camera.merge_map->pixels, open("made_360_TB.0021.exr").camera.merge_map->pixels);
+  EXPECT_EQ(run(in_folder("convert @mono_360.mp4 --eyes both --merge auto -o @no.mp4")), 2);
+  EXPECT_NE(err.find("--depth FILE"), std::string::npos) << err;
+  folder.write("turns.txt", "0 1\n");
+  EXPECT_EQ(run(in_folder("convert @mono_360.mp4 --depth @depth.#.pfm --merge auto --stabilize @turns.txt -o @no.mp4")),
+            2);
+  EXPECT_NE(err.find("exclude each other"), std::string::npos) << err;
+}
+
 TEST_F(ConvertDepth, MistakesHaveTheirExitCodes) {
   make_panorama();
   folder.write("zero.pfm", "Pf\n4 2\n-1\n" + std::string(32, '\0'));
@@ -136,4 +195,4 @@ TEST_F(ConvertDepth, FramesAndVideos) {
   EXPECT_NE(err.find("ends before"), std::string::npos) << err;
 }
 
-}  // namespace
+}  // namespace ods::convert_depth_command_test

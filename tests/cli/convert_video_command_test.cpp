@@ -17,7 +17,7 @@
 #include "tests/support/cli_runner.h"
 #include "tests/support/made_frames.h"
 
-namespace {
+namespace ods::convert_video_command_test {
 
 class ConvertVideoCommand : public Cli {
  protected:
@@ -285,4 +285,4 @@ TEST_F(ConvertVideoCommand, RefusalsSayWhatToDo) {
   EXPECT_EQ(folder.names(), before);
 }
 
-}  // namespace
+}  // namespace ods::convert_video_command_test

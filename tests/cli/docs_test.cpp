@@ -26,7 +26,7 @@
 #include "tests/support/made_frames.h"
 #include "tests/support/temporary_folder.h"
 
-namespace {
+namespace ods::docs_test {
 
 namespace fs = std::filesystem;
 
@@ -457,4 +457,4 @@ TEST_P(Help, ExamplesWork) {
 INSTANTIATE_TEST_SUITE_P(Commands, Help, ::testing::ValuesIn(command_names()),
                          [](const auto& name) { return name.param; });
 
-}  // namespace
+}  // namespace ods::docs_test

@@ -10,7 +10,7 @@
 #include "tests/support/cli_runner.h"
 #include "tests/support/made_frames.h"
 
-namespace {
+namespace ods::encode_command_test {
 
 using ods::Layout;
 
@@ -227,4 +227,4 @@ TEST_F(EncodeCommand, TheTestCardIsAVideo) {
   expect_one_line("is not the name of a video");
 }
 
-}  // namespace
+}  // namespace ods::encode_command_test

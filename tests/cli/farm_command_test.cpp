@@ -9,7 +9,7 @@
 
 #include "tests/support/farm.h"
 
-namespace {
+namespace ods::farm_command_test {
 
 constexpr const char* kTriangle =
     R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
@@ -429,8 +429,7 @@ TEST_F(Farm, PartsOfAnotherPictureAreNotTakenForOurs) {
   run_task(plan("p")["groups"][0], 2);
   ASSERT_EQ(run(still + " --samples 4"), 0) << err;
   EXPECT_EQ(run(still + " --samples 8"), 2);
-  EXPECT_NE(err.find("part_0002.exr' was rendered with other options: --samples was 4, now 8"), std::string::npos)
-      << err;
+  EXPECT_NE(err.find("part_0002.exr' was made with other options: --samples was 4, now 8"), std::string::npos) << err;
 }
 
 // The last command of a video, on another machine than its frames.
@@ -473,4 +472,4 @@ TEST_F(Farm, WhatSlurmRefusesIsAnError) {
   EXPECT_NE(err.find("sbatch: error: no partition\n"), std::string::npos) << err;
 }
 
-}  // namespace
+}  // namespace ods::farm_command_test

@@ -10,7 +10,7 @@
 #include "tests/support/cli_runner.h"
 #include "tests/support/unknown_files.h"
 
-namespace {
+namespace ods::identify_command_test {
 
 using ods::Layout, ods::Truth;
 
@@ -111,4 +111,4 @@ TEST_F(Wordless, FilesOfAnotherKindLeadToTheirCommands) {
   EXPECT_NE(err.find("it is a picture"), std::string::npos) << err;
 }
 
-}  // namespace
+}  // namespace ods::identify_command_test

@@ -12,7 +12,7 @@
 #include "ods/picture/save.h"
 #include "tests/support/cli_runner.h"
 
-namespace {
+namespace ods::inject_picture_test {
 
 using ods::StereoCamera;
 
@@ -112,4 +112,4 @@ TEST_F(InjectPicture, AProjectionThatIsAskedForKeepsTheOrientation) {
   }
 }
 
-}  // namespace
+}  // namespace ods::inject_picture_test

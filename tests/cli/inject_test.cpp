@@ -15,7 +15,7 @@
 
 int ods_inject(int argc, char** argv);  // of the command
 
-namespace {
+namespace ods::inject_test {
 
 using namespace ods::made;
 using ods::SphericalMetadata, ods::VideoProjection, ods::VideoStereo;
@@ -284,7 +284,7 @@ TEST_F(Inject, RemovingTakesAllWordsOut) {
   for (const Tagged& each : cases()) {
     SCOPED_TRACE(each.title + " " + each.name);
     folder.write(each.name, each.video);
-    const bool has_layers = largest(ods::read_video_file(folder.path(each.name))).has_layers;
+    const bool has_layers = largest(ods::read_video_file(folder.path(each.name))).layers.has_value();
     const std::optional<ods::VideoFile> after = inject(each, "--remove");
     ASSERT_TRUE(after) << err;
     const ods::VideoTrack& track = largest(*after);
@@ -371,4 +371,4 @@ TEST_F(Inject, ProbeAdvisesWhatInjectDoes) {
   EXPECT_GT(advised, 20);
 }
 
-}  // namespace
+}  // namespace ods::inject_test

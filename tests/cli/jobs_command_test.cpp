@@ -4,7 +4,7 @@
 // ods jobs.
 #include "tests/support/farm.h"
 
-namespace {
+namespace ods::jobs_command_test {
 
 TEST_F(Farm, JobsOfTenThousandTasks) {
   program("scontrol", "echo 'MaxArraySize = 20000'; echo 'MaxJobCount = 100000'");
@@ -98,4 +98,4 @@ TEST_F(Farm, NoJobsIsNoError) {
   EXPECT_EQ(out, "[]\n");
 }
 
-}  // namespace
+}  // namespace ods::jobs_command_test

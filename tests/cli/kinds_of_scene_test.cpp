@@ -14,8 +14,7 @@
 #include "tests/support/cli_runner.h"
 #include "tests/support/scene_file.h"
 
-namespace ods {
-namespace {
+namespace ods::kinds_of_scene_test {
 
 class KindsOfScene : public Cli, public ::testing::WithParamInterface<size_t> {
  protected:
@@ -61,7 +60,7 @@ Brightness brightness_of(const Image& picture) {
 TEST_P(KindsOfScene, AreRecognisedAndLookGoodWithoutAnOption) {
   const std::string scene = write_scene(), picture = folder.path("picture.png");
   ASSERT_EQ(run("info --json " + scene), 0) << err;
-  const Json json = Json::parse(out);
+  const GltfJson json = GltfJson::parse(out);
   EXPECT_EQ(json["kind"], scene_kind_name(kind().kind));
   EXPECT_GE(json["nearest_surface"].get<double>(), double{kElbowRoom});
   const double height = json["bounds"]["high"][1].get<double>() - json["bounds"]["low"][1].get<double>();
@@ -84,5 +83,4 @@ INSTANTIATE_TEST_SUITE_P(All, KindsOfScene, ::testing::Range<size_t>(0, kinds_of
   return name;
 });
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::kinds_of_scene_test

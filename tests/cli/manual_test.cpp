@@ -14,7 +14,7 @@
 
 #include "tests/support/cli_runner.h"
 
-namespace {
+namespace ods::manual_test {
 
 class Manual : public Cli {
  protected:
@@ -165,4 +165,4 @@ TEST_F(Manual, OtherFormatsAreRefused) {
   }
 }
 
-}  // namespace
+}  // namespace ods::manual_test

@@ -9,14 +9,16 @@
 #include "ods/scene/builtin/builtin.h"
 #include "tests/support/cli_runner.h"
 
-namespace {
+namespace ods::own_output_lint_test {
 
 class OwnOutput : public Cli {
  protected:
   // What lint says of a scene.
   std::string lint(const std::string& scene, const std::string& options = "") {
     const std::string picture = folder.path("picture.png");
-    EXPECT_EQ(run("render " + scene + " --unlit --exposure -1 --denoise none --width 640 --samples 2 -o " + picture + options), 0)
+    EXPECT_EQ(run("render " + scene + " --unlit --exposure -1 --denoise none --width 640 --samples 2 -o " + picture +
+                  options),
+              0)
         << err;
     run("lint " + picture);
     return out;
@@ -47,4 +49,4 @@ TEST_F(OwnOutput, WithoutAMergeHasFaultsAtThePoles) {
   EXPECT_NE(lint("fractal", " --merge none").find("no-pole-merge"), std::string::npos) << out;
 }
 
-}  // namespace
+}  // namespace ods::own_output_lint_test

@@ -11,7 +11,7 @@
 
 #include "tests/support/cli_runner.h"
 
-namespace {
+namespace ods::package_test {
 
 bool works(const std::string& words) {
   return std::system(("{ " + words + "; } >/dev/null 2>&1").c_str()) == 0;
@@ -47,4 +47,4 @@ TEST_F(Package, HoldsWhatDebianExpects) {
   if (works("command -v lintian")) output_of("lintian --allow-root --fail-on error " + package);
 }
 
-}  // namespace
+}  // namespace ods::package_test

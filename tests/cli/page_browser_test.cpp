@@ -28,8 +28,7 @@
 #include "tests/support/stored_pictures.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::page_browser_test {
 
 constexpr auto kPatience = std::chrono::seconds(200);
 
@@ -268,5 +267,4 @@ TEST(Page, IsSmallOnTheWire) {
   EXPECT_LE(element, 60'000u);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::page_browser_test

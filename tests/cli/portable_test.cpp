@@ -10,7 +10,7 @@
 
 #include "tests/support/cli_runner.h"
 
-namespace {
+namespace ods::portable_test {
 
 class Portable : public Cli {
  protected:
@@ -27,4 +27,4 @@ TEST_F(Portable, AnOldProcessorGivesTheSameBits) {
   EXPECT_EQ(render_by("", "here.exr"), render_by("qemu-x86_64 -cpu Nehalem", "there.exr"));
 }
 
-}  // namespace
+}  // namespace ods::portable_test

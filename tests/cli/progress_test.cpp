@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-namespace {
+namespace ods::progress_test {
 
 // What a job of 100 seconds writes when it reports twice a second.
 std::string shown(ProgressMode mode, double until = 1.0) {
@@ -157,4 +157,4 @@ TEST(Progress, Durations) {
   EXPECT_EQ(duration_text(3723.0), "1:02:03 h");
 }
 
-}  // namespace
+}  // namespace ods::progress_test

@@ -12,9 +12,7 @@
 #include "ods/camera/camera_fields.h"
 #include "tests/support/temporary_folder.h"
 
-using namespace ods;
-
-namespace {
+namespace ods::render_words_test {
 
 constexpr int kWidth = 768;
 
@@ -122,4 +120,4 @@ TEST_F(RenderWords, HaveEveryNumber) {
   }
 }
 
-}  // namespace
+}  // namespace ods::render_words_test

@@ -8,9 +8,9 @@
 #include "tests/support/cli_runner.h"
 #include "tests/support/moving_files.h"
 
-namespace {
+namespace ods::scene_options_test {
 
-using ods::GltfBuilder, ods::Json;
+using ods::GltfBuilder, ods::GltfJson;
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -28,9 +28,9 @@ class SceneOptionsOf : public Cli {
     return run("render " + path + " --width 16 --samples 1 -o " + folder.path("picture.png") + " " + words);
   }
 
-  Json info(const std::string& path, const std::string& words = "") {
+  GltfJson info(const std::string& path, const std::string& words = "") {
     EXPECT_EQ(run("info " + path + " --json " + words), 0) << err;
-    return Json::parse(out);
+    return GltfJson::parse(out);
   }
 };
 
@@ -43,7 +43,7 @@ TEST_F(SceneOptionsOf, InfoNamesWhatEachExtensionBecame) {
   EXPECT_TRUE(has(out, "KHR_texture_transform: rendered (")) << out;
   EXPECT_TRUE(has(out, "KHR_xmp_json_ld: no effect (metadata)")) << out;
   EXPECT_TRUE(has(out, "VENDOR_thing: not rendered (ods does not know it)")) << out;
-  const Json list = info(path)["extensions"];
+  const GltfJson list = info(path)["extensions"];
   ASSERT_EQ(list.size(), 3u);
   EXPECT_EQ(list[0]["name"], "KHR_texture_transform");
   EXPECT_EQ(list[0]["state"], "rendered");
@@ -65,14 +65,14 @@ TEST_F(SceneOptionsOf, RenderingNamesOnlyWhatIsMissing) {
 TEST_F(SceneOptionsOf, Variants) {
   GltfBuilder file = ods::make_triangle();
   file.json["extensionsUsed"] = {"KHR_materials_variants"};
-  file.json["extensions"]["KHR_materials_variants"]["variants"] = Json::parse(R"([{"name": "red"}, {"name": "blue"}])");
+  file.json["extensions"]["KHR_materials_variants"]["variants"] = GltfJson::parse(R"([{"name": "red"}, {"name": "blue"}])");
   file.json["materials"] =
-      Json::parse(R"([{"emissiveFactor": [1, 0, 0]}, {"pbrMetallicRoughness": {"metallicFactor": 0}}])");
+      GltfJson::parse(R"([{"emissiveFactor": [1, 0, 0]}, {"pbrMetallicRoughness": {"metallicFactor": 0}}])");
   file.primitive()["material"] = 0;
   file.primitive()["extensions"]["KHR_materials_variants"]["mappings"] =
-      Json::parse(R"([{"variants": [1], "material": 1}])");
+      GltfJson::parse(R"([{"variants": [1], "material": 1}])");
   const std::string path = save(file);
-  EXPECT_EQ(info(path)["variants"], Json::parse(R"(["red", "blue"])"));
+  EXPECT_EQ(info(path)["variants"], GltfJson::parse(R"(["red", "blue"])"));
   EXPECT_EQ(info(path)["emissive_triangles"], 1);
   EXPECT_EQ(info(path, "--variant blue")["emissive_triangles"], 0);
   EXPECT_EQ(render_file(path, "--variant blue"), 0) << err;
@@ -108,9 +108,9 @@ GltfBuilder make_glass_box() {
 
 TEST_F(SceneOptionsOf, SolidGlass) {
   const std::string path = save(make_glass_box());
-  const Json glass = info(path)["sheet_glass"];
+  const GltfJson glass = info(path)["sheet_glass"];
   ASSERT_EQ(glass.size(), 1u);
-  EXPECT_EQ(glass[0], Json::parse(R"({"material": "Ice", "closed_meshes": 1, "open_meshes": 0})"));
+  EXPECT_EQ(glass[0], GltfJson::parse(R"({"material": "Ice", "closed_meshes": 1, "open_meshes": 0})"));
   ASSERT_EQ(run("info " + path), 0);
   EXPECT_TRUE(has(out, "'Ice' has no volume and is rendered as thin sheets (closed meshes: 1, open: 0)")) << out;
   EXPECT_TRUE(info(path, "--solid-glass")["sheet_glass"].empty());
@@ -128,7 +128,7 @@ TEST_F(SceneOptionsOf, SolidGlass) {
 // --- scenes with nothing to see
 
 TEST_F(SceneOptionsOf, NothingToSeeIsAnError) {
-  const Json hidden = {{"KHR_node_visibility", {{"visible", false}}}};
+  const GltfJson hidden = {{"KHR_node_visibility", {{"visible", false}}}};
   GltfBuilder invisible = ods::make_triangle();
   invisible.node(0)["extensions"] = hidden;
   GltfBuilder flat = ods::make_triangle();
@@ -136,7 +136,7 @@ TEST_F(SceneOptionsOf, NothingToSeeIsAnError) {
   GltfBuilder points = ods::make_triangle();
   points.primitive()["mode"] = 0;
   GltfBuilder empty = ods::make_triangle();
-  empty.json["scenes"] = Json::parse(R"([{}])");
+  empty.json["scenes"] = GltfJson::parse(R"([{}])");
   GltfBuilder always = ods::make_triangle();  // moves, and is hidden all the time
   always.node(0)["scale"] = {0, 1, 1};
   ods::animate(always, ods::node_target(0, "scale"), {0, 1, 2}, {0, 1, 1, 0, 1, 1, 0, 1, 1}, "VEC3");
@@ -158,4 +158,4 @@ TEST_F(SceneOptionsOf, WhatAppearsLaterIsRendered) {
   EXPECT_TRUE(has(err, "everything is hidden while the scene is at rest")) << err;
 }
 
-}  // namespace
+}  // namespace ods::scene_options_test

@@ -9,7 +9,7 @@
 #include "tests/support/cli_runner.h"
 #include "tests/support/gltf_builder.h"
 
-namespace {
+namespace ods::stage_command_test {
 
 // A file with a closed box of single walls that face inwards, `width` wide, or outwards: an object.
 class Stage : public Cli {
@@ -74,7 +74,7 @@ TEST_F(Stage, ARoomInCentimetresIsRecognisedAndSaid) {
   ASSERT_EQ(run("info " + room + " --unit m"), 0) << err;
   EXPECT_NE(out.find("size           600 x 260 x 500 m"), std::string::npos) << out;
   ASSERT_EQ(run("info --json " + room), 0) << err;
-  const ods::Json json = ods::Json::parse(out);
+  const ods::GltfJson json = ods::GltfJson::parse(out);
   EXPECT_EQ(json["kind"], "a closed room");
   EXPECT_NEAR(json["metres_per_unit"].get<double>(), 0.01, 1e-6);
   EXPECT_NEAR(json["viewer"]["position"][1].get<double>(), 0.3, 0.01) << "1.6 m above the floor at -1.3";
@@ -207,7 +207,7 @@ TEST_F(Stage, AnObjectTurnsOnTheSpot) {
 
 TEST_F(Stage, ThePolesAreMergedByDefault) {
   const std::string render = "render room" + kTiny + folder.path("a.png") + " --sidecar ";
-  const auto merge = [&] { return ods::Json::parse(bytes("a.camera.json")).dump(); };
+  const auto merge = [&] { return ods::GltfJson::parse(bytes("a.camera.json")).dump(); };
   ASSERT_EQ(run(render), 0) << err;
   EXPECT_NE(merge().find("\"mode\":\"cosine\""), std::string::npos) << merge();
   const std::string usual = bytes("a.png");
@@ -220,4 +220,4 @@ TEST_F(Stage, ThePolesAreMergedByDefault) {
   EXPECT_EQ(merge().find("cosine"), std::string::npos) << "another system's camera has that system's merge";
 }
 
-}  // namespace
+}  // namespace ods::stage_command_test

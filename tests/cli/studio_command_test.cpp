@@ -18,10 +18,11 @@
 #include "tests/support/gltf_builder.h"
 #include "tests/support/served.h"
 
-using Json = nlohmann::json;
 using namespace std::chrono_literals;
 
-namespace {
+namespace ods::studio_command_test {
+
+using Json = nlohmann::json;
 
 struct Frame {
   Json about;
@@ -117,8 +118,6 @@ std::array<double, 2> means_of_halves(const std::vector<float>& values) {
   for (double& sum : sums) sum /= static_cast<double>(values.size()) / 2.0;
   return sums;
 }
-
-}  // namespace
 
 TEST_F(StudioCommand, DescribesItsControls) {
   const Json studio = Json::parse(body_of(get("view.json")))["studio"];
@@ -451,4 +450,32 @@ TEST_F(StudioCommand, SaysWhatAClickMeets) {
   ASSERT_TRUE(ground.contains("distance")) << ground;
   EXPECT_GT(ground["distance"], 0.1);
   EXPECT_GT(ground["disparity"], 0.0);
+  const Json comfort = ground["comfort"];
+  EXPECT_NEAR(comfort["distance"], ground["distance"], 0.03);
+  EXPECT_GT(comfort["vertical"], 1.0);
+  EXPECT_TRUE(comfort["level"].is_string()) << comfort;
 }
+
+// What the page lays over the picture, and beside the merge's curve.
+TEST_F(StudioCommand, KnowsWhereEyesStrain) {
+  Json settings = Json::parse(body_of(get("view.json")))["studio"]["settings"];
+  settings["sidecar"]["position"] = {0, 0.3, 0};
+  frame_of(asked("set", settings)["revision"], "base", 192);
+  const Json comfort = Json::parse(body_of(get("studio/comfort")));
+  ASSERT_EQ(comfort["auto"].size(), 180u) << comfort;
+  EXPECT_LT(comfort["auto"][179], 0.3) << "the ground is near";
+  EXPECT_EQ(comfort["auto"][90], 1.0);
+  EXPECT_NE(comfort["level"], "ok") << comfort;
+  for (const char* eye : {"left", "right"}) {
+    const std::string heat = get(fmt::format("studio/heat.png?eye={}", eye));
+    ASSERT_EQ(status_of(heat), 200) << heat.substr(0, 300);
+    const std::string png = body_of(heat);
+    const ods::CodeImage image = ods::decode_image(std::as_bytes(std::span(png)), "heat.png");
+    size_t hot = 0;
+    for (const uint32_t pixel : image.pixels) hot += pixel >> 24 != 0u;
+    EXPECT_GT(hot, image.pixels.size() / 50);
+    EXPECT_LT(hot, image.pixels.size() * 9 / 10);
+  }
+}
+
+}  // namespace ods::studio_command_test

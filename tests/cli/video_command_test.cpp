@@ -10,7 +10,7 @@
 #include "tests/support/decoded_video.h"
 #include "tests/support/made_videos.h"
 
-namespace {
+namespace ods::video_command_test {
 
 using Json = nlohmann::json;
 
@@ -201,4 +201,4 @@ TEST_F(VideoCommand, FfprobeReadsWhatWeWrite) {
   EXPECT_NE(text.find("projection=equirectangular"), std::string::npos) << text;
 }
 
-}  // namespace
+}  // namespace ods::video_command_test

@@ -11,12 +11,13 @@
 #include <fstream>
 #include <thread>
 
+#include "ods/image/image_file.h"
 #include "tests/support/programs.h"
 #include "tests/support/served.h"
 
 using namespace std::chrono_literals;
 
-namespace {
+namespace ods::view_command_test {
 
 class ViewCommand : public Served {
  protected:
@@ -28,8 +29,6 @@ class ViewCommand : public Served {
 
   std::string picture;
 };
-
-}  // namespace
 
 TEST_F(ViewCommand, ServesThePageAndWhatItShows) {
   const std::string page = get("");
@@ -45,6 +44,35 @@ TEST_F(ViewCommand, ServesThePageAndWhatItShows) {
   EXPECT_EQ(status_of(part), 206);
   EXPECT_TRUE(part.ends_with("\r\n\r\nPNG"));
   EXPECT_NE(get("item/0/left.jpg?width=64").find("\xff\xd8\xff"), std::string::npos);
+  EXPECT_NE(view.find("\"thumbnail\":\"item/0/thumbnail.jpg\""), std::string::npos);
+  EXPECT_NE(get("item/0/thumbnail.jpg").find("\xff\xd8\xff"), std::string::npos);
+  EXPECT_EQ(status_of(get("item/0/preview.jpg")), 404) << "the picture is small";
+}
+
+// Of a large JPEG a small one is there at once.
+TEST_F(ViewCommand, ServesSmallCopies) {
+  const std::string large = folder.path("large_360_TB.jpg"), light = folder.path("light.exr");
+  ASSERT_EQ(run("testcard -q --width 2048 -o " + large), 0) << err;
+  ASSERT_EQ(run("convert " + picture + " -q -o " + light), 0) << err;
+  Served::TearDown();
+  serve({large, light, picture});
+  const std::string view = get("view.json");
+  EXPECT_NE(view.find("\"preview\":\"item/0/preview.jpg\""), std::string::npos);
+  EXPECT_EQ(view.find("\"preview\":\"item/1/"), std::string::npos);
+  EXPECT_NE(view.find("\"light\":\"item/1/light.png\""), std::string::npos);
+  const auto size_of = [this](const std::string& path) {
+    folder.write("copy", body_of(get(path)));
+    const ods::FileInfo info = ods::read_info(folder.path("copy"));
+    return std::pair(info.width, info.height);
+  };
+  EXPECT_EQ(size_of("item/0/preview.jpg"), std::pair(1024, 1024));
+  EXPECT_EQ(size_of("item/0/thumbnail.jpg"), std::pair(256, 128));
+  EXPECT_EQ(size_of("item/1/thumbnail.jpg"), std::pair(256, 128));
+  EXPECT_EQ(size_of("item/1/light.png"), std::pair(512, 256));
+  EXPECT_EQ(status_of(get("item/0/light.png")), 404);
+  EXPECT_EQ(size_of("item/2/thumbnail.jpg"), std::pair(256, 128));
+  ASSERT_EQ(run("testcard -q --width 128 -o " + picture), 0) << err;
+  EXPECT_EQ(size_of("item/2/thumbnail.jpg"), std::pair(128, 64)) << "the file was written anew";
 }
 
 TEST_F(ViewCommand, AnswersNobodyElse) {
@@ -180,6 +208,42 @@ TEST_F(ViewCommand, ServesNoFileThatBecomesALink) {
   fs::remove(picture);
   fs::copy(private_file, picture);
   EXPECT_EQ(status_of(get("item/0/picture.png")), 200) << "a file that was made again";
+}
+
+// What a page says is for the other pages, until it has been silent for ten seconds.
+TEST_F(ViewCommand, HandsOnWhatPagesShare) {
+  EXPECT_EQ(body_of(get("alive")), R"({"pages":0})");
+  EXPECT_EQ(status_of(post("share?id=a", R"({"look": {"yaw": 1}})")), 200);
+  EXPECT_EQ(status_of(post("share?id=b", "{}")), 200);
+  EXPECT_EQ(body_of(get("share?id=b&after=0")), R"({"number":2,"messages":{"a":{"look":{"yaw":1}}}})");
+  EXPECT_EQ(body_of(get("share?id=c&after=1")), R"({"number":2,"messages":{"b":{}}})");
+  EXPECT_EQ(body_of(get("alive")), R"({"pages":2})");
+  std::string waited;
+  std::thread waiting([&] { waited = body_of(get("share?id=b&after=2")); });
+  std::this_thread::sleep_for(300ms);
+  EXPECT_EQ(status_of(post("share?id=a", R"({"look":null})")), 200);
+  waiting.join();
+  EXPECT_EQ(waited, R"({"number":3,"messages":{"a":{"look":null}}})");
+  for (int page = 0; page < 20; page++) post(fmt::format("share?id=page{}", page), "{}");
+  EXPECT_EQ(body_of(get("alive")), R"({"pages":8})");
+  std::this_thread::sleep_for(10500ms);
+  EXPECT_EQ(body_of(get("alive")), R"({"pages":0})");
+  EXPECT_EQ(body_of(get("share?id=b&after=0")), R"({"number":23,"messages":{}})") << "after five seconds";
+}
+
+TEST_F(ViewCommand, SharesNothingThatIsNoMessage) {
+  for (const char* id : {"", "A", "a b", "%22", "01234567890123456", "%C3%A4"}) {
+    EXPECT_EQ(status_of(post(fmt::format("share?id={}", id), "{}")), 400) << id;
+    EXPECT_EQ(status_of(get(fmt::format("share?id={}", id))), 400) << id;
+  }
+  const std::string deep = std::string(8000, '[') + std::string(8000, ']');
+  for (const std::string& wrong : {std::string(), std::string("[]"), std::string("{"), std::string("{}{}"),
+                                   std::string("1"), "{\"a\":" + deep + "}", std::string("{\"a\":1e999}"),
+                                   "{\"a\":\"" + std::string(20'000, 'a') + "\"}"}) {
+    EXPECT_EQ(status_of(post("share?id=a", wrong)), 400) << wrong.substr(0, 40);
+  }
+  EXPECT_EQ(status_of(post("share?id=a", std::string(1 << 20, 'a'))), 413);
+  EXPECT_EQ(body_of(get("alive")), R"({"pages":0})");
 }
 
 TEST_F(ViewCommand, LimitsTheSizeOfRequests) {
@@ -393,9 +457,10 @@ TEST_F(View, ExportIsAFolderOfItsOwn) {
   ASSERT_EQ(run("convert " + picture + " -q -o " + light), 0) << err;
   EXPECT_EQ(run("view " + picture + " " + light + " --export " + site), 0) << err;
   EXPECT_EQ(out, site + "/view.json\n");
-  for (const char* file : {"index.html", "main.js", "stereo-360.js", "example.html", "view.json", "item/0/picture.png",
-                           "item/0/picture.png.js", "item/0/poster.jpg", "item/1/left.jpg", "item/1/right.jpg",
-                           "item/1/right.jpg.js", "item/1/poster.jpg"}) {
+  for (const char* file :
+       {"index.html", "main.js", "stereo-360.js", "example.html", "view.json", "item/0/picture.png",
+        "item/0/picture.png.js", "item/0/poster.jpg", "item/0/thumbnail.jpg", "item/1/left.jpg", "item/1/right.jpg",
+        "item/1/right.jpg.js", "item/1/poster.jpg", "item/1/light.png", "item/1/light.png.js"}) {
     EXPECT_TRUE(std::filesystem::exists(site + "/" + file)) << file;
   }
 }
@@ -407,3 +472,5 @@ TEST_F(View, SaysWhatItCannotShow) {
   EXPECT_EQ(run("view room --export " + folder.path("site")), 2);
   EXPECT_EQ(run("view"), 2);
 }
+
+}  // namespace ods::view_command_test

@@ -15,8 +15,7 @@
 #include "tests/support/cli_runner.h"
 #include "tests/support/tagged_videos.h"
 
-namespace ods {
-namespace {
+namespace ods::which_word_wins_test {
 
 ProjectionSetting named(const char* name) {
   return find_projection(name)->setting;
@@ -123,5 +122,4 @@ TEST_F(Circles, OutsideThePictureAreRefused) {
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::which_word_wins_test

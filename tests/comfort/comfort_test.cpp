@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "ods/base/error.h"
+#include "ods/camera/pixel.h"
 #include "ods/comfort/merge_from_depth.h"
 #include "ods/picture/picture.h"
 
@@ -27,9 +28,7 @@ SeenDepth see(const StereoCamera& camera, int eye, const std::vector<Ball>& ball
   const Camera kernel = make_camera(camera);
   for (int y = 0; y < width / 2; y++) {
     for (int x = 0; x < width; x++) {
-      const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
-                    (static_cast<float>(y) + 0.5f) / static_cast<float>(width / 2));
-      const Ray ray = camera_ray(kernel, eye, uv);
+      const Ray ray = camera_ray(kernel, eye, pixel_middle(x, y, seen.depth));
       float nearest = 20.0f;
       int thing = -1;
       for (size_t i = 0; i < balls.size(); i++) {
@@ -124,6 +123,84 @@ TEST(Comfort, TheMergeFromDepthKeepsTheLimit) {
   const Image free =
       merge_map_of(comfortable_shares(see(StereoCamera{}, kMono, {}), {}, static_cast<float>(kFusionLimit)));
   for (const float share : free.pixels) EXPECT_EQ(share, 1.0f);
+}
+
+// A thing flies over the viewer: at every moment the limit holds, before and after it the stereo comes back, and
+// nothing pumps.
+TEST(Comfort, TheMergeOfAVideoIsSteady) {
+  constexpr int kStep = 4, kLooks = 81, kPictures = kStep * (kLooks - 1) + 1;
+  constexpr float kLimit = 25.0f;
+  const auto things_at = [](int picture) {
+    const float along = 24.0f * (static_cast<float>(picture) / kPictures - 0.5f);
+    return std::vector<Ball>{{vec3(0.3f, 1.5f, along), 0.3f}};
+  };
+  std::vector<std::vector<float>> looks;
+  for (int i = 0; i < kPictures; i += kStep) {
+    looks.push_back(comfortable_shares(see(StereoCamera{}, kMono, things_at(i), 256), {}, kLimit));
+  }
+  const SteadyMerge merge(looks, kStep);
+  ASSERT_TRUE(merge.varies());
+  float least = 1.0f, most = 0.0f;
+  for (int i = 0; i < kPictures; i++) {
+    const auto map = merge.at(i), next = merge.at(i + 1);
+    for (size_t k = 0; k < map->pixels.size(); k++) {
+      EXPECT_LE(std::abs(map->pixels[k] - next->pixels[k]), 1.0f / (17 * kStep) + 0.001f) << i;
+      EXPECT_GE(map->pixels[k], merge.least().pixels[k]);
+    }
+    least = std::min(least, map->pixels[0]), most = std::max(most, map->pixels[0]);
+    if (i % 10 != 0) continue;
+    StereoCamera merged;
+    use_merge_map(merged, *map);
+    const ComfortReport report = judge_comfort(see(merged, kLeft, things_at(i), 256));
+    EXPECT_LE(report.most[static_cast<size_t>(Strain::kVertical)], double{kLimit}) << i;
+  }
+  EXPECT_LT(least, 0.5f);
+  EXPECT_EQ(most, 1.0f);
+  // One look is for all.
+  const SteadyMerge still({looks[0]}, 1);
+  EXPECT_FALSE(still.varies());
+  EXPECT_EQ(still.at(1000)->pixels, still.at(0)->pixels);
+}
+
+// Rows of a camera that is the same all around are judged by a shorter way.
+TEST(Comfort, EvenRowsAreJudgedAsAnyOthers) {
+  const std::vector<Ball> balls = {{vec3(0.5f, 0, 0), 0.05f}, {vec3(0, 0, -3), 0.4f}, {vec3(0, 1.3f, 0.05f), 0.1f}};
+  StereoCamera even, other;
+  even.bottom = even.top = {kMergeCosine, 40.0f, 80.0f, 1.0f};
+  other = even;
+  other.neck = 1e-6f;
+  for (const int eye : {kLeft, kRight}) {
+    const SeenDepth seen = see(even, eye, balls);
+    SeenDepth same = seen;
+    same.camera = other;
+    const ComfortReport a = judge_comfort(seen), b = judge_comfort(same);
+    for (size_t i = 0; i < a.share.size(); i++) EXPECT_NEAR(a.share[i], b.share[i], 1e-4);
+    for (size_t i = 0; i < a.most.size(); i++) EXPECT_NEAR(a.most[i], b.most[i], 1e-3 * a.most[i]);
+    EXPECT_NEAR(a.largest_ipd, b.largest_ipd, 1e-4);
+    ASSERT_EQ(a.places.size(), b.places.size());
+    for (size_t i = 0; i < a.places.size(); i++) {
+      EXPECT_EQ(a.places[i].name, b.places[i].name);
+      EXPECT_NEAR(a.places[i].enough, b.places[i].enough, 1e-3);
+    }
+  }
+}
+
+TEST(Comfort, APointIsJudgedAsInThePicture) {
+  const SeenDepth seen = see(StereoCamera{}, kRight, {{vec3(0.4f, 0.4f, 0), 0.05f}});
+  const ComfortReport report = judge_comfort(seen);
+  ASSERT_FALSE(report.places.empty());
+  double near = 0.0, vertical = 0.0;
+  ComfortLevel level = ComfortLevel::kOk;
+  for (int i = 0; i < seen.depth.width * seen.depth.height; i++) {
+    const int x = i % seen.depth.width, y = i / seen.depth.width;
+    const PointComfort point = judge_point(seen.camera, kRight, pixel_middle(x, y, seen.depth), *seen.depth.at(x, y));
+    near = std::max(near, point.near), vertical = std::max(vertical, point.vertical);
+    level = std::max(level, point.level);
+  }
+  EXPECT_NEAR(near, report.most[static_cast<size_t>(Strain::kNear)], 1e-3);
+  EXPECT_NEAR(vertical, report.most[static_cast<size_t>(Strain::kVertical)], 1e-2);
+  EXPECT_EQ(level, ComfortLevel::kError);
+  EXPECT_TRUE(std::isinf(judge_point(seen.camera, kRight, vec2(0.5f), kFarDepth).distance));
 }
 
 TEST(Comfort, RulesAreOfTheDistance) {

@@ -11,13 +11,13 @@
 #include <numbers>
 #include <random>
 
+#include "ods/base/angles.h"
+
 namespace ods {
 namespace {
 
 using glm::dvec3;
 using std::numbers::pi;
-
-constexpr double kDegree = pi / 180.0, kArcMinute = kDegree / 60.0;
 
 dvec3 direction(double azimuth, double elevation) {
   return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), -std::cos(elevation) * std::cos(azimuth)};

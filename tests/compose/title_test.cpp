@@ -16,8 +16,7 @@
 #include "ods/picture/picture.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::title_test {
 
 constexpr Extent kEye{2048, 1024};
 
@@ -274,5 +273,4 @@ TEST(Lettering, RefusesWhatIsNoText) {
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::title_test

@@ -11,8 +11,7 @@
 #include "ods/image/tone.h"
 #include "tests/support/stored_pictures.h"
 
-namespace ods {
-namespace {
+namespace ods::convert_test {
 
 constexpr std::array kWideLens = {0.0f, -0.08f, 0.0f, 0.0f, 0.0f};  // else small pictures are all edge
 const std::vector<int> kBoth{kLeft, kRight};
@@ -496,5 +495,4 @@ TEST(Convert, BadInput) {
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::convert_test

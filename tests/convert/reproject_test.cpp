@@ -11,8 +11,7 @@
 #include "ods/kernel/camera/project.h"
 #include "tests/support/ball_in_box.h"
 
-namespace ods {
-namespace {
+namespace ods::reproject_test {
 
 const std::vector<int> kBoth{kLeft, kRight};
 struct Result {
@@ -158,5 +157,4 @@ TEST(Reproject, TwoEyesFromOne) {
   EXPECT_LT(result.holes, 0.002);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::reproject_test

@@ -12,8 +12,7 @@
 
 #include "tests/support/ball_in_box.h"
 
-namespace ods {
-namespace {
+namespace ods::row_warp_test {
 
 const std::vector<int> kBoth{kLeft, kRight};
 
@@ -223,5 +222,4 @@ TEST(RowWarp, HolesShowWhatIsBehind) {
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::row_warp_test

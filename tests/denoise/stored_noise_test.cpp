@@ -12,8 +12,7 @@
 #include "ods/picture/load_eyes.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::stored_noise_test {
 
 constexpr int kWidth = 8, kHeight = 4;
 
@@ -190,5 +189,4 @@ TEST_F(StoredNoiseOf, TheFileKeepsWhatItHad) {
   EXPECT_EQ(denoised_rows(clean, again.picture).layers.size(), 4u);  // not a second `raw`
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::stored_noise_test

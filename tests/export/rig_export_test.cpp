@@ -20,8 +20,7 @@
 #include "ods/stitch/rig_mark.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::rig_export_test {
 
 // 8 slits of two views for both eyes, none of them upright.
 SlitRig make_rig(ViewDepth depth = ViewDepth::kNone) {
@@ -359,5 +358,4 @@ if (names !== "ods-rig.txt 0001.png 0002.png ") process.exit(1);
   EXPECT_EQ(folder.read("mark.txt"), mark_file(make_rig()));
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::rig_export_test

@@ -13,8 +13,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 
-namespace ods {
-namespace {
+namespace ods::layered_bsdf_test {
 
 BsdfEvaluator make_kernel() {
   BsdfEvaluator kernel;
@@ -449,5 +448,4 @@ TEST(LayersDispersion, EachColourByItsOwnIndex) {
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::layered_bsdf_test

@@ -15,8 +15,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 
-namespace ods {
-namespace {
+namespace ods::random_test {
 
 TEST(RandomPair, EveryPowerOfTwoOfSamplesFillsEveryElementaryInterval) {
   for (uint seed : {0u, 1u, 77u, 0xffffffffu}) {
@@ -346,5 +345,4 @@ TEST(Density, LightSamplesAgreeWithWhatRaysMeet) {
   EXPECT_GT(lamps, 1000);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::random_test

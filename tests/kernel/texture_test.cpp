@@ -43,12 +43,12 @@ double plane_at(glm::dvec2 uv, int wrap_u, int wrap_v, bool nearest) {
 }
 
 // A scene whose material 0 has a picture of texel() for its roughness, read through this sampler and transform.
-Scene textured(const Json& sampler, const Json& transform) {
+Scene textured(const GltfJson& sampler, const GltfJson& transform) {
   GltfBuilder file = make_triangle();
   file.json["images"] = {{{"bufferView", file.add_view(small_png())}, {"mimeType", "image/png"}}};
   file.json["samplers"] = {sampler};
-  file.json["textures"] = Json::parse(R"([{"source": 0, "sampler": 0}])");
-  Json slot = {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}};
+  file.json["textures"] = GltfJson::parse(R"([{"source": 0, "sampler": 0}])");
+  GltfJson slot = {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}};
   file.json["materials"] = {{{"pbrMetallicRoughness", {{"metallicRoughnessTexture", slot}}}}};
   Scene scene = file.load();
   scene.textures[0].width = kWidth;
@@ -84,8 +84,8 @@ TEST(Texture, EveryWrapAndFilter) {
   for (const int wrap_u : {kRepeat, kMirror, kClamp}) {
     for (const int wrap_v : {kRepeat, kMirror, kClamp}) {
       for (const bool nearest : {false, true}) {
-        const Json sampler = {{"wrapS", wrap_u}, {"wrapT", wrap_v}, {"magFilter", nearest ? 9728 : 9729}};
-        expect_plane(textured(sampler, Json::object()), wrap_u, wrap_v, nearest, unmoved);
+        const GltfJson sampler = {{"wrapS", wrap_u}, {"wrapT", wrap_v}, {"magFilter", nearest ? 9728 : 9729}};
+        expect_plane(textured(sampler, GltfJson::object()), wrap_u, wrap_v, nearest, unmoved);
       }
     }
   }
@@ -97,7 +97,7 @@ TEST(Texture, TransformsScaleThenTurnThenMove) {
   for (int i = 0; i < 20; i++) {
     const glm::dvec2 offset(dice.between(-2, 2), dice.between(-2, 2)), scale(dice.between(-3, 3), dice.between(-3, 3));
     const double turn = dice.between(-7.0f, 7.0f), c = std::cos(turn), s = std::sin(turn);
-    const Json transform = {{"offset", {offset.x, offset.y}}, {"rotation", turn}, {"scale", {scale.x, scale.y}}};
+    const GltfJson transform = {{"offset", {offset.x, offset.y}}, {"rotation", turn}, {"scale", {scale.x, scale.y}}};
     expect_plane(textured({{"wrapS", kMirror}}, transform), kMirror, kRepeat, false, [&](glm::dvec2 uv) {
       uv *= scale;
       return glm::dvec2(c * uv.x + s * uv.y, c * uv.y - s * uv.x) + offset;
@@ -108,7 +108,7 @@ TEST(Texture, TransformsScaleThenTurnThenMove) {
 // Beyond a million turns the place within a texel is lost, but what is read is a texel.
 TEST(Texture, CoordinatesOfAnySizeStayInside) {
   for (const int wrap : {kRepeat, kMirror, kClamp}) {
-    const Scene scene = textured({{"wrapS", wrap}, {"wrapT", wrap}}, Json::object());
+    const Scene scene = textured({{"wrapS", wrap}, {"wrapT", wrap}}, GltfJson::object());
     const LightTable lights = make_lights(scene);
     PathTracer tracer;
     set_scene(tracer, scene, lights);

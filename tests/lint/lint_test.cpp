@@ -22,8 +22,7 @@
 #include "ods/testcard/testcard.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::lint_test {
 
 constexpr int kWidth = 512;
 constexpr double kSure = 0.5;  // what the command tells
@@ -452,5 +451,4 @@ TEST_F(Lint, LooksPastPixelsThatAreNoNumbers) {
   EXPECT_FALSE(report.not_judged.empty());
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::lint_test

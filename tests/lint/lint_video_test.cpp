@@ -15,8 +15,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/waves.h"
 
-namespace ods {
-namespace {
+namespace ods::lint_video_test {
 
 constexpr Extent kEye{512, 256};
 
@@ -118,5 +117,4 @@ TEST_F(LintVideo, StopsWhenItIsAskedTo) {
   EXPECT_THROW(lint_video(folder.path("f.00_TB.png")), Error);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::lint_video_test

@@ -15,8 +15,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/waves.h"
 
-namespace ods {
-namespace {
+namespace ods::one_eye_test {
 
 constexpr Extent kSize{1024, 512};
 constexpr float kPi2 = 6.2831853f;
@@ -122,5 +121,4 @@ TEST_F(LintOneEye, ANoisyGlowHasNoBands) {
   EXPECT_EQ(found, nullptr) << found->evidence;
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::one_eye_test

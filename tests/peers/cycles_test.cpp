@@ -43,7 +43,7 @@ constexpr const char* kLightNames[] = {"sky", "white", "none"};
 
 struct Case {
   std::string name;
-  Json material;
+  GltfJson material;
   std::string fix;  // Python, where `principled`, `shader()`, `nodes` and `links` are the material's
   Light light = Light::kSky;
   bool floor = false;  // a metal floor below the ball
@@ -109,7 +109,7 @@ absorption.inputs['Color'].default_value = [1 + math.log(c) / most for c in colo
 absorption.inputs['Density'].default_value *= most
 )";
 
-Json metal_material(const std::vector<double>& color, double roughness) {
+GltfJson metal_material(const std::vector<double>& color, double roughness) {
   return {{"pbrMetallicRoughness",
            {{"baseColorFactor", {color[0], color[1], color[2], 1.0}},
             {"metallicFactor", 1.0},
@@ -132,7 +132,7 @@ std::vector<Case> make_cases() {
     }
   }
   for (const double roughness : {0.0, 0.3}) {
-    Case& glass = cases.emplace_back(Case{fmt::format("glass {} with volume", roughness), Json(), kGlassFix});
+    Case& glass = cases.emplace_back(Case{fmt::format("glass {} with volume", roughness), GltfJson(), kGlassFix});
     glass.material = {
         {"pbrMetallicRoughness",
          {{"baseColorFactor", {1.0, 1.0, 1.0, 1.0}}, {"metallicFactor", 0.0}, {"roughnessFactor", roughness}}},
@@ -172,7 +172,7 @@ int add_shape(GltfBuilder& file, const Shape& shape, int material) {
 Binary file_of(const Case& each) {
   GltfBuilder file;
   file.json = {{"asset", {{"version", "2.0"}}}, {"materials", {each.material}}};
-  const Json extensions = each.material.value("extensions", Json::object());
+  const GltfJson extensions = each.material.value("extensions", GltfJson::object());
   for (const auto& [name, value] : extensions.items()) file.json["extensionsUsed"].push_back(name);
   add_shape(file, make_sphere(1.0f, 128), 0);
   if (each.floor) {

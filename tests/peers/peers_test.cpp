@@ -82,7 +82,7 @@ void write_gltf(const TemporaryFolder& folder) {
   Surface surface;
   for (const Thing& thing : kThings) thing.is_ball ? add_ball(thing, surface) : add_box(thing, surface);
   GltfBuilder file;
-  file.json = Json::parse(R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+  file.json = GltfJson::parse(R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
       "materials": [{"emissiveFactor": [1, 1, 1], "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}}],
       "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}]})");
   file.add(surface.points, kFloat, "VEC3");

@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace ods {
-namespace {
+namespace ods::channel_layers_test {
 
 TEST(ChannelLayers, TheRuleGoesByTheName) {
   struct Row {
@@ -58,5 +57,4 @@ TEST(ChannelLayers, TheColourIsTakenOut) {
   EXPECT_FALSE(take_color(none));
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::channel_layers_test

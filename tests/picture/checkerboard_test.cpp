@@ -8,8 +8,7 @@
 #include "tests/support/saved_pictures.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::checkerboard_test {
 
 // Light is a ramp, so that the mean of four neighbours is what was left out; over the edge there is none to be had.
 TEST(Checkerboard, KeepsHalfOfEachEyeAndFillsTheRest) {
@@ -59,5 +58,4 @@ TEST(Checkerboard, FillsLayersByTheirRulesAndColoursByTheirAlpha) {
   EXPECT_NEAR(light_at(codes, codes.eyes[1], 0, 0, 1), mean, 0.005f) << "weighted by alpha";
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::checkerboard_test

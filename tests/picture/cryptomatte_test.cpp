@@ -10,8 +10,7 @@
 #include "ods/image/image_file.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::cryptomatte_test {
 
 // Known answers of MurmurHash3_x86_32 with the seed 0.
 TEST(Cryptomatte, HashesAreMurmurs) {
@@ -74,5 +73,4 @@ TEST(Cryptomatte, HeadersOfOthersAndDamagedOnes) {
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::cryptomatte_test

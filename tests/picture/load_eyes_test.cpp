@@ -12,8 +12,7 @@
 #include "tests/support/saved_pictures.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::load_eyes_test {
 
 const int kWidth = 16, kHeight = 8;
 
@@ -190,5 +189,4 @@ TEST(LoadEyes, RefusesWhatIsNotThere) {
   EXPECT_THROW(read_channels(folder.path("left.png"), {"Z"}), Error);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::load_eyes_test

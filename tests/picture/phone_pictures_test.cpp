@@ -16,8 +16,7 @@
 #include "tests/support/programs.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::phone_pictures_test {
 
 using made::box, made::number;
 
@@ -299,5 +298,4 @@ TEST(Orientation, PicturesAreReadAsProgramsShowThem) {
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::phone_pictures_test

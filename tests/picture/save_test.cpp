@@ -16,8 +16,7 @@
 #include "ods/image/image_file.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::save_test {
 
 const int kWidth = 32, kHeight = 16;
 const char* const kExtensions[] = {"png", "jpg", "jpeg", "tif", "tiff", "webp", "hdr", "exr"};
@@ -64,7 +63,7 @@ float code_error(float a, float b) {
   return 255.0f * std::abs(srgb_encode(a) - srgb_encode(b));
 }
 
-float tolerance(FileFormat format) {
+float code_tolerance(FileFormat format) {
   switch (format) {
     case FileFormat::kPng:
     case FileFormat::kTiff:
@@ -90,10 +89,10 @@ void expect_eye(const Image& image, FileFormat format, int eye, int left, int to
       // Lossy codecs mix the eyes along their border.
       const bool border = (top > 0 || image.height > kHeight) && (y < 2 || y >= kHeight - 2);
       const bool side = (left > 0 || image.width > kWidth) && (x < 2 || x >= kWidth - 2);
-      if (tolerance(format) > 1.0f && (border || side)) continue;
+      if (code_tolerance(format) > 1.0f && (border || side)) continue;
       const vec3 value = expected(format, eye, x, y);
       for (int c = 0; c < 3; c++) {
-        ASSERT_LE(code_error(image.at(left + x, top + y)[c], value[c]), tolerance(format))
+        ASSERT_LE(code_error(image.at(left + x, top + y)[c], value[c]), code_tolerance(format))
             << "eye " << eye << " x " << x << " y " << y << " channel " << c;
       }
     }
@@ -303,5 +302,4 @@ TEST(Save, AFullDiskLeavesNothing) {
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::save_test

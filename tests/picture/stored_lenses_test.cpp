@@ -9,8 +9,7 @@
 #include "ods/picture/save.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::stored_lenses_test {
 
 // Where the whole eyes would have a direction, less the bars around both together.
 TEST(StoredPicture, BlackBarsMoveEachEye) {
@@ -45,5 +44,4 @@ TEST(StoredPicture, BlackBarsMoveEachEye) {
   EXPECT_FALSE(beside.maps[0]->place(vec3(0.0f, 0.0f, 1.0f)).seen);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::stored_lenses_test

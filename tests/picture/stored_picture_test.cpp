@@ -23,8 +23,7 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tiff_files.h"
 
-namespace ods {
-namespace {
+namespace ods::stored_picture_test {
 
 void expect_eye(const StoredPicture& picture, const StoredEye& eye, FileFormat format) {
   const int columns = kWidth / picture.size.width, rows = kHeight / picture.size.height;
@@ -117,6 +116,17 @@ TEST(OpenPicture, LayersHaveTheirRulesAndKindsOfNumber) {
     OpenOptions light_only;
     light_only.color_only = true;
     EXPECT_EQ(open_picture(folder.path("a.exr"), light_only).eyes[1].layers.size(), 1u);
+    const StoredPicture some = PictureReader(folder.path("a.exr")).read("", [](const std::string& name) {
+      return name == "Z" || name == "N.Y";
+    });
+    for (size_t i = 0; i < some.eyes.size(); i++) {
+      const StoredEye &whole = picture.eyes[i], &eye = some.eyes[i];
+      ASSERT_EQ(eye.layers.size(), 3u);
+      EXPECT_EQ(eye.layers[0].first, nullptr);
+      EXPECT_EQ(eye.layers[1].channels, std::vector<std::string>{"N.Y"});
+      EXPECT_EQ(value_at(eye.layers[1], 7, 5, 0), value_at(whole.layers[1], 7, 5, 1));
+      EXPECT_EQ(value_at(eye.layers[2], 5, 9, 0), value_at(whole.layers[2], 5, 9, 0));
+    }
   }
 }
 
@@ -217,6 +227,38 @@ TEST(SaveRows, EveryCodeValueComesBack) {
         ASSERT_EQ(static_cast<uint8_t>(second.eyes[0].layers[0].first[i]), codes[i]) << extension << channels << i;
       }
     }
+  }
+}
+
+// Two views in layers that have names, as Blender writes stereo.
+TEST(OpenPicture, ReadsBothViewsOfBlender) {
+  const TemporaryFolder folder;
+  ExrForm form;
+  form.width = 64, form.height = 32, form.channels.clear();
+  for (const std::string view : {"left", "right"}) {
+    for (const std::string channel : {"A", "B", "G", "R"})
+      form.channels.push_back("Scene.Combined." + view + "." + channel);
+    form.channels.push_back("Scene.CryptoObject00." + view + ".r");
+    form.channels.push_back("Scene.Depth." + view + ".Z");
+  }
+  form.types.assign(form.channels.size(), Imf::FLOAT);
+  std::vector<float> values;
+  for (int i = 0; i < 64 * 32; i++) {
+    for (size_t c = 0; c < form.channels.size(); c++) values.push_back(static_cast<float>(c) + 1.0f);
+  }
+  write_exr_of(folder.path("a.exr"), form, values);
+  const StoredPicture picture = open_picture(folder.path("a.exr"));
+  EXPECT_EQ(picture.layout, Layout::kMultiview);
+  ASSERT_EQ(picture.eyes.size(), 2u);
+  for (size_t eye = 0; eye < 2; eye++) {
+    const std::vector<LayerPixels>& layers = picture.eyes[eye].layers;
+    ASSERT_EQ(layers.size(), 3u);
+    const float first = 6.0f * static_cast<float>(eye);
+    EXPECT_EQ(value_at(layers[0], 5, 7, 0), first + 4.0f) << "R";
+    EXPECT_EQ(layers[1].channels, std::vector<std::string>{"Scene.CryptoObject00.r"});
+    EXPECT_EQ(layers[2].channels, std::vector<std::string>{"Scene.Depth.Z"});
+    EXPECT_EQ(value_at(layers[2], 5, 7, 0), first + 6.0f);
+    EXPECT_EQ(layers[2].rule, LayerRule::kNearest);
   }
 }
 
@@ -480,5 +522,4 @@ TEST(OpenPicture, ALargePictureIsNeverInMemory) {
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::stored_picture_test

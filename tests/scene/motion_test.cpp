@@ -37,7 +37,7 @@ void expect_near(dvec3 actual, dvec3 expected, double tolerance = 1e-6) {
 
 TEST(Motion, ANodeCarriesItsChildren) {
   GltfBuilder file = make_triangle();
-  file.json["nodes"] = Json::parse(R"([{"children": [1], "translation": [0, 5, 0]},
+  file.json["nodes"] = GltfJson::parse(R"([{"children": [1], "translation": [0, 5, 0]},
                                        {"mesh": 0, "translation": [2, 0, 0]}])");
   const float s = std::sqrt(0.5f);
   animate(file, node_target(0, "rotation"), {0, 1}, {0, 0, 0, 1, 0, s, 0, s}, "VEC4");
@@ -134,11 +134,11 @@ TEST(Motion, WhatFliesTooFarIsHidden) {
 
 TEST(Motion, CamerasAndLightsRideOnNodes) {
   GltfBuilder file = make_triangle();
-  file.json["cameras"] = Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
+  file.json["cameras"] = GltfJson::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
   file.json["extensions"]["KHR_lights_punctual"]["lights"] =
-      Json::parse(R"([{"type": "spot", "intensity": 10, "spot": {}}])");
-  file.json["nodes"].push_back(Json::parse(R"({"camera": 0})"));
-  file.json["nodes"].push_back(Json::parse(R"({"extensions": {"KHR_lights_punctual": {"light": 0}}})"));
+      GltfJson::parse(R"([{"type": "spot", "intensity": 10, "spot": {}}])");
+  file.json["nodes"].push_back(GltfJson::parse(R"({"camera": 0})"));
+  file.json["nodes"].push_back(GltfJson::parse(R"({"extensions": {"KHR_lights_punctual": {"light": 0}}})"));
   file.json["scenes"][0]["nodes"] = {0, 1, 2};
   animate(file, node_target(1, "translation"), {0, 1}, {0, 1, 0, 0, 2, -4}, "VEC3");
   const float s = std::sqrt(0.5f);
@@ -164,11 +164,11 @@ TEST(Motion, CamerasAndLightsRideOnNodes) {
 }
 
 // Whether the first view point moves; the camera is a child of node 1.
-bool moves_camera(const Json& target, const std::vector<float>& values, const std::string& type) {
+bool moves_camera(const GltfJson& target, const std::vector<float>& values, const std::string& type) {
   GltfBuilder file = make_triangle();
-  file.json["cameras"] = Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
-  file.json["nodes"].push_back(Json::parse(R"({"children": [2]})"));
-  file.json["nodes"].push_back(Json::parse(R"({"camera": 0})"));
+  file.json["cameras"] = GltfJson::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
+  file.json["nodes"].push_back(GltfJson::parse(R"({"children": [2]})"));
+  file.json["nodes"].push_back(GltfJson::parse(R"({"camera": 0})"));
   file.json["scenes"][0]["nodes"] = {0, 1};
   animate(file, node_target(1, "scale"), {0, 1}, {1, 1, 1, 1, 1, 1}, "VEC3");  // stands still
   animate(file, target, {0, 1}, values, type);
@@ -190,7 +190,7 @@ TEST(Motion, ACameraMovesWithWhatItIsFixedTo) {
 TEST(Motion, MaterialsChange) {
   GltfBuilder file = make_triangle();
   file.primitive()["material"] = 0;
-  file.json["materials"] = Json::parse(R"([{"emissiveFactor": [0.5, 0.5, 0], "pbrMetallicRoughness":
+  file.json["materials"] = GltfJson::parse(R"([{"emissiveFactor": [0.5, 0.5, 0], "pbrMetallicRoughness":
       {"roughnessFactor": 0.25}, "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 4}}}])");
   const std::string m = "/materials/0";
   animate(file, pointer(m + "/extensions/KHR_materials_emissive_strength/emissiveStrength"), {0, 1}, {4, 8}, "SCALAR");

@@ -8,8 +8,7 @@
 #include "ods/scene/motion.h"
 #include "tests/support/moving_files.h"
 
-namespace ods {
-namespace {
+namespace ods::sheet_glass_test {
 
 Material sheet_glass() {
   Material material = default_material();
@@ -126,12 +125,12 @@ TEST(SheetGlass, AnimatedMaterialsGoOn) {
   std::vector<uint32_t> corners;
   for (const Vertex& v : box.vertices) positions.insert(positions.end(), {v.position.x, v.position.y, v.position.z});
   for (const uvec3& t : box.triangles) corners.insert(corners.end(), {t.x, t.y, t.z});
-  Json body = {{"attributes", {{"POSITION", file.add<float>(positions, kFloat, "VEC3")}}}, {"material", 1}};
+  GltfJson body = {{"attributes", {{"POSITION", file.add<float>(positions, kFloat, "VEC3")}}}, {"material", 1}};
   body["indices"] = file.add<uint32_t>(corners, kUint, "SCALAR");
   file.primitive()["material"] = 1;
   file.json["meshes"][0]["primitives"].push_back(body);
-  const Json glass = {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}};
-  file.json["materials"] = {Json::object(), {{"extensions", glass}}};
+  const GltfJson glass = {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}};
+  file.json["materials"] = {GltfJson::object(), {{"extensions", glass}}};
   animate(file, pointer("/materials/0/pbrMetallicRoughness/roughnessFactor"), {0, 1}, {1, 0.25f}, "SCALAR");
   animate(file, pointer("/materials/1/pbrMetallicRoughness/roughnessFactor"), {0, 1}, {0, 0.5f}, "SCALAR");
   Scene scene = file.load();
@@ -143,5 +142,4 @@ TEST(SheetGlass, AnimatedMaterialsGoOn) {
   EXPECT_NE(scene.meshes[0].material, scene.meshes[1].material);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::sheet_glass_test

@@ -23,12 +23,12 @@ ptrdiff_t met_instances(const Scene& scene) {
 constexpr size_t kMany = 300;
 
 // A mesh that lists its primitive many times, each time of the next of these materials.
-GltfBuilder make_many(const Json& materials) {
+GltfBuilder make_many(const GltfJson& materials) {
   GltfBuilder gltf = make_triangle();
   gltf.json["materials"] = materials;
-  const Json first = gltf.primitive();
-  Json& list = gltf.json["meshes"][0]["primitives"];
-  list = Json::array();
+  const GltfJson first = gltf.primitive();
+  GltfJson& list = gltf.json["meshes"][0]["primitives"];
+  list = GltfJson::array();
   for (size_t i = 0; i < kMany; i++) {
     list.push_back(first);
     list.back()["material"] = i % materials.size();
@@ -37,7 +37,7 @@ GltfBuilder make_many(const Json& materials) {
 }
 
 TEST(Repeats, RaysMeetOnePrimitiveOfManyThatShareTheirAccessors) {
-  const Scene scene = make_many(Json::array({Json::object(), Json::object()})).load();
+  const Scene scene = make_many(GltfJson::array({GltfJson::object(), GltfJson::object()})).load();
   ASSERT_EQ(scene.instances.size(), kMany);
   EXPECT_EQ(met_instances(scene), 1);
   EXPECT_FALSE(SceneRays(scene).look(vec3(0.2f, 0.2f, 1.0f), vec3(0.0f, 0.0f, -1.0f)).leaves());
@@ -54,8 +54,8 @@ TEST(Repeats, RaysMeetOneNodeOfManyAtOnePlace) {
 }
 
 TEST(Repeats, WhatRaysPassCountsByItsMaterial) {
-  const Json blend = {{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.2}}}}};
-  const Scene scene = make_many(Json::array({blend, Json::object()})).load();
+  const GltfJson blend = {{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.2}}}}};
+  const Scene scene = make_many(GltfJson::array({blend, GltfJson::object()})).load();
   EXPECT_EQ(met_instances(scene), 2);
   EXPECT_FALSE(SceneRays(scene).look(vec3(0.2f, 0.2f, 1.0f), vec3(0.0f, 0.0f, -1.0f)).leaves());
 }

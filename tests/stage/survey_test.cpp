@@ -7,8 +7,7 @@
 #include "tests/support/scenes.h"
 #include "tests/support/stage_scenes.h"
 
-namespace ods {
-namespace {
+namespace ods::survey_test {
 
 SceneKind kind_of(const Scene& scene) {
   return survey(SceneRays(scene)).kind;
@@ -149,5 +148,4 @@ TEST(Survey, IsTheSameEachTime) {
   EXPECT_EQ(first.stand->worth, second.stand->worth);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::survey_test

@@ -47,7 +47,7 @@ TEST(Upright, TheReaderTurnsTheFile) {
   GltfBuilder file = make_triangle();
   file.json["nodes"][0]["translation"] = {1, 2, 3};
   file.json["nodes"][0]["camera"] = 0;
-  file.json["cameras"] = Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
+  file.json["cameras"] = GltfJson::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
   const Scene scene = file.load({.z_up = true});
   EXPECT_EQ(scene.view_points.at(0).position, vec3(1, 3, -2));
   const Bounds bounds = scene_bounds(scene);

@@ -11,9 +11,7 @@
 #include "tests/support/stored_pictures.h"
 #include "tests/support/temporary_folder.h"
 
-using namespace ods;
-
-namespace {
+namespace ods::foreign_views_test {
 
 // Smooth colours on a ball of 2 m around the eyes, seen from within.
 vec3 colour(vec3 from, vec3 direction) {
@@ -161,4 +159,4 @@ TEST(ForeignViews, NormalsOfViewsBecomeTheWorlds) {
   }
 }
 
-}  // namespace
+}  // namespace ods::foreign_views_test

@@ -10,9 +10,7 @@
 #include "ods/base/json_reader.h"
 #include "ods/stitch/rig_mark.h"
 
-using namespace ods;
-
-namespace {
+namespace ods::slit_file_test {
 
 const std::vector<int> kBoth = {kLeft, kRight};
 
@@ -178,4 +176,4 @@ TEST(SlitFile, NullAndWrongTypesAreNoDefaults) {
   }
 }
 
-}  // namespace
+}  // namespace ods::slit_file_test

@@ -17,9 +17,7 @@
 #include "tests/support/stored_pictures.h"
 #include "tests/support/temporary_folder.h"
 
-using namespace ods;
-
-namespace {
+namespace ods::stitch_test {
 
 const std::vector<int> kBoth = {kLeft, kRight};
 
@@ -481,4 +479,4 @@ TEST(ViewFiles, SheetsHoldSeveralViews) {
   EXPECT_NE(names_fault(rig, files), "");
 }
 
-}  // namespace
+}  // namespace ods::stitch_test

@@ -1,15 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Browsers without a screen, as programs: how they are started, and that they end.
+// Browsers without a screen, as far as this machine has them.
 #pragma once
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -28,6 +31,7 @@ inline std::string find_program(const std::vector<std::string>& names) {
   return "";
 }
 
+// The words that start it, with a GPU that is software; none where it is missing.
 inline std::vector<std::string> chromium(const std::string& profile) {
   const std::string program =
       find_program({"chromium", "chromium-browser", "google-chrome", "chromium-headless-shell"});
@@ -51,7 +55,7 @@ inline std::vector<std::string> firefox(const std::string& profile) {
   return {program, "--headless", "--no-remote", "--profile", profile};
 }
 
-// A program and its children, until the end of its life.
+// A browser and its children, until the end of its life.
 class Browser {
  public:
   Browser(std::vector<std::string> words, const std::string& home, const std::string& address) {
@@ -79,8 +83,41 @@ class Browser {
     waitpid(pid_, nullptr, 0);
   }
 
+  pid_t pid() const { return pid_; }
+
  private:
   pid_t pid_ = -1;
 };
+
+// CPU seconds that a process and all that it has started have taken so far.
+inline double cpu_seconds_of(pid_t root) {
+  struct Process {
+    pid_t parent;
+    double seconds;
+  };
+  std::map<pid_t, Process> all;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const pid_t pid = std::atoi(entry.path().filename().c_str());
+    std::ifstream stat(entry.path() / "stat");
+    std::string line;
+    if (pid == 0 || !std::getline(stat, line)) continue;
+    std::istringstream words(line.substr(line.rfind(')') + 2));  // names may have spaces
+    std::string word;
+    Process process{};
+    double user = 0.0, system = 0.0;
+    words >> word >> process.parent;
+    for (int i = 0; i < 9; i++) words >> word;
+    words >> user >> system;
+    process.seconds = (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+    all[pid] = process;
+  }
+  double sum = 0.0;
+  for (const auto& [pid, process] : all) {
+    pid_t above = pid;
+    while (above != root && all.contains(above)) above = all[above].parent;
+    if (above == root) sum += process.seconds;
+  }
+  return sum;
+}
 
 }  // namespace ods

@@ -14,7 +14,7 @@ namespace ods {
 GltfBuilder make_grid(int size) {
   GltfBuilder file = make_triangle();
   file.binary.clear();
-  file.json["accessors"] = file.json["bufferViews"] = Json::array();
+  file.json["accessors"] = file.json["bufferViews"] = GltfJson::array();
   std::vector<float> positions, normals, uvs;
   std::vector<uint8_t> colors;
   std::vector<uint32_t> corners;
@@ -34,7 +34,7 @@ GltfBuilder make_grid(int size) {
       corners.insert(corners.end(), {a, c, b, b, c, d});
     }
   }
-  Json& primitive = file.primitive();
+  GltfJson& primitive = file.primitive();
   primitive["attributes"] = {{"POSITION", file.add(positions, kFloat, "VEC3")},
                              {"NORMAL", file.add(normals, kFloat, "VEC3")},
                              {"TEXCOORD_0", file.add(uvs, kFloat, "VEC2")},
@@ -47,7 +47,7 @@ GltfBuilder make_grid(int size) {
 // --- Draco
 
 static Binary bytes_of(const GltfBuilder& file, int accessor) {
-  const Json& view = file.json["bufferViews"][file.json["accessors"][size_t(accessor)]["bufferView"].get<size_t>()];
+  const GltfJson& view = file.json["bufferViews"][file.json["accessors"][size_t(accessor)]["bufferView"].get<size_t>()];
   const auto first = file.binary.begin() + view["byteOffset"].get<ptrdiff_t>();
   return {first, first + view["byteLength"].get<ptrdiff_t>()};
 }
@@ -77,7 +77,7 @@ static draco::GeometryAttribute::Type draco_kind(const std::string& name) {
 }
 
 static int add_attribute(draco::Mesh& mesh, const GltfBuilder& file, const std::string& name, int index) {
-  const Json& accessor = file.json["accessors"][size_t(index)];
+  const GltfJson& accessor = file.json["accessors"][size_t(index)];
   const int components = accessor["type"] == "SCALAR" ? 1 : accessor["type"].get<std::string>().back() - '0';
   const draco::DataType type = draco_type(accessor["componentType"]);
   const int stride = components * draco::DataTypeLength(type);
@@ -94,7 +94,7 @@ static int add_attribute(draco::Mesh& mesh, const GltfBuilder& file, const std::
   return id;
 }
 
-Binary draco_stream(const GltfBuilder& file, const Json& primitive, const DracoChoice& choice, Json* ids) {
+Binary draco_stream(const GltfBuilder& file, const GltfJson& primitive, const DracoChoice& choice, GltfJson* ids) {
   draco::Mesh mesh;
   for (const auto& [name, accessor] : primitive["attributes"].items()) {
     const int id = add_attribute(mesh, file, name, accessor);
@@ -118,8 +118,8 @@ Binary draco_stream(const GltfBuilder& file, const Json& primitive, const DracoC
   return {buffer.data(), buffer.data() + buffer.size()};
 }
 
-void compress_draco(GltfBuilder& file, Json& primitive, const DracoChoice& choice, bool keep) {
-  Json ids;
+void compress_draco(GltfBuilder& file, GltfJson& primitive, const DracoChoice& choice, bool keep) {
+  GltfJson ids;
   const Binary stream = draco_stream(file, primitive, choice, &ids);
   const int view = file.add_view(stream);
   primitive["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", view}, {"attributes", ids}};
@@ -136,7 +136,7 @@ void compress_draco(GltfBuilder& file, Json& primitive, const DracoChoice& choic
 
 void compress_meshopt(GltfBuilder& file, int index, const std::string& mode, size_t stride, const std::string& filter,
                       const std::string& name) {
-  const Json old = file.json["bufferViews"][size_t(index)];
+  const GltfJson old = file.json["bufferViews"][size_t(index)];
   const auto first = file.binary.begin() + old["byteOffset"].get<ptrdiff_t>();
   Binary plain(first, first + old["byteLength"].get<ptrdiff_t>());
   plain.resize((plain.size() + stride - 1) / stride * stride);
@@ -153,8 +153,8 @@ void compress_meshopt(GltfBuilder& file, int index, const std::string& mode, siz
   }
   EXPECT_GT(packed.size(), 0u);
   std::fill(first, first + old["byteLength"].get<ptrdiff_t>(), 0xcd);  // whoever reads the plain data sees it
-  const Json source = file.json["bufferViews"][size_t(file.add_view(packed))];
-  Json& view = file.json["bufferViews"][size_t(index)];
+  const GltfJson source = file.json["bufferViews"][size_t(file.add_view(packed))];
+  GltfJson& view = file.json["bufferViews"][size_t(index)];
   view["buffer"] = 1;  // without data
   view["byteOffset"] = 0;
   view["byteLength"] = plain.size();
@@ -166,7 +166,7 @@ void compress_meshopt(GltfBuilder& file, int index, const std::string& mode, siz
                               {"mode", mode}};
   if (filter != "NONE") view["extensions"][name]["filter"] = filter;
   file.json["extensionsRequired"] = file.json["extensionsUsed"] = {name};
-  Json fallback = {{"byteLength", 1 << 20}};
+  GltfJson fallback = {{"byteLength", 1 << 20}};
   fallback["extensions"][name]["fallback"] = true;
   file.json["buffers"] = {{{"byteLength", file.binary.size()}}, fallback};
 }

@@ -21,10 +21,10 @@ struct DracoChoice {
 };
 
 // The Draco stream of a primitive; ids: of its attributes, numbered as they come.
-Binary draco_stream(const GltfBuilder& file, const Json& primitive, const DracoChoice& choice, Json* ids);
+Binary draco_stream(const GltfBuilder& file, const GltfJson& primitive, const DracoChoice& choice, GltfJson* ids);
 
 // Compresses a primitive. keep: its accessors keep their plain data beside it (the extension is optional).
-void compress_draco(GltfBuilder& file, Json& primitive, const DracoChoice& choice = {}, bool keep = false);
+void compress_draco(GltfBuilder& file, GltfJson& primitive, const DracoChoice& choice = {}, bool keep = false);
 
 // Replaces the buffer view of an accessor by a compressed one. filter: of attributes, whose bytes are encoded as they
 // are: already filtered.

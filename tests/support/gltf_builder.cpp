@@ -41,7 +41,7 @@ Binary make_glb(const std::string& text, const Binary& binary) {
 }
 
 Binary GltfBuilder::glb() const {
-  Json document = json;
+  GltfJson document = json;
   if (!document.contains("buffers")) document["buffers"] = {{{"byteLength", binary.size()}}};
   return make_glb(document.dump(), binary);
 }
@@ -54,7 +54,7 @@ Scene GltfBuilder::load(const SceneOptions& options) const {
 
 GltfBuilder make_triangle() {
   GltfBuilder file;
-  file.json = Json::parse(R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+  file.json = GltfJson::parse(R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
                               "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]})");
   file.add<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, kFloat, "VEC3");
   return file;

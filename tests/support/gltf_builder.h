@@ -13,14 +13,14 @@
 
 namespace ods {
 
-using Json = nlohmann::json;
+using GltfJson = nlohmann::json;
 using Binary = std::vector<unsigned char>;
 
 // Component types of glTF.
 enum { kByte = 5120, kUbyte = 5121, kShort = 5122, kUshort = 5123, kUint = 5125, kFloat = 5126 };
 
 struct GltfBuilder {
-  Json json;
+  GltfJson json;
   Binary binary;
 
   // Appends values to the binary with a buffer view of their own, and an accessor on it; returns the accessor. The
@@ -36,8 +36,8 @@ struct GltfBuilder {
   // A buffer view without an accessor.
   int add_view(const Binary& bytes);
 
-  Json& primitive() { return json["meshes"][0]["primitives"][0]; }
-  Json& node(size_t i) { return json["nodes"][i]; }
+  GltfJson& primitive() { return json["meshes"][0]["primitives"][0]; }
+  GltfJson& node(size_t i) { return json["nodes"][i]; }
 
   Binary glb() const;
   Scene load(const SceneOptions& options = {}) const;  // fails the test when the Scene breaks a promise

@@ -10,10 +10,10 @@
 namespace ods {
 
 // One channel more in animation 0.
-inline void animate(GltfBuilder& file, const Json& target, const std::vector<float>& times,
+inline void animate(GltfBuilder& file, const GltfJson& target, const std::vector<float>& times,
                     const std::vector<float>& values, const std::string& type,
                     const std::string& interpolation = "LINEAR") {
-  Json& animation = file.json["animations"][0];
+  GltfJson& animation = file.json["animations"][0];
   const size_t index = animation["samplers"].size();
   animation["samplers"].push_back({{"input", file.add<float>(times, kFloat, "SCALAR")},
                                    {"output", file.add<float>(values, kFloat, type)},
@@ -21,18 +21,18 @@ inline void animate(GltfBuilder& file, const Json& target, const std::vector<flo
   animation["channels"].push_back({{"sampler", index}, {"target", target}});
 }
 
-inline Json node_target(int node, const std::string& path) {
+inline GltfJson node_target(int node, const std::string& path) {
   return {{"node", node}, {"path", path}};
 }
 
-inline Json pointer(const std::string& path) {
+inline GltfJson pointer(const std::string& path) {
   return {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", path}}}}}};
 }
 
 // A strip of which the far end hangs on a joint that turns, the middle on both.
 inline GltfBuilder make_skinned(bool second_set) {
   GltfBuilder file = make_triangle();
-  file.json["nodes"] = Json::parse(R"([{"mesh": 0, "skin": 0, "translation": [9, 9, 9]}, {"children": [2]},
+  file.json["nodes"] = GltfJson::parse(R"([{"mesh": 0, "skin": 0, "translation": [9, 9, 9]}, {"children": [2]},
                                        {"translation": [1, 0, 0]}])");
   file.json["scenes"][0]["nodes"] = {0, 1};
   file.primitive()["attributes"]["POSITION"] = file.add<float>({0, 0, 0, 1, 0.5f, 0, 2, 0, 0}, kFloat, "VEC3");

@@ -9,12 +9,12 @@
 namespace ods {
 namespace {
 
-Json json_of(vec3 v) {
-  return Json::array({v.x, v.y, v.z});
+GltfJson json_of(vec3 v) {
+  return GltfJson::array({v.x, v.y, v.z});
 }
 
-Json json_of(const TextureSlot& slot) {
-  return Json{{"index", slot.texture}};
+GltfJson json_of(const TextureSlot& slot) {
+  return GltfJson{{"index", slot.texture}};
 }
 
 void add_textures(GltfBuilder& file, const Scene& scene) {
@@ -27,9 +27,9 @@ void add_textures(GltfBuilder& file, const Scene& scene) {
   }
 }
 
-Json json_of(const Material& material) {
-  Json json, extensions;
-  Json& surface = json["pbrMetallicRoughness"];
+GltfJson json_of(const Material& material) {
+  GltfJson json, extensions;
+  GltfJson& surface = json["pbrMetallicRoughness"];
   const vec4 color = material.base_color;
   surface["baseColorFactor"] = {color.x, color.y, color.z, color.w};
   surface["metallicFactor"] = material.metallic;
@@ -43,7 +43,7 @@ Json json_of(const Material& material) {
   extensions["KHR_materials_ior"] = {{"ior", material.ior}};
   if (material.transmission > 0.0f) {
     extensions["KHR_materials_transmission"] = {{"transmissionFactor", material.transmission}};
-    Json& volume = extensions["KHR_materials_volume"];
+    GltfJson& volume = extensions["KHR_materials_volume"];
     volume["thicknessFactor"] = material.thickness;
     if (material.attenuation_distance > 0.0f) {
       volume["attenuationDistance"] = material.attenuation_distance;
@@ -72,32 +72,32 @@ void add_meshes(GltfBuilder& file, const Scene& scene) {
       std::memcpy(bytes.data(), values.data(), bytes.size());
       return file.add_bytes(bytes, values.size() * width, component, type);
     };
-    Json primitive;
+    GltfJson primitive;
     primitive["attributes"]["POSITION"] = add(positions, 3, kFloat, "VEC3");
     primitive["attributes"]["NORMAL"] = add(normals, 3, kFloat, "VEC3");
     primitive["attributes"]["TEXCOORD_0"] = add(places, 2, kFloat, "VEC2");
     primitive["indices"] = add(triangles, 3, kUint, "SCALAR");
     primitive["material"] = mesh.material;
-    Json json;
+    GltfJson json;
     json["primitives"].push_back(primitive);
     file.json["meshes"].push_back(json);
   }
 }
 
 // Appends a node to the scene.
-Json& add_node(GltfBuilder& file) {
+GltfJson& add_node(GltfBuilder& file) {
   file.json["scenes"][0]["nodes"].push_back(file.json["nodes"].size());
-  return file.json["nodes"].emplace_back(Json::object());
+  return file.json["nodes"].emplace_back(GltfJson::object());
 }
 
 void add_lamps(GltfBuilder& file, const Scene& scene) {
   for (const PunctualLight& light : scene.lights) {
-    Json& lamps = file.json["extensions"]["KHR_lights_punctual"]["lights"];
-    Json& node = add_node(file);
+    GltfJson& lamps = file.json["extensions"]["KHR_lights_punctual"]["lights"];
+    GltfJson& node = add_node(file);
     node["translation"] = json_of(light.position);
     node["extensions"]["KHR_lights_punctual"]["light"] = lamps.size();
     const float strength = std::max({light.intensity.x, light.intensity.y, light.intensity.z, 1e-9f});
-    Json lamp;
+    GltfJson lamp;
     lamp["type"] = "point";
     lamp["color"] = json_of(light.intensity / strength);
     lamp["intensity"] = strength;
@@ -110,18 +110,18 @@ void add_lamps(GltfBuilder& file, const Scene& scene) {
 Binary glb_of(const Scene& scene) {
   GltfBuilder file;
   file.json["asset"]["version"] = "2.0";
-  file.json["scenes"].push_back(Json::object());
-  file.json["nodes"] = Json::array();
+  file.json["scenes"].push_back(GltfJson::object());
+  file.json["nodes"] = GltfJson::array();
   add_textures(file, scene);
   for (size_t i = 0; i < scene.materials.size(); i++) {
-    Json& material = file.json["materials"].emplace_back(json_of(scene.materials[i]));
+    GltfJson& material = file.json["materials"].emplace_back(json_of(scene.materials[i]));
     if (i < scene.material_names.size()) material["name"] = scene.material_names[i];
   }
   add_meshes(file, scene);
   for (const Instance& instance : scene.instances) {
-    Json& node = add_node(file);
+    GltfJson& node = add_node(file);
     node["mesh"] = instance.mesh;
-    Json& matrix = node["matrix"];
+    GltfJson& matrix = node["matrix"];
     for (int column = 0; column < 4; column++) {
       for (const vec4& row : {instance.row0, instance.row1, instance.row2}) matrix.push_back(row[column]);
       matrix.push_back(column == 3 ? 1.0f : 0.0f);

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "ods/base/error.h"
+#include "ods/files/read_file.h"
 #include "ods/video/footage.h"
 #include "ods/video/make_video.h"
 #include "tests/support/decoded_video.h"
@@ -258,6 +259,99 @@ TEST_F(Decode, PicturesStoredUpsideDownAreTurned) {
       }
     }
   }
+}
+
+// --- eyes that are layers --------------------------------------------------------------------------------------------
+
+// What two flat lenses see, 63.4 degrees across, three pictures of 256x192: encoded by x265 4.1 (built with multiview),
+// in a mov with lhvC, vexu and hfov, as phones write them.
+const std::string kLayers = ODS_SOURCE_DIR "/tests/video/layers.mov";
+
+std::string bytes_of_layers() {
+  const std::vector<uint8_t> bytes = read_file(kLayers, 1 << 20);
+  return {bytes.begin(), bytes.end()};
+}
+
+int luma_at(const DecodedFrame& frame, int x, int y) {
+  return static_cast<int>(
+      frame.planes.first[0][static_cast<size_t>(y) * frame.planes.stride[0] + static_cast<size_t>(x)]);
+}
+
+TEST_F(Decode, EveryMachineReadsTheFirstLayer) {
+  FormatHint alone;
+  alone.layout = Layout::kSeparate;
+  const VideoInput video = open_video(kLayers, alone);
+  EXPECT_EQ(video.prototype.eyes.size(), 1u);
+  EXPECT_EQ(video.prototype.size.width, 256);
+  EXPECT_EQ(projection_name(video.prototype.camera.projection), "perspective");
+  EXPECT_NEAR(video.prototype.camera.projection.fov, 63.4f, 0.001f);
+  VideoDecoder decoder(kLayers, video.track, video.views);
+  int count = 0;
+  for (; const auto frame = decoder.next(); count++) EXPECT_GT(luma_at(*frame, 128, 96), 16);
+  EXPECT_EQ(count, 3);
+  EXPECT_EQ(decoder.stream().size.width, 256);
+}
+
+TEST_F(Decode, LayersBecomeSideBySide) {
+  if (!can_decode_both_views()) GTEST_SKIP() << "skipped: this FFmpeg is older than 7.1";
+  const VideoInput video = open_video(kLayers);
+  EXPECT_EQ(video.prototype.layout, Layout::kSideBySide);
+  EXPECT_EQ(video.prototype.size.width, 256);
+  EXPECT_NEAR(video.prototype.camera.ipd, 0.01924f, 1e-6f);
+  EXPECT_NEAR(video.prototype.camera.projection.fov, 63.4f, 0.001f);
+  std::string bytes = bytes_of_layers();
+  set_matrix(bytes, {0xffff0000, 0, 0, 0, 0xffff0000, 0, 0, 0, 0x40000000});
+  folder.write("turned.mov", bytes);
+  VideoDecoder first(kLayers, video.track), both(kLayers, video.track, video.views);
+  VideoDecoder turned(folder.path("turned.mov"), video.track, video.views);
+  EXPECT_EQ(both.stream().size.width, 512);
+  for (int i = 0; i < 3; i++) {
+    const std::optional<DecodedFrame> one = first.next(), two = both.next(), upside_down = turned.next();
+    ASSERT_TRUE(one && two && upside_down);
+    EXPECT_EQ(two->time.start, one->time.start);
+    int differing = 0;
+    for (int y = 0; y < 192; y++) {
+      for (int x = 0; x < 256; x++) {
+        ASSERT_EQ(luma_at(*two, x, y), luma_at(*one, x, y));
+        ASSERT_EQ(luma_at(*upside_down, x, y), luma_at(*two, 255 - x, 191 - y));
+        differing += std::abs(luma_at(*two, 256 + x, y) - luma_at(*two, x, y)) > 8;
+      }
+    }
+    EXPECT_GT(differing, 1000) << "the right eye is another one";
+  }
+  EXPECT_FALSE(both.next());
+  both.skip_to(1.7 / 30.0);
+  EXPECT_EQ(both.next()->time.start, 2);
+}
+
+// The stream itself says which view is whose: three-dimensional reference displays (ITU-T H.265, G.14.2.3), message
+// 176. vexu says it where the stream does not.
+TEST_F(Decode, TheStreamSaysWhichLayerIsTheLeftEye) {
+  if (!can_decode_both_views()) GTEST_SKIP() << "skipped: this FFmpeg is older than 7.1";
+  const auto changed = [&](const std::string& name, size_t at, std::string_view to) {
+    std::string bytes = bytes_of_layers();
+    const size_t message = bytes.find("\x4e\x01\xb0\x04\x04\x0d");
+    folder.write(name, bytes.replace(message + at, to.size(), to));
+    return folder.path(name);
+  };
+  const std::string right_first = changed("right.mov", 5, "\x0a\x80"), silent = changed("silent.mov", 2, "\xfe");
+  const auto is_swapped = [](const std::string& path, Views views) {
+    VideoDecoder plain(kLayers, 1), both(path, 1, views);
+    const DecodedFrame one = *plain.next(), two = *both.next();
+    const auto has_first = [&](int left) {
+      for (int x = 0; x < 256; x++) {
+        if (luma_at(two, left + x, 100) != luma_at(one, x, 100)) return false;
+      }
+      return true;
+    };
+    EXPECT_NE(has_first(0), has_first(256));
+    return has_first(256);
+  };
+  EXPECT_FALSE(is_swapped(kLayers, Views::kLeftAndRight));
+  EXPECT_FALSE(is_swapped(kLayers, Views::kRightAndLeft));
+  EXPECT_TRUE(is_swapped(right_first, Views::kLeftAndRight));
+  EXPECT_FALSE(is_swapped(silent, Views::kLeftAndRight));
+  EXPECT_TRUE(is_swapped(silent, Views::kRightAndLeft));
 }
 
 // --- bad input -------------------------------------------------------------------------------------------------------

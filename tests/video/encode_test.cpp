@@ -18,8 +18,7 @@
 #include "tests/support/made_frames.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::encode_test {
 
 std::string usable_encoder(VideoCodec codec, Chroma chroma) {
   for (const EncoderFacts& facts : known_encoders()) {
@@ -299,17 +298,17 @@ std::string noisy_video(const TemporaryFolder& folder, int side, int frames, con
 
 // 32 and 64: x265 needs frames of several blocks.
 // What an encoder finds in memory that it never wrote is another thing in every run.
-TEST_F(Encode, TenRunsAreTheSameBytes) {
+TEST_F(Encode, RunsAreTheSameBytesWhateverThreadsAndMemory) {
   for (const auto& [codec, encoder] : {std::pair{VideoCodec::kH264, "libx264"}, {VideoCodec::kHevc, "libx265"}}) {
     if (!has_encoder(encoder)) GTEST_SKIP() << "skipped: this machine has no " << encoder;
-    for (const int side : {32, 64, 256}) {
+    for (const int side : {32, 256}) {
       for (const std::optional<double> bitrate : {std::optional<double>(), std::optional<double>(1.0)}) {
         EncodeOptions options;
         options.packing.codec = codec;
         options.bitrate = bitrate;
         std::set<std::string> files;
-        for (int run = 0; run < 10; run++) {
-          mallopt(M_PERTURB, 25 * run);
+        for (int run = 0; run < 4; run++) {
+          mallopt(M_PERTURB, 60 * run);
           options.threads = run % 3;
           files.insert(noisy_video(folder, side, side <= 64 ? 45 : 10, options));
         }
@@ -320,5 +319,4 @@ TEST_F(Encode, TenRunsAreTheSameBytes) {
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::encode_test

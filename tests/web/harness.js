@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Draws looks with the page's own modules and sends them to the server that asks for them: jobs.json is
-//   [{ item, choice, width, height, looks: [{ name, eye, yaw, pitch, fov, show, swap }] }, ...]
+//   [{ item, choice, width, height, looks: [{ name, eye, yaw, pitch, fov, show, swap, moves, cheap }] }, ...]
 // where item is an index of view.json. Every look is sent to result/NAME as PNG, the end, or what failed, to done.
+// A job may have `paging` (pages.js), as if its picture were too large for the GPU. The job { item, rest: true } throws
+// where the viewer does not become exact at rest.
 // Looks at a video may have its `frame`, and `step` where it is to be reached by so many steps from the last one.
 // The job { item, layers: NAME } sends the equirect layer of a picture, as a headset's browser would be given it.
 // A job with `headset` shows its looks in an emulated headset instead; both eyes are sent, side by side. Its looks may
 // have `press` and `stick`: what a hand does to its controller first. The job { studio: true } runs studio-test.js instead,
-// { page: NAME } a test of page-test.js.
+// { page: NAME } a test of page-test.js, { panel: NAME } a part of headset-test.js.
 import { Headset } from './headset.js';
+import { Pace } from './pace.js';
 import { Panorama, loadShader, raysOf } from './panorama.js';
 import { openPicture } from './picture.js';
 import { Viewer } from './viewer.js';
@@ -29,16 +32,19 @@ function makeCanvas({ width, height }) {
 
 let drawing; // one for all pictures: software compiles the shader for seconds
 
-async function draw(view, shader, { item, choice, width, height, looks }) {
+async function draw(view, shader, { item, choice, width, height, looks, paging }) {
   drawing ??= new Panorama(makeCanvas({ width, height }), shader);
   const panorama = drawing;
   const { canvas } = panorama;
   Object.assign(canvas, { width, height });
-  const picture = await openPicture(panorama, view, view.items[item], { choice });
-  for (const { name, eye = 0, show, swap, frame, step, ...look } of looks) {
+  const picture = await openPicture(panorama, view, view.items[item], { choice, paging });
+  if (paging) while (picture.pager.refine());
+  for (const { name, eye = 0, show, swap, frame, step, moves, cheap, ...look } of looks) {
     if (frame !== undefined) await reach(picture, frame, step);
     picture.refresh?.();
-    panorama.draw(picture, { rays: raysOf(look, width / height), box: [0, 0, width, height], show, eye, swap });
+    const options = { rays: raysOf(look, width / height), box: [0, 0, width, height], show, eye, swap, moves, cheap };
+    while (picture.pager?.look([options], 4));
+    panorama.draw(picture, options);
     await sendCanvas(canvas, name);
   }
   picture.free();
@@ -107,6 +113,7 @@ async function wear(view, shader, job) {
   const { XRDevice, metaQuest3 } = await import('./iwer.module.js');
   const device = new XRDevice(metaQuest3);
   device.installRuntime({ forceInstall: true });
+  XRWebGLLayer.prototype.fixedFoveation = 0; // which the emulation lacks
   device.stereoEnabled = true;
   device.fovy = Math.PI / 2;
   device.position.set(3, 1.6, -2); // which must not matter
@@ -121,6 +128,10 @@ async function wear(view, shader, job) {
     const next = () => (count-- > 0 && headset.session ? headset.session.requestAnimationFrame(next) : done());
     next();
   });
+  await frames(2);
+  const { frameRate, renderState: { baseLayer } } = headset.session;
+  if (frameRate !== 90) throw new Error(`the headset shows ${frameRate} pictures per second`);
+  if (!(baseLayer.fixedFoveation > 0)) throw new Error('the edge of the view is drawn as finely as its middle');
   for (const { name, press, stick, ...look } of job.looks) {
     orient(device.quaternion, look);
     await frames(2);
@@ -143,12 +154,60 @@ async function wear(view, shader, job) {
   await post('result/ended', String(viewer.session));
 }
 
+// Steps down where frames are late, as far as it helps, and up again where there is time.
+function testPace() {
+  let now = 0;
+  const after = (pace, frames, time) => {
+    for (let i = 0; i < frames; i++) {
+      now += time(pace.how);
+      pace.took(time(pace.how), now);
+    }
+    return pace.level;
+  };
+  const pace = new Pace();
+  if (after(pace, 100, () => 17) !== 0) throw new Error('pace: steps down without need');
+  if (after(pace, 100, ({ scale, cheap }) => (cheap ? 40 : 80) * scale * scale + 2) !== 2) throw new Error('pace: does not find the first level in time');
+  if (after(pace, 1000, () => 17) !== 0) throw new Error('pace: does not step up again');
+  if (after(new Pace(), 200, () => 50) > 1) throw new Error('pace: goes on where it does not help');
+  const strange = new Pace();
+  for (let i = 0; i < 500; i++) if (after(strange, 1, () => 5 + ((i * 37) % 90)) > 3 || !strange.how) throw new Error('pace: no such level');
+}
+
+// The viewer draws quickly at first, and at rest exactly what one exact drawing shows; a movement interrupts it.
+async function rest(view, shader, { item }) {
+  testPace();
+  const canvas = makeCanvas({ width: 200, height: 150 });
+  const viewer = new Viewer(canvas, view, shader, location.href);
+  const settled = () => new Promise((done) => viewer.addEventListener('settled', done, { once: true }));
+  const pixels = () => {
+    const { gl } = viewer.panorama;
+    const bytes = new Uint8Array(4 * canvas.width * canvas.height);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+    return bytes.join();
+  };
+  for (const mode of ['left', 'side-by-side', 'anaglyph']) {
+    viewer.set({ mode, yaw: 20 });
+    if (!viewer.picture) await viewer.open(item);
+    await settled();
+    const atRest = pixels();
+    viewer.paint(0, {});
+    if (pixels() !== atRest) throw new Error(`${mode}: not exact at rest`);
+    viewer.set({ yaw: 40 });
+    await new Promise((done) => viewer.panorama.finished(() => new Promise(requestAnimationFrame)).then(done));
+    const moving = pixels();
+    viewer.paint(0, {});
+    if (pixels() === moving) throw new Error(`${mode}: exact while it moves`);
+  }
+}
+
 async function run() {
   const jobs = await json('jobs.json');
   if (jobs[0]?.page) return (await import('./page-test.js')).testPage(jobs[0]);
+  if (jobs[0]?.panel) return (await import('./headset-test.js')).testHeadset(jobs[0].panel);
   if (jobs[0]?.studio) return (await import('./studio-test.js')).testStudio();
   const [view, shader] = [await json('view.json'), await loadShader(location.href)];
-  for (const job of jobs) await (job.headset ? wear : job.layers ? layOut : draw)(view, shader, job);
+  for (const job of jobs) await (job.headset ? wear : job.rest ? rest : job.layers ? layOut : draw)(view, shader, job);
 }
 
 run().then(() => post('done', 'ok'), (error) => post('done', `${error.message}\n${error.stack}`));

@@ -73,7 +73,7 @@ int convert_video(Footage& footage, const VideoConversion& conversion, EncodeOpt
   } else {
     converter.emplace(footage.video(), stream, conversion.target, format, !conversion.turns.empty());
   }
-  bool is_first = true;
+  int next = 0;
   const auto pending = [&]() -> std::optional<PendingFrame> {
     if (!frame) return std::nullopt;
     ViewAngles turned{0.0f, 0.0f, 0.0f};
@@ -82,7 +82,8 @@ int convert_video(Footage& footage, const VideoConversion& conversion, EncodeOpt
     if (conversion.depth) {
       ConvertTarget target = conversion.target;
       target.turned = turned;
-      const auto give = next_depth(*conversion.depth, {}, std::exchange(is_first, false), conversion.tell);
+      if (conversion.merge) target.camera.merge_map = conversion.merge(next);
+      const auto give = next_depth(*conversion.depth, {}, next == 0, conversion.tell);
       result.make = [&footage, target, give, format, old = *frame] {
         return convert_with_depth(footage, old, give, target, format);
       };
@@ -90,6 +91,7 @@ int convert_video(Footage& footage, const VideoConversion& conversion, EncodeOpt
       result.make = [&converter, turned, old = *frame] { return converter->convert(old, turned); };
     }
     frame = footage.next();
+    next++;
     return result;
   };
   const int eyes = static_cast<int>(conversion.target.eyes.size());
@@ -120,11 +122,13 @@ static std::shared_ptr<VideoFrame> convert_file(const FramesConversion& conversi
                                                 const DepthFootage::Give& give, const FrameFormat& format) {
   StoredPicture picture = open_frame(conversion.files, index, conversion.first);
   if (give) give(picture);
-  const std::string fault = conversion_fault(picture, conversion.target);
+  ConvertTarget target = conversion.target;
+  if (conversion.merge) target.camera.merge_map = conversion.merge(static_cast<int>(index));
+  const std::string fault = conversion_fault(picture, target);
   if (!fault.empty()) throw Error(ErrorKind::kUsage, fmt::format("'{}': {}", conversion.files.path(index), fault));
   std::optional<DisplayTransform> display;
   if (picture.is_float) display = conversion.display;
-  return frame_of(convert(picture, conversion.target).rows, format, display);
+  return frame_of(convert(picture, target).rows, format, display);
 }
 
 int convert_frames(const FramesConversion& conversion, const EncodeOptions& options, const std::string& path,

@@ -4,6 +4,8 @@
 // Converts a video in one decode and one encode: its pictures as frame_converter.h does, its sound copied, its time
 // stamps and colours kept. And makes a video of converted frames.
 #pragma once
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +20,10 @@
 
 namespace ods {
 
+// The merge map of each picture, by its number from the first one on; none: the target's for all. May be called from
+// any thread.
+using MergeOfPicture = std::function<std::shared_ptr<const Image>(int picture)>;
+
 struct VideoConversion {
   ConvertTarget target;  // as in FrameConverter
   Layout layout = Layout::kTopBottom;
@@ -26,6 +32,7 @@ struct VideoConversion {
   Resume resume = {};
   DepthFootage* depth = nullptr;                      // of the pictures; may be none
   std::function<void(const DepthReport&)> tell = {};  // of the first picture's depth
+  MergeOfPicture merge = {};                          // with depth only
 };
 
 // Converts the part of the video that Footage::choose() chose. `options` give the packing, and what is kept;
@@ -48,6 +55,7 @@ struct FramesConversion {
   Resume resume = {};
   DepthFootage* depth = nullptr;
   std::function<void(const DepthReport&)> tell = {};  // of the first picture's depth
+  MergeOfPicture merge = {};
 };
 
 // Throws Error as make_video(), also kUsage for a frame that cannot be converted.

@@ -35,10 +35,6 @@ DepthNumbers numbers_of(const Footage& footage, const DecodedFrame& frame) {
   return depth;
 }
 
-Error too_short(const std::string& path) {
-  return Error(ErrorKind::kInput, fmt::format("'{}' ends before the pictures whose depth it is", path));
-}
-
 }  // namespace
 
 DepthFootage::DepthFootage(const std::string& path, const StoredPicture& format, const DepthOptions& options,
@@ -51,13 +47,18 @@ DepthFootage::DepthFootage(const std::string& path, const StoredPicture& format,
 }
 
 DepthFootage::Give DepthFootage::next(std::optional<int> number) {
+  if (std::optional<Give> give = next_if_any(number)) return *give;
+  throw Error(ErrorKind::kInput, fmt::format("'{}' ends before the pictures whose depth it is", path_));
+}
+
+std::optional<DepthFootage::Give> DepthFootage::next_if_any(std::optional<int> number) {
   const size_t index = taken_++;
   const auto known = [&](const std::vector<DepthNumbers>& depth) {
     if (options_.eye_height && !options_.scale) options_.scale = scale_of(depth[0], format_, options_);
   };
   if (kind_ == FootageKind::kVideo) {
     const std::optional<DecodedFrame> frame = footage_->next();
-    if (!frame) throw too_short(path_);
+    if (!frame) return std::nullopt;
     if (index == 0) known(depth_of_eyes(numbers_of(*footage_, *frame), format_));
     return [this, frame = *frame, options = options_](StoredPicture& picture) {
       return add_depth(picture, depth_of_eyes(numbers_of(*footage_, frame), picture), options);
@@ -70,7 +71,7 @@ DepthFootage::Give DepthFootage::next(std::optional<int> number) {
     }
     return [still = still_, options = options_](StoredPicture& picture) { return add_depth(picture, *still, options); };
   }
-  if (!number && index >= frames_.size()) throw too_short(path_);
+  if (!number && index >= frames_.size()) return std::nullopt;
   const std::string file = frame_names(path_)->path(number ? *number : frames_[index]);
   if (index == 0) known(read_depth(file, format_));
   return [file, options = options_](StoredPicture& picture) {

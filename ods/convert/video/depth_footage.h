@@ -27,6 +27,8 @@ class DepthFootage {
   // The depth of the next picture. number: of a frame, which its depth has, too; none: of a video, whose pictures take
   // frames of depth in their order. Throws Error(kInput): there is none left, and as add_depth().
   Give next(std::optional<int> number);
+  // The same; nothing if there is none left.
+  std::optional<Give> next_if_any(std::optional<int> number);
 
  private:
   std::string path_;

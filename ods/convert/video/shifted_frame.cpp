@@ -22,7 +22,8 @@ static std::optional<PixelShift> shift_at(const Mapping& mapping, int index, int
   return PixelShift{place.source_eye, (column % width + width) % width, static_cast<int>(whole.y)};
 }
 
-// Between two lat-longs with the same axis places are linear, so a grid tells of all pixels.
+// Between two lat-longs with the same axis places are linear, so a grid tells of all pixels. Of two pictures of the
+// same projection it tells whether they are the same.
 static std::optional<PixelShift> find_shift(const Mapping& mapping, int index) {
   const int kSteps = 32;
   std::optional<PixelShift> all;
@@ -39,11 +40,14 @@ static std::optional<PixelShift> find_shift(const Mapping& mapping, int index) {
 }
 
 std::optional<std::vector<PixelShift>> find_shifts(const Mapping& mapping, Extent block) {
-  if (mapping.camera.projection.kind != kLatLong || mapping.source.camera.projection.kind != kLatLong) return {};
+  const ProjectionSetting &made = mapping.stereo.projection, &old = mapping.source.picture->camera.projection;
+  const bool may_shift = made.kind == kLatLong && old.kind == kLatLong;
+  if (!may_shift && made != old) return {};
   std::vector<PixelShift> shifts;
   for (int index = 0; index < static_cast<int>(mapping.eyes.size()); index++) {
     const std::optional<PixelShift> shift = find_shift(mapping, index);
     if (!shift || shift->column % block.width != 0 || shift->row % block.height != 0) return {};
+    if (!may_shift && (shift->column != 0 || shift->row != 0)) return {};
     shifts.push_back(*shift);
   }
   return shifts;

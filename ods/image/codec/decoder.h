@@ -55,7 +55,8 @@ class Decoder {
 // finds the format by the file's first bytes.
 std::unique_ptr<Decoder> open_decoder(const PictureBytes& file);
 std::unique_ptr<Decoder> open_png(const PictureBytes& file);
-std::unique_ptr<Decoder> open_jpeg(const PictureBytes& file);
+// least_wide: reads it smaller than it is, but not narrower than this; 0: as it is.
+std::unique_ptr<Decoder> open_jpeg(const PictureBytes& file, int least_wide = 0);
 std::unique_ptr<Decoder> open_tiff(const PictureBytes& file);
 std::unique_ptr<Decoder> open_webp(const PictureBytes& file);
 std::unique_ptr<Decoder> open_hdr(const PictureBytes& file);

@@ -14,6 +14,7 @@
 #include "ods/image/color_tags.h"
 #include "ods/image/image_file.h"
 #include "ods/image/orientation.h"
+#include "ods/image/small_rows.h"
 #include "ods/image/tone.h"
 
 namespace ods {
@@ -71,12 +72,13 @@ static FileFormat format_of(const PictureBytes& file) {
   throw cannot_read(file.name, fmt::format("it is none of {}{}", readable_extensions(), taken_by(start)));
 }
 
-static std::unique_ptr<Decoder> open_decoder(const PictureBytes& file, FileFormat format, int view = 0) {
+static std::unique_ptr<Decoder> open_decoder(const PictureBytes& file, FileFormat format, int view = 0,
+                                             int least_wide = 0) {
   switch (format) {
     case FileFormat::kPng:
       return open_png(file);
     case FileFormat::kJpeg:
-      return open_jpeg(file);
+      return open_jpeg(file, least_wide);
     case FileFormat::kTiff:
       return open_tiff(file);
     case FileFormat::kWebp:
@@ -104,10 +106,10 @@ struct Opened {
 
 }  // namespace
 
-static Opened open(const std::string& path, int view = 0) {
+static Opened open(const std::string& path, int view = 0, int least_wide = 0) {
   const PictureBytes file = picture_on_disk(path);
   const FileFormat format = format_of(file);
-  Opened opened{open_decoder(file, format, view), {}};
+  Opened opened{open_decoder(file, format, view, least_wide), {}};
   if (format == FileFormat::kJpeg || format == FileFormat::kTiff) {
     opened.decoder = turned(std::move(opened.decoder), orientation_of(FileInput(path)));
   }
@@ -220,7 +222,7 @@ namespace {
 
 class FileRows final : public RowReader {
  public:
-  FileRows(const std::string& path, int view);
+  FileRows(const std::string& path, int view, int least_wide = 0);
   const FileInfo& info() const override { return info_; }
   const ColorSpace& color_space() const override { return color_; }
   void widen() override;
@@ -239,8 +241,8 @@ class FileRows final : public RowReader {
   std::vector<std::byte> narrow_;         // 8-bit integers that become 16-bit ones
 };
 
-FileRows::FileRows(const std::string& path, int view) {
-  Opened opened = open(path, view);
+FileRows::FileRows(const std::string& path, int view, int least_wide) {
+  Opened opened = open(path, view, least_wide);
   decoder_ = std::move(opened.decoder);
   color_ = opened.color;
   info_ = decoder_->info;
@@ -276,6 +278,10 @@ void FileRows::read(int begin, int end, size_t channels, std::byte* to) {
 
 std::unique_ptr<RowReader> open_rows(const std::string& path, int view) {
   return std::make_unique<FileRows>(path, view);
+}
+
+std::unique_ptr<RowReader> open_small_rows(const std::string& path, int least_wide) {
+  return std::make_unique<FileRows>(path, 0, least_wide);
 }
 
 }  // namespace ods

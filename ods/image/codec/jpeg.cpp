@@ -90,7 +90,7 @@ struct JpegReading : jpeg_decompress_struct {
 
 class JpegDecoder final : public Decoder {
  public:
-  explicit JpegDecoder(const PictureBytes& file) : file_(file), input_(file_) {
+  JpegDecoder(const PictureBytes& file, int least_wide) : file_(file), least_wide_(least_wide), input_(file_) {
     start();
     read_header();
   }
@@ -102,6 +102,7 @@ class JpegDecoder final : public Decoder {
   Error failed() const { return cannot_read(file_.name, library_words(fault_.words)); }
 
   PictureBytes file_;
+  int least_wide_;  // 0: as it is
   JpegInput input_;
   JpegFault fault_;
   JpegReading jpeg_;
@@ -121,6 +122,14 @@ void JpegDecoder::start() {
     jpeg_read_header(&jpeg_, TRUE);
     const bool is_ink = jpeg_.jpeg_color_space == JCS_CMYK || jpeg_.jpeg_color_space == JCS_YCCK;
     if (is_ink) jpeg_.out_color_space = JCS_CMYK;
+    if (least_wide_ > 0) {
+      // libjpeg makes eighths from what their blocks say in the first place: nearly all of its work is left out.
+      jpeg_.scale_num = 1, jpeg_.scale_denom = 8;
+      while (jpeg_.scale_num < 8 && jpeg_.image_width * jpeg_.scale_num / 8 < static_cast<JDIMENSION>(least_wide_)) {
+        jpeg_.scale_num *= 2;
+      }
+      jpeg_.do_fancy_upsampling = FALSE;
+    }
     jpeg_calc_output_dimensions(&jpeg_);
   });
   if (!good) throw failed();
@@ -167,9 +176,9 @@ void JpegDecoder::read(int begin, int end, size_t first, size_t count, std::byte
 }  // namespace
 
 // libjpeg fills what is missing with grey, and only warns.
-std::unique_ptr<Decoder> open_jpeg(const PictureBytes& file) {
+std::unique_ptr<Decoder> open_jpeg(const PictureBytes& file, int least_wide) {
   if (!is_whole_jpeg(file.size, file.read)) throw cannot_read(file.name, "the JPEG is cut short or damaged");
-  return std::make_unique<JpegDecoder>(file);
+  return std::make_unique<JpegDecoder>(file, least_wide);
 }
 
 // --- writing ---------------------------------------------------------------------------------------------------------

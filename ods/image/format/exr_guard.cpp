@@ -17,7 +17,7 @@ namespace {
 
 constexpr size_t kLongestName = 255;
 constexpr int64_t kMaxRowsOfAChunk = 256;  // DWAB's
-constexpr size_t kOffset = 8;              // bytes
+constexpr size_t kOffsetSize = 8;          // bytes
 
 // OpenEXR reads the values of these types as long as they should be, whatever size the file states.
 struct TypeSize {
@@ -83,7 +83,7 @@ class HeaderReader {
     return true;
   }
 
-  bool has_room(int64_t offsets) const { return offsets <= static_cast<int64_t>(size_ / kOffset); }
+  bool has_room(int64_t offsets) const { return offsets <= static_cast<int64_t>(size_ / kOffsetSize); }
 
  private:
   size_t size_;

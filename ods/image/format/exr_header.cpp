@@ -13,9 +13,8 @@
 
 namespace ods {
 
-constexpr uint64_t kStart = 8;               // magic number and version, in bytes
-constexpr uint64_t kLongest = 64ull << 20u;  // limit on the header's bytes
-constexpr size_t kOffset = 8;                // bytes of a chunk's offset
+constexpr uint64_t kStart = 8;                     // magic number and version, in bytes
+constexpr uint64_t kLongestHeader = 64ull << 20u;  // limit on the header's bytes
 
 static Error unusable(const FileInput& file, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot use '{}': {}", file.path(), why));
@@ -36,7 +35,7 @@ static std::string bytes_of(const T* values, size_t count) {
 ExrHeader read_exr_header(const FileInput& file) {
   constexpr uint32_t kSeveralParts = 1u << 12u;
   const Error damaged = unusable(file, "the EXR is cut short or damaged");
-  const std::string bytes = file.read(0, std::min(file.size(), kLongest));
+  const std::string bytes = file.read(0, std::min(file.size(), kLongestHeader));
   if (bytes.size() < kStart || !bytes.starts_with("\x76\x2f\x31\x01")) throw damaged;
   if ((number_at<uint32_t>(bytes, 4) & kSeveralParts) != 0) throw unusable(file, "it is a multi-part EXR");
   ExrHeader header;
@@ -136,23 +135,23 @@ static std::vector<uint64_t> read_offsets(const FileInput& file, uint64_t at) {
   const Error damaged = unusable(file, "the EXR's offsets are damaged, as if it was never finished");
   std::vector<uint64_t> offsets;
   uint64_t first = file.size();
-  for (; at + kOffset * offsets.size() < first;) {
-    const uint64_t from = at + kOffset * offsets.size();
-    const std::string bytes = file.read(from, std::min(kPiece, (first - from) / kOffset) * kOffset);
+  for (; at + sizeof(uint64_t) * offsets.size() < first;) {
+    const uint64_t from = at + sizeof(uint64_t) * offsets.size();
+    const std::string bytes = file.read(from, std::min(kPiece, (first - from) / sizeof(uint64_t)) * sizeof(uint64_t));
     if (bytes.empty()) throw damaged;
-    for (size_t i = 0; i < bytes.size() && at + kOffset * offsets.size() < first; i += kOffset) {
+    for (size_t i = 0; i < bytes.size() && at + sizeof(uint64_t) * offsets.size() < first; i += sizeof(uint64_t)) {
       offsets.push_back(number_at<uint64_t>(bytes, i));
-      if (offsets.back() < at + kOffset * offsets.size() || offsets.back() >= file.size()) throw damaged;
+      if (offsets.back() < at + sizeof(uint64_t) * offsets.size() || offsets.back() >= file.size()) throw damaged;
       first = std::min(first, offsets.back());
     }
   }
-  if (offsets.empty() || at + kOffset * offsets.size() != first) throw damaged;
+  if (offsets.empty() || at + sizeof(uint64_t) * offsets.size() != first) throw damaged;
   return offsets;
 }
 
 void write_exr_header(const FileInput& file, AtomicFile& to, const ExrHeader& header) {
   std::vector<uint64_t> offsets = read_offsets(file, header.end);
-  const uint64_t chunks = header.end + kOffset * offsets.size();
+  const uint64_t chunks = header.end + sizeof(uint64_t) * offsets.size();
   std::string bytes = file.read(0, kStart);
   for (const ExrAttribute& each : header.attributes) {
     bytes += each.name + '\0' + each.type + '\0' + sized(each.value);

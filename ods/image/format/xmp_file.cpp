@@ -17,7 +17,7 @@ namespace ods {
 
 constexpr uint64_t kLongestPacket = uint64_t{16} << 20;
 
-static Error unusable(const FileInput& file, const std::string& why) {
+static Error untaggable(const FileInput& file, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot tag '{}': {}", file.path(), why));
 }
 
@@ -47,8 +47,8 @@ static Cut place_in_jpeg(const std::vector<JpegSegment>& segments) {
 static void write_jpeg(const FileInput& file, AtomicFile& to, const std::string& packet) {
   const Cut cut = place_in_jpeg(read_jpeg_headers(file));
   if (packet.size() + kJpegXmp.size() > kLongestJpegSegment) {
-    throw unusable(file, fmt::format("its XMP would have {} bytes, but a JPEG has room for {}", packet.size(),
-                                     kLongestJpegSegment - kJpegXmp.size()));
+    throw untaggable(file, fmt::format("its XMP would have {} bytes, but a JPEG has room for {}", packet.size(),
+                                       kLongestJpegSegment - kJpegXmp.size()));
   }
   write_with(file, to, cut, packet.empty() ? "" : jpeg_segment(kJpegApp1, std::string(kJpegXmp) + packet));
 }
@@ -87,7 +87,7 @@ static std::optional<PngPacket> find_in_png(const FileInput& file) {
 
 static void write_png(const FileInput& file, AtomicFile& to, const std::string& packet) {
   const std::optional<PngPacket> old = find_in_png(file);
-  if (old && !old->text) throw unusable(file, "its XMP is compressed, which ods cannot change");
+  if (old && !old->text) throw untaggable(file, "its XMP is compressed, which ods cannot change");
   const Cut place = old ? old->place : Cut{kPngAfterHeader, 0};
   write_with(file, to, place, packet.empty() ? "" : xmp_chunk(packet));
 }
@@ -140,7 +140,7 @@ void write_xmp(const FileInput& file, AtomicFile& to, const std::string& packet)
   } else if (format == FileFormat::kTiff) {
     write_tiff_value(file, to, read_tiff_directory(file), kTiffXmp, packet);
   } else {
-    throw unusable(file, "only JPEG, PNG and TIFF pictures can hold GPano");
+    throw untaggable(file, "only JPEG, PNG and TIFF pictures can hold GPano");
   }
 }
 

@@ -57,7 +57,7 @@ constexpr uint16_t kOtherTwo[] = {0x00f0, 0x4444, 0x0133, 0xcc80, 0xf0ff, 0x2222
 constexpr uint32_t kThree[] = {0xa5a50000, 0xaa005555, 0xaa000055, 0x0000aa55, 0x25252525, 0x94949494,
                                0x58585858, 0x56560202, 0x92929292, 0x55aa0055, 0xa05050a0};
 
-[[noreturn]] void fail_damaged() {
+[[noreturn]] void fail_damaged_uastc() {
   throw MalformedFile("its UASTC data is damaged");
 }
 
@@ -68,13 +68,13 @@ size_t read_mode(std::span<const std::byte> block, BitReader& bits) {
     bits.read(kModes[i].code_bits);
     return i;
   }
-  fail_damaged();
+  fail_damaged_uastc();
 }
 
 template <size_t kCount, class T>
 T read_row(const T (&table)[kCount], size_t index_bits, BitReader& bits) {
   const size_t index = bits.read(index_bits);
-  if (index >= kCount) fail_damaged();
+  if (index >= kCount) fail_damaged_uastc();
   return table[index];
 }
 

@@ -15,6 +15,7 @@
 #include "ods/image/format/xmp_file.h"
 #include "ods/image/image_file.h"
 #include "ods/picture/metadata/metadata.h"
+#include "ods/picture/metadata/phone_window.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/metadata/vr_photo.h"
 
@@ -107,8 +108,11 @@ static LayoutGuess layout_of_shape(Extent file, const std::optional<ProjectionSe
   return {{}, LayoutSource::kNothing, "nothing says otherwise"};
 }
 
-static bool has_channel(const FileInfo& info, const std::string& name) {
-  return std::find(info.channels.begin(), info.channels.end(), name) != info.channels.end();
+// Whether it has colour of that view; Blender's layers have names.
+static bool has_view(const FileInfo& info, const std::string& view) {
+  return std::ranges::any_of(info.channels, [&](const std::string& channel) {
+    return channel == view + ".R" || channel.ends_with(".Combined." + view + ".R");
+  });
 }
 
 // The layout in ods:layout, or the eye it names.
@@ -129,7 +133,7 @@ bool is_guess(const LayoutGuess& guess) {
 LayoutGuess guess_layout(const FileInfo& info, const std::string& path,
                          const std::optional<ProjectionSetting>& projection) {
   if (const std::optional<LayoutGuess> said = said_layout(info)) return *said;
-  if (has_channel(info, "right.R") || has_channel(info, "left.R")) {
+  if (has_view(info, "right") || has_view(info, "left")) {
     return {Layout::kMultiview, LayoutSource::kFile, "it has two views"};
   }
   const NameWords words = read_name(path);
@@ -146,7 +150,7 @@ LayoutGuess guess_layout(const FileInfo& info, const std::string& path,
 // A sidecar may belong to another picture of the same name: picture.exr and picture.png share one.
 static bool belongs_to(const Sidecar& sidecar, const FileInfo& info) {
   const int count = static_cast<int>(sidecar.eyes.size());
-  if (count == 2 && sidecar.layout == Layout::kMultiview && !has_channel(info, "right.R")) return false;
+  if (count == 2 && sidecar.layout == Layout::kMultiview && !has_view(info, "right")) return false;
   if (sidecar.eye.width == 0) return true;
   const Extent size = packed_size(sidecar.layout, squeezed_eye(sidecar.layout, sidecar.eye, count), count);
   return size.width == info.width && size.height == info.height;
@@ -262,15 +266,12 @@ static std::optional<StereoCamera> find_stated_camera(const FileInfo& info, cons
   return sidecar ? std::optional(sidecar->camera) : std::nullopt;
 }
 
-// Phones take pairs with two flat lenses, and may say how wide they see.
 static StereoCamera camera_of_pair(const FileInfo& info, std::vector<std::string>& guesses) {
-  constexpr float kUsualFov = 63.4f;
   const auto said = info.numbers.find("heif:fov");
+  std::optional<float> fov;
+  if (said != info.numbers.end()) fov = said->second[0];
   StereoCamera camera;
-  camera.projection = find_projection("perspective")->setting;
-  camera.projection.fov = said != info.numbers.end() ? said->second[0] : kUsualFov;
-  camera.projection.aspect = static_cast<float>(info.width) / static_cast<float>(std::max(info.height, 1));
-  if (said == info.numbers.end()) guesses.push_back(fmt::format("{} degrees across: it does not say", kUsualFov));
+  camera.projection = phone_window(fov, {info.width, info.height}, guesses);
   return camera;
 }
 

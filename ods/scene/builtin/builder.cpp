@@ -9,6 +9,11 @@
 
 namespace ods {
 
+vec3 around(float azimuth, float distance, float height) {
+  const float a = glm::radians(azimuth);
+  return {distance * sin(a), height, -distance * cos(a)};
+}
+
 glm::mat4 placed(vec3 position, float yaw, vec3 scale) {
   return glm::translate(glm::mat4(1.0f), position) * turned(vec3(0, 1, 0), -yaw) * glm::scale(glm::mat4(1.0f), scale);
 }

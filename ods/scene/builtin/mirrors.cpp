@@ -15,12 +15,6 @@ namespace ods {
 
 static const vec3 kSilver(0.95f, 0.95f, 0.94f), kGold(1.0f, 0.72f, 0.30f), kCopper(0.95f, 0.55f, 0.40f);
 
-// A position: azimuth in degrees clockwise from the front, distance on the floor.
-static vec3 around(float azimuth, float distance, float height) {
-  const float theta = glm::radians(azimuth);
-  return {distance * sin(theta), height, -distance * cos(theta)};
-}
-
 static void add_floor(Scene& scene) {
   const int tiles = add_texture(scene, 256, 256, checker);
   add(scene, make_floor(60.0f, 60.0f), add_material(scene, textured(paint(vec3(1.0f), 0.25f), tiles, vec2(1.6f))));

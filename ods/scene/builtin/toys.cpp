@@ -16,12 +16,7 @@ namespace ods {
 
 static const float kLoop = 8.0f;  // seconds
 
-// Positions at an azimuth (degrees to the right of the front) and a distance; things placed there face the viewer.
-static vec3 around(float azimuth, float distance, float height = 0.0f) {
-  const float a = glm::radians(azimuth);
-  return vec3(distance * sin(a), height, -distance * cos(a));
-}
-
+// What is placed there faces the viewer.
 static glm::mat4 facing(float azimuth, float distance, float height = 0.0f) {
   return placed(around(azimuth, distance, height), azimuth);
 }

@@ -50,7 +50,7 @@ static constexpr std::array kMaterialForms = {
     PointerForm{"/emissiveFactor", Property::kEmission},
     PointerForm{"/extensions/KHR_materials_emissive_strength/emissiveStrength", Property::kEmissionStrength}};
 
-static const std::string kExtensions = "/extensions/";
+static const std::string kExtensionsPath = "/extensions/";
 
 static constexpr std::array kTextureForms = {
     PointerForm{"/extensions/KHR_texture_transform/offset", Property::kUvOffset},
@@ -71,7 +71,7 @@ static std::optional<Target> find_format(List list, int index, std::span<const P
 
 static std::string texture_name(int slot) {
   if (slot < kFirstLayerSlot) return std::string(kSlots[static_cast<size_t>(slot)]);
-  return kExtensions + std::string(kLayerTextures[slot - kFirstLayerSlot].name);
+  return kExtensionsPath + std::string(kLayerTextures[slot - kFirstLayerSlot].name);
 }
 
 static std::optional<Target> find_texture_form(int index, std::string_view member) {
@@ -86,8 +86,8 @@ static std::optional<Target> find_texture_form(int index, std::string_view membe
 }
 
 static std::optional<Target> find_layer_form(int index, std::string_view member) {
-  if (!member.starts_with(kExtensions)) return std::nullopt;
-  member.remove_prefix(kExtensions.size());
+  if (!member.starts_with(kExtensionsPath)) return std::nullopt;
+  member.remove_prefix(kExtensionsPath.size());
   for (int i = 0; i < kLayerNumberCount; i++) {
     if (member == kLayerNumbers[i].name) return Target{List::kMaterials, index, Property::kLayerNumber, i};
   }

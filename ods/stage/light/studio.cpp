@@ -27,10 +27,10 @@ const SoftBox kBoxes[] = {
     {-48.0f, 44.0f, {8.0f, 24.0f}, 7.0f, vec3(3.6f, 3.7f, 3.9f)},       // the other rim
 };
 
-constexpr vec3 kFloor(0.184f, 0.18f, 0.176f);
+constexpr vec3 kStudioFloor(0.184f, 0.18f, 0.176f);
 constexpr vec3 kHorizon(0.27f);  // what the floor's own tone comes to, more or less
 constexpr float kWallToFloor = 1.9f;
-constexpr int kWidth = 512;
+constexpr int kStudioWidth = 512;
 
 // The direction relative to the box's centre: degrees to its right and above it.
 vec2 seen_from(const SoftBox& box, vec3 direction) {
@@ -79,7 +79,7 @@ vec3 floor_radiance() {
       sum += glm::dvec3(light * (sin(elevation) * cos(elevation)));
     }
   }
-  return kFloor * vec3(sum * (1.0 / (double{kRows} * kColumns)) * double{kPi});
+  return kStudioFloor * vec3(sum * (1.0 / (double{kRows} * kColumns)) * double{kPi});
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ vec3 floor_radiance() {
 Environment make_studio(float yaw) {
   const vec3 floor = floor_radiance();
   const float turned = glm::radians(yaw);
-  return make_environment(kWidth, [&](vec3 direction) {
+  return make_environment(kStudioWidth, [&](vec3 direction) {
     const vec3 own(direction.x * cos(turned) + direction.z * sin(turned), direction.y,
                    direction.z * cos(turned) - direction.x * sin(turned));
     return own.y < 0.0f ? floor : with_lights(wall(floor, own), own);
@@ -96,11 +96,11 @@ Environment make_studio(float yaw) {
 
 Environment make_studio_walls() {
   const vec3 floor = floor_radiance();
-  return make_environment(kWidth, [&](vec3 direction) { return wall(floor, direction); });
+  return make_environment(kStudioWidth, [&](vec3 direction) { return wall(floor, direction); });
 }
 
 vec3 studio_floor() {
-  return kFloor;
+  return kStudioFloor;
 }
 
 void add_ground(Scene& scene, vec3 center, float radius, vec3 albedo) {

@@ -17,10 +17,6 @@ enum StereoFlag : uint64_t { kHasLeft = 1, kHasRight = 2, kRightFirst = 8 };
 
 }  // namespace
 
-static VideoStereo stereo_of(const SphericalMetadata& metadata) {
-  return metadata.stereo.value_or(VideoStereo::kOneView);
-}
-
 bool fits_vexu(const SphericalMetadata& metadata) {
   const VideoStereo stereo = stereo_of(metadata);
   const bool is_known = stereo == VideoStereo::kOneView || arrangement_of(stereo).is_halves();
@@ -119,6 +115,12 @@ static double find_ipd(Box& vexu) {
   return static_cast<double>(find_number(*eyes, box_type("cams"), box_type("blin"), 4).value_or(0)) / 1e6;
 }
 
+static void set_projection_of(std::optional<uint64_t> kind, SphericalMetadata& metadata) {
+  metadata.projection = !kind || *kind == box_type("rect") ? VideoProjection::kFlat : VideoProjection::kOther;
+  if (kind == box_type("equi") || kind == box_type("hequ")) metadata.projection = VideoProjection::kEquirect;
+  if (kind == box_type("hequ")) metadata.bounds = kFrontHalf;
+}
+
 std::optional<SphericalMetadata> parse_vexu(const Box& sample_entry) {
   const Box* found = find_child(sample_entry, box_type("vexu"));
   if (found == nullptr) return std::nullopt;
@@ -138,10 +140,27 @@ std::optional<SphericalMetadata> parse_vexu(const Box& sample_entry) {
   } else {
     metadata.stereo = VideoStereo::kOneView;
   }
-  metadata.projection = !kind || *kind == box_type("rect") ? VideoProjection::kFlat : VideoProjection::kOther;
-  if (kind == box_type("equi") || kind == box_type("hequ")) metadata.projection = VideoProjection::kEquirect;
-  if (kind == box_type("hequ")) metadata.bounds = kFrontHalf;
+  set_projection_of(kind, metadata);
   return metadata;
+}
+
+std::optional<EyeLayers> parse_layers(const Box& sample_entry) {
+  if (find_child(sample_entry, box_type("lhvC")) == nullptr) return std::nullopt;
+  EyeLayers layers;
+  layers.beside.stereo = VideoStereo::kSideBySide;
+  layers.beside.projection = VideoProjection::kFlat;
+  if (const Box* wide = find_child(sample_entry, box_type("hfov"))) {
+    const float fov = static_cast<float>(get_number(wide->body, 0, 4)) / 1000.0f;
+    if (fov > 0.0f && fov < 180.0f) layers.fov = fov;
+  }
+  const Box* found = find_child(sample_entry, box_type("vexu"));
+  if (found == nullptr) return layers;
+  Box vexu = *found;
+  open_box(vexu, 0);
+  layers.right_first = (find_number(vexu, box_type("eyes"), box_type("stri"), 1).value_or(0) & kRightFirst) != 0;
+  layers.beside.ipd = find_ipd(vexu);
+  set_projection_of(find_number(vexu, box_type("proj"), box_type("prji"), 4), layers.beside);
+  return layers;
 }
 
 }  // namespace ods

@@ -32,4 +32,14 @@ Box updated_vexu(Box old, const SphericalMetadata& metadata);
 // than packing. Throws MalformedFile.
 std::optional<SphericalMetadata> parse_vexu(const Box& sample_entry);
 
+// The eyes of a stream that has each as a layer (MV-HEVC).
+struct EyeLayers {
+  SphericalMetadata beside;  // of frames that have these eyes side by side
+  bool right_first = false;  // the first layer, which every decoder shows, is the right eye
+  std::optional<float> fov;  // of a flat picture, in degrees across
+};
+// Parses the boxes of a sample entry; nothing if it has no lhvC, which holds the layers' parameters. Throws
+// MalformedFile.
+std::optional<EyeLayers> parse_layers(const Box& sample_entry);
+
 }  // namespace ods

@@ -282,7 +282,7 @@ static void plan_v1(const VideoTrack& track, const SphericalMetadata& metadata, 
 }
 
 static void plan_vexu(const VideoTrack& track, const SphericalMetadata& metadata, TagPlan& plan) {
-  if (track.has_layers || !metadata.for_apple) return;
+  if (track.layers || !metadata.for_apple) return;
   if (!says(track.vexu, metadata)) plan.says_more = true;
   if (!says(track.vexu, metadata) && !fits_vexu(metadata)) {
     plan.notes.push_back(fmt::format("vexu cannot express {} and {}: Apple's players show a flat video",

@@ -79,7 +79,7 @@ static bool is_video(Box& track) {
   return handler_of(track) == box_type("vide");
 }
 
-static uint64_t id_of(const Box& track) {
+uint64_t track_id(const Box& track) {
   const Box* header = find_child(track, box_type("tkhd"));
   if (header == nullptr) throw MalformedFile("one of its tracks has no header");
   return get_number(header->body, get_number(header->body, 0, 1) == 0 ? 12 : 20, 4);
@@ -105,7 +105,7 @@ static double rate_of(Box& track, Box& moov) {
   if (Box* fragments = find_child(moov, box_type("mvex")); fragments != nullptr && duration == 0.0) {
     open_box(*fragments, 0);
     for (const Box& defaults : fragments->children) {
-      if (defaults.type != box_type("trex") || get_number(defaults.body, 4, 4) != id_of(track)) continue;
+      if (defaults.type != box_type("trex") || get_number(defaults.body, 4, 4) != track_id(track)) continue;
       samples = 1.0;
       duration = number_at(defaults.body, 12);
     }
@@ -126,14 +126,24 @@ static std::optional<SphericalMetadata> read_vexu(const Box& entry) {
   }
 }
 
-// MV-HEVC.
+// MV-HEVC. A vexu that says nothing of its layers says nothing at all.
+static std::optional<EyeLayers> read_layers(const Box& entry) {
+  try {
+    return parse_layers(entry);
+  } catch (const MalformedFile&) {
+    EyeLayers silent;
+    silent.beside.stereo = VideoStereo::kSideBySide, silent.beside.projection = VideoProjection::kFlat;
+    return silent;
+  }
+}
+
 static bool has_layers(const Box& entry) {
   return find_child(entry, box_type("lhvC")) != nullptr;
 }
 
 static VideoTrack read_video(Box& track, Box& moov) {
   VideoTrack video;
-  video.id = id_of(track);
+  video.id = track_id(track);
   for (Box& entry : open_child(sample_table(track), box_type("stsd"), 8).children) {
     open_box(entry, kVisualEntry);
     if (video.codec.empty()) {
@@ -144,7 +154,7 @@ static VideoTrack read_video(Box& track, Box& moov) {
     if (!video.v2) video.v2 = parse_v2(entry);
     if (video.mesh.empty()) video.mesh = find_mesh(entry);
     if (!video.vexu) video.vexu = read_vexu(entry);
-    video.has_layers = video.has_layers || has_layers(entry);
+    if (!video.layers) video.layers = read_layers(entry);
   }
   for (const Box& box : track.children) {
     if (is_v1(box) && !video.v1) video.v1 = parse_v1(box.body.substr(kV1Id.size()));
@@ -156,7 +166,7 @@ static VideoTrack read_video(Box& track, Box& moov) {
 // Unreadable sound metadata is ignored.
 static SoundTrack read_sound(Box& track) {
   SoundTrack sound;
-  sound.id = id_of(track);
+  sound.id = track_id(track);
   for (Box& entry : open_child(sample_table(track), box_type("stsd"), 8).children) {
     sound.codec = type_text(entry.type);
     try {
@@ -399,7 +409,7 @@ static void write_header(const Mp4& video, const Plan& plan, AtomicFile& to) {
   write_box(filler, to);
 }
 
-TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t track_id,
+TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t number,
                   const std::optional<SphericalMetadata>& metadata, const OtherTags& other) {
   Mp4 video = open_mp4(file);
   TagResult result;
@@ -407,7 +417,7 @@ TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t track_id,
   for (Box& track : video.moov.children) {
     if (track.type != box_type("trak")) continue;
     open_box(track, 0);
-    if (is_video(track) && id_of(track) == track_id) {
+    if (is_video(track) && track_id(track) == number) {
       add_user_data(other.user.pictures, track);
       result = tag_track(track, metadata, read_video(track, video.moov));
     }

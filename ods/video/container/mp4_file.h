@@ -15,6 +15,9 @@
 
 namespace ods {
 
+// Of a `trak` box. Throws MalformedFile.
+uint64_t track_id(const Box& track);
+
 bool is_mp4(std::string_view first_bytes);
 
 // Throws MalformedFile, Error(kInput).

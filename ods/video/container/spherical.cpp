@@ -38,7 +38,7 @@ std::string metadata_text(const SphericalMetadata& metadata) {
   return text;
 }
 
-static VideoStereo stereo_of(const SphericalMetadata& metadata) {
+VideoStereo stereo_of(const SphericalMetadata& metadata) {
   return metadata.stereo.value_or(VideoStereo::kOneView);
 }
 

@@ -91,6 +91,7 @@ std::string metadata_text(const SphericalMetadata& metadata);
 // Whether both show the same part of the sphere, and arrange the eyes alike. As players do, counts a missing projection
 // as flat, and missing stereo as mono. Bounds that differ by less than a thousandth of the sphere count as equal,
 // because V1 stores them in pixels.
+VideoStereo stereo_of(const SphericalMetadata& metadata);
 bool same_sphere(const SphericalMetadata& a, const SphericalMetadata& b);
 bool same_stereo(const SphericalMetadata& a, const SphericalMetadata& b);
 

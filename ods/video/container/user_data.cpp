@@ -40,12 +40,6 @@ static void take(const std::vector<Box>& boxes, std::initializer_list<BoxType> t
   }
 }
 
-static uint64_t id_of(const Box& track) {
-  const Box* header = find_child(track, box_type("tkhd"));
-  if (header == nullptr) throw MalformedFile("one of its tracks has no header");
-  return get_number(header->body, get_number(header->body, 0, 1) == 0 ? 12 : 20, 4);
-}
-
 static UserData read_boxes(const FileInput& file, uint64_t track) {
   constexpr uint64_t kMost = uint64_t{16} << 20;
   constexpr BoxType kMovie[] = {box_type("moov")};
@@ -61,7 +55,7 @@ static UserData read_boxes(const FileInput& file, uint64_t track) {
     for (Box& each : movie.children) {
       if (each.type != box_type("trak")) continue;
       open_box(each, 0);
-      if (id_of(each) == track) take(each.children, {box_type("udta"), box_type("meta")}, data.pictures);
+      if (track_id(each) == track) take(each.children, {box_type("udta"), box_type("meta")}, data.pictures);
     }
   }
   return data;

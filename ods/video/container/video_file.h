@@ -12,7 +12,7 @@
 
 #include "ods/base/names.h"
 #include "ods/camera/layout.h"
-#include "ods/video/container/spherical.h"
+#include "ods/video/container/apple.h"
 #include "ods/video/container/user_data.h"
 
 namespace ods {
@@ -42,7 +42,7 @@ struct VideoTrack {
   std::optional<SphericalMetadata> v2;    // Spherical Video V2, in Matroska StereoMode and Projection
   std::optional<SphericalMetadata> vexu;  // the vexu for Apple's players
   std::string mesh;                       // of v2: the body of its mshp box (mesh_box.h); empty: none
-  bool has_layers = false;                // its eyes are layers of the stream (MV-HEVC), which its vexu describes
+  std::optional<EyeLayers> layers;        // its eyes are layers of the stream (MV-HEVC), which its vexu describes
 };
 
 struct SoundTrack {

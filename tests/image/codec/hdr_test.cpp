@@ -14,8 +14,7 @@
 #include "tests/support/decoded_rows.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::hdr_test {
 
 constexpr int kWidth = 53, kHeight = 31;
 using Scanline = std::vector<std::string>;  // of pixels, four bytes each
@@ -204,5 +203,4 @@ TEST(HdrEncoder, KeepsTheLargestOfEachPixelToOnePartIn128) {
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::hdr_test

@@ -14,8 +14,7 @@
 #include "tests/support/decoded_rows.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::webp_test {
 
 constexpr int kWidth = 53, kHeight = 31;
 
@@ -159,5 +158,4 @@ TEST(WebpEncoder, RefusesWhatItCannotHold) {
   EXPECT_THROW(write(folder, make_pixels(2), 2, 95), Error);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::webp_test

@@ -16,8 +16,7 @@
 #include "ods/files/read_file.h"
 #include "tests/support/gltf_builder.h"
 
-namespace ods {
-namespace {
+namespace ods::ktx2_test {
 
 struct Reference {
   const char* name;
@@ -151,5 +150,4 @@ TEST(Ktx2, DamagedItIsAPictureOrAnError) {
   EXPECT_GT(errors, 100u);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::ktx2_test

@@ -15,8 +15,7 @@
 #include "tests/support/exr_files.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::metadata_test {
 
 const int kWidth = 8, kHeight = 4;
 
@@ -260,5 +259,4 @@ TEST(Gpano, ExiftoolReadsIt) {
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::metadata_test

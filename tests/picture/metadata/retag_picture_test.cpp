@@ -16,8 +16,7 @@
 #include "ods/picture/save.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::retag_picture_test {
 
 Picture gradient(const std::vector<int>& eyes) {
   Picture picture;
@@ -129,5 +128,4 @@ TEST(RetagPicture, AnExrKeepsAPositionOfWhichNobodyKnowsTheEyes) {
   EXPECT_EQ(info.text.at("textureformat"), "LatLong Environment");
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::retag_picture_test

@@ -12,8 +12,7 @@
 #include "tests/support/statistics.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::sidecar_test {
 
 std::string error_of(const std::string& text) {
   std::vector<std::string> warnings;
@@ -247,5 +246,4 @@ TEST(Sidecar, IsSavedWhole) {
   EXPECT_THROW(load_sidecar(folder.path("none.json"), warnings), Error);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::sidecar_test

@@ -17,8 +17,7 @@
 #include "ods/picture/stored_picture.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::stereo_format_test {
 
 PictureRows grey(const std::vector<int>& eyes, Extent eye) {
   PictureRows rows;
@@ -362,5 +361,4 @@ TEST(Guesses, AreMadeByNameThenByShapeAndReported) {
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::stereo_format_test

@@ -24,8 +24,7 @@
 #include "tests/support/exr_files.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::tag_picture_test {
 
 const int kWidth = 16, kHeight = 8;
 
@@ -434,5 +433,4 @@ TEST(TagPicture, OtherProgramsReadIt) {
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::tag_picture_test

@@ -26,8 +26,7 @@
 #include "tests/support/decoded_video.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::vr_photo_test {
 
 TEST(Md5, IsThatOfItsSpecification) {
   EXPECT_EQ(md5(""), "D41D8CD98F00B204E9800998ECF8427E");
@@ -422,5 +421,4 @@ TEST_F(Photo, ExiftoolFindsTheRightEye) {
   EXPECT_EQ(output_of("exiftool -b -XMP-GImage:ImageData " + path), right_eye());
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::vr_photo_test

@@ -212,7 +212,7 @@ TEST(Catcher, OthersAreAsBefore) {
 TEST(Catcher, IsFoundByTheNamesOfNodesAndMaterials) {
   GltfBuilder file = make_triangle();
   file.node(0)["name"] = "Ground";
-  file.json["materials"] = Json::array({{{"name", "Grass"}}, {{"name", "Unused"}}});
+  file.json["materials"] = GltfJson::array({{{"name", "Grass"}}, {{"name", "Unused"}}});
   file.primitive()["material"] = 0;
   EXPECT_EQ(object_names(file.load()), (std::vector<std::string>{"Ground", "Grass"}));
   for (const char* name : {"Ground", "Grass"}) {

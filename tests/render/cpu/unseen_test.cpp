@@ -14,8 +14,7 @@
 #include "tests/support/lambert.h"
 #include "tests/support/pictures.h"
 
-namespace ods {
-namespace {
+namespace ods::unseen_test {
 
 constexpr double kPiD = std::numbers::pi;
 constexpr LightSampling kWays[] = {LightSampling::kBoth, LightSampling::kLightsOnly, LightSampling::kBsdfOnly};
@@ -274,5 +273,4 @@ TEST(LightSize, ConesFadeAsCyclesHasThem) {
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::unseen_test

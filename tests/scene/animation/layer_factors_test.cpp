@@ -22,7 +22,7 @@ const std::string kExtensions = "/materials/0/extensions/";
 GltfBuilder with_layers() {
   GltfBuilder file = make_triangle();
   file.primitive()["material"] = 0;
-  file.json["materials"] = Json::parse(R"([{"extensions": {
+  file.json["materials"] = GltfJson::parse(R"([{"extensions": {
       "KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": {"thicknessFactor": 1},
       "KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatNormalTexture": {"index": 0}},
       "KHR_materials_sheen": {"sheenColorFactor": [0.5, 0.5, 0.5]},
@@ -34,12 +34,12 @@ GltfBuilder with_layers() {
 
 void add_texture(GltfBuilder& file) {
   file.json["images"] = {{{"bufferView", file.add_view(small_png())}, {"mimeType", "image/png"}}};
-  file.json["textures"] = Json::parse(R"([{"source": 0}])");
+  file.json["textures"] = GltfJson::parse(R"([{"source": 0}])");
 }
 
 // The member of the first material's extensions that a row names.
-Json& member_of(GltfBuilder& file, std::string_view name) {
-  return file.json["materials"][0]["extensions"][Json::json_pointer("/" + std::string(name))];
+GltfJson& member_of(GltfBuilder& file, std::string_view name) {
+  return file.json["materials"][0]["extensions"][GltfJson::json_pointer("/" + std::string(name))];
 }
 
 Scene at(const GltfBuilder& file, double seconds) {
@@ -85,7 +85,7 @@ TEST(LayerFactors, EveryTextureMoves) {
     GltfBuilder file = with_layers();
     add_texture(file);
     member_of(file, row.name) =
-        Json::parse(R"({"index": 0, "extensions": {"KHR_texture_transform": {"scale": [2, 2]}}})");
+        GltfJson::parse(R"({"index": 0, "extensions": {"KHR_texture_transform": {"scale": [2, 2]}}})");
     const std::string place = kExtensions + std::string(row.name) + "/extensions/KHR_texture_transform/";
     animate(file, pointer(place + "offset"), {0, 1}, {0, 0, 1, 2}, "VEC2");
     animate(file, pointer(place + "rotation"), {0, 1}, {0, 1}, "SCALAR");
@@ -124,7 +124,7 @@ TEST(LayerFactors, ACoatMayAppear) {
   GltfBuilder file = make_triangle();
   file.primitive()["material"] = 0;
   add_texture(file);
-  file.json["materials"] = Json::parse(R"([{"extensions": {"KHR_materials_clearcoat": {
+  file.json["materials"] = GltfJson::parse(R"([{"extensions": {"KHR_materials_clearcoat": {
       "clearcoatRoughnessFactor": 0.25, "clearcoatTexture": {"index": 0}}}}])");
   EXPECT_EQ(file.load().materials[0].layers, -1);
   animate(file, pointer(kExtensions + "KHR_materials_clearcoat/clearcoatFactor"), {0, 1}, {0, 1}, "SCALAR");
@@ -138,7 +138,7 @@ TEST(LayerFactors, ACoatMayAppear) {
 TEST(LayerFactors, AnExtensionThatOnlyTheAnimationNamesWorks) {
   GltfBuilder file = make_triangle();
   file.primitive()["material"] = 0;
-  file.json["materials"] = Json::parse("[{}]");
+  file.json["materials"] = GltfJson::parse("[{}]");
   animate(file, pointer(kExtensions + "KHR_materials_sheen/sheenColorFactor"), {0, 1}, {0, 0, 0, 1, 1, 1}, "VEC3");
   EXPECT_EQ(at(file, 0.5).material_layers.at(0).sheen_color, vec3(0.5f));
 }
@@ -147,7 +147,7 @@ TEST(LayerFactors, AnisotropyThatAppearsHasTangents) {
   GltfBuilder file = make_triangle();
   file.primitive()["material"] = 0;
   file.primitive()["attributes"]["TEXCOORD_0"] = file.add<float>({0, 1, 1, 1, 0, 0}, kFloat, "VEC2");
-  file.json["materials"] = Json::parse(R"([{"extensions": {"KHR_materials_anisotropy": {}}}])");
+  file.json["materials"] = GltfJson::parse(R"([{"extensions": {"KHR_materials_anisotropy": {}}}])");
   animate(file, pointer(kExtensions + "KHR_materials_anisotropy/anisotropyStrength"), {0, 1}, {0, 1}, "SCALAR");
   for (const Vertex& vertex : at(file, 1.0).vertices) EXPECT_EQ(vertex.tangent, vec4(1, 0, 0, 1));
 }
@@ -156,7 +156,7 @@ TEST(LayerFactors, AnisotropyThatAppearsHasTangents) {
 TEST(LayerFactors, OddTargets) {
   const std::string coat = "/extensions/KHR_materials_clearcoat/clearcoatFactor";
   GltfBuilder file = make_triangle();
-  file.json["materials"] = Json::parse(R"([{"extensions": {"KHR_materials_unlit": {}}}])");
+  file.json["materials"] = GltfJson::parse(R"([{"extensions": {"KHR_materials_unlit": {}}}])");
   animate(file, pointer("/materials/0" + coat), {0, 1}, {0, 1}, "SCALAR");
   EXPECT_TRUE(at(file, 1.0).material_layers.empty());
   GltfBuilder unknown = with_layers();

@@ -53,7 +53,7 @@ GltfBuilder compressed_grid(const DracoChoice& choice, bool keep = false) {
   return file;
 }
 
-Json& extension_of(GltfBuilder& file) {
+GltfJson& extension_of(GltfBuilder& file) {
   return file.primitive()["extensions"]["KHR_draco_mesh_compression"];
 }
 
@@ -109,7 +109,7 @@ TEST(GltfDraco, StripsAreDecodedToTriangles) {
 
 TEST(GltfDraco, ValuesHaveTheTypeOfTheirAccessor) {
   GltfBuilder file = compressed_grid({});
-  Json& color = file.json["accessors"][3];
+  GltfJson& color = file.json["accessors"][3];
   ASSERT_EQ(color["componentType"], kUbyte);  // so is the stream
   color["componentType"] = kFloat;
   color.erase("normalized");
@@ -121,8 +121,8 @@ TEST(GltfDraco, ValuesHaveTheTypeOfTheirAccessor) {
 
 TEST(GltfDraco, AttributesBesideTheStreamStayPlain) {
   GltfBuilder file = make_grid(12);
-  Json& attributes = file.primitive()["attributes"];
-  const Json color = attributes["COLOR_0"];
+  GltfJson& attributes = file.primitive()["attributes"];
+  const GltfJson color = attributes["COLOR_0"];
   attributes.erase("COLOR_0");
   compress_draco(file, file.primitive());
   attributes["COLOR_0"] = color;
@@ -138,11 +138,11 @@ GltfBuilder skinned_and_morphed() {
     weights.insert(weights.end(), {0.75f, 0.25f, 0, 0});
     deltas.insert(deltas.end(), {0, float(i), 0});
   }
-  Json& attributes = file.primitive()["attributes"];
+  GltfJson& attributes = file.primitive()["attributes"];
   attributes["JOINTS_0"] = file.add(joints, kUbyte, "VEC4");
   attributes["WEIGHTS_0"] = file.add(weights, kFloat, "VEC4");
-  file.json["skins"] = Json::parse(R"([{"joints": [1, 2]}])");
-  file.json["nodes"] = Json::parse(R"([{"mesh": 0, "skin": 0}, {}, {"translation": [0, 3, 0]}])");
+  file.json["skins"] = GltfJson::parse(R"([{"joints": [1, 2]}])");
+  file.json["nodes"] = GltfJson::parse(R"([{"mesh": 0, "skin": 0}, {}, {"translation": [0, 3, 0]}])");
   file.json["scenes"][0]["nodes"] = {0, 1, 2};
   file.json["meshes"][0]["weights"] = {0.5};
   file.primitive()["targets"] = {{{"POSITION", file.add(deltas, kFloat, "VEC3")}}};
@@ -176,9 +176,9 @@ TEST(GltfDraco, MeshesOfSeveralNodes) {  // each skinned node reads its mesh for
 
 TEST(GltfDraco, ManyPrimitives) {
   GltfBuilder file = make_grid(3);
-  Json& primitives = file.json["meshes"][0]["primitives"];
+  GltfJson& primitives = file.json["meshes"][0]["primitives"];
   for (int i = 0; i < 20; i++) {
-    Json copy = primitives[0];
+    GltfJson copy = primitives[0];
     compress_draco(file, copy, {.edgebreaker = i % 2 == 0}, true);
     primitives.push_back(copy);
   }
@@ -191,13 +191,13 @@ TEST(GltfDraco, ManyPrimitives) {
 TEST(GltfDraco, SmallStreamsMayHoldMuch) {
   GltfBuilder file = make_grid(300);
   file.primitive()["attributes"] = {{"POSITION", file.primitive()["attributes"]["POSITION"]}};
-  Json ids;
+  GltfJson ids;
   const Binary stream = draco_stream(file, file.primitive(), {true, 10}, &ids);
   GltfBuilder small = make_triangle();
   small.json["accessors"] = {file.json["accessors"][0]};
   small.json["accessors"][0].erase("bufferView");
   small.binary.clear();
-  small.json["bufferViews"] = Json::array();
+  small.json["bufferViews"] = GltfJson::array();
   extension_of(small) = {{"bufferView", small.add_view(stream)}, {"attributes", ids}};
   EXPECT_EQ(small.load().triangles.size(), 180000u);
 }

@@ -79,7 +79,7 @@ TEST(Extensions, AnUnknownOneIsNotRendered) {
 // Some exporters do not list an extension that they use.
 TEST(Extensions, ObjectsOfAnExtensionAreAUse) {
   GltfBuilder file = make_triangle();
-  file.primitive()["extensions"] = {{"VENDOR_thing", Json::object()}, {"KHR_xmp_json_ld", Json::object()}};
+  file.primitive()["extensions"] = {{"VENDOR_thing", GltfJson::object()}, {"KHR_xmp_json_ld", GltfJson::object()}};
   const Scene scene = file.load();
   ASSERT_EQ(scene.extensions.size(), 2u);
   EXPECT_EQ(scene.extensions[0].name, "KHR_xmp_json_ld");

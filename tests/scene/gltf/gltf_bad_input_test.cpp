@@ -38,10 +38,10 @@ GltfBuilder make_everything() {
   const int where = file.add<float>({1, 0, 0, 2, 0, 0}, kFloat, "VEC3");
   file.node(0)["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = where;
   file.json["images"] = {{{"bufferView", file.add_view(small_png())}, {"mimeType", "image/png"}}};
-  file.json["textures"] = Json::parse(R"([{"source": 0}])");
-  file.json["materials"] = Json::parse(R"([{"normalTexture": {"index": 0}, "emissiveTexture": {"index": 0}}])");
-  file.json["cameras"] = Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
-  file.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([{"type": "point"}])");
+  file.json["textures"] = GltfJson::parse(R"([{"source": 0}])");
+  file.json["materials"] = GltfJson::parse(R"([{"normalTexture": {"index": 0}, "emissiveTexture": {"index": 0}}])");
+  file.json["cameras"] = GltfJson::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = GltfJson::parse(R"([{"type": "point"}])");
   file.node(0)["extensions"]["KHR_lights_punctual"]["light"] = 0;
   file.node(0)["camera"] = 0;
   return file;
@@ -120,7 +120,7 @@ class GltfBreakage : public testing::TestWithParam<Breakage> {};
 
 TEST_P(GltfBreakage, IsAnError) {
   GltfBuilder file = make_everything();
-  file.json[Json::json_pointer(GetParam().path)] = Json::parse(GetParam().value);
+  file.json[GltfJson::json_pointer(GetParam().path)] = GltfJson::parse(GetParam().value);
   const std::string error = error_of(file.glb());
   EXPECT_FALSE(error.empty()) << GetParam().path;
   EXPECT_NE(error.find(GetParam().words), std::string::npos) << GetParam().path << ": '" << error << "'";
@@ -186,8 +186,8 @@ TEST(GltfBadInput, ASmallFileCannotAskForMuch) {
   GltfBuilder file = make_triangle();  // a thousand meshes of a million corners, from one accessor of zeros
   std::vector<uint8_t> zeros(100000, 0);
   file.add(zeros, kUbyte, "SCALAR");
-  const Json primitive = {{"attributes", {{"POSITION", 0}}}, {"indices", 1}};
-  file.json["meshes"][0]["primitives"] = std::vector<Json>(1000, primitive);
+  const GltfJson primitive = {{"attributes", {{"POSITION", 0}}}, {"indices", 1}};
+  file.json["meshes"][0]["primitives"] = std::vector<GltfJson>(1000, primitive);
   EXPECT_NE(error_of(file.glb()).find("far more geometry"), std::string::npos);
 }
 
@@ -297,8 +297,8 @@ TEST_F(GltfSparseFile, Pictures) {
   write("a.png", small_png());
   GltfBuilder file = make_triangle();
   file.json["images"] = {{{"uri", "a.png"}}};
-  file.json["textures"] = Json::parse(R"([{"source": 0}])");
-  file.json["materials"] = Json::parse(R"([{"emissiveTexture": {"index": 0}}])");
+  file.json["textures"] = GltfJson::parse(R"([{"source": 0}])");
+  file.json["materials"] = GltfJson::parse(R"([{"emissiveTexture": {"index": 0}}])");
   file.json["buffers"] = {{{"byteLength", file.binary.size()}, {"uri", "a.bin"}}};
   folder.write("a.bin", std::string(file.binary.begin(), file.binary.end()));
   folder.write("a.gltf", file.json.dump());
@@ -347,7 +347,7 @@ TEST(GltfBadInput, TrianglesWithoutAnAreaAreLeftOut) {
 TEST(GltfBadInput, FlattenedInstancesAreLeftOut) {
   GltfBuilder file = make_triangle();
   file.json["scenes"][0]["nodes"] = {0, 1, 2};
-  file.json["nodes"] = Json::parse(R"([{"mesh": 0, "scale": [1, 0, 1]}, {"mesh": 0},
+  file.json["nodes"] = GltfJson::parse(R"([{"mesh": 0, "scale": [1, 0, 1]}, {"mesh": 0},
       {"mesh": 0, "matrix": [1,1,0,0, 1,1,0,0, 0,0,1,0, 0,0,0,1]}])");
   const Scene scene = file.load();
   EXPECT_EQ(scene.instances.size(), 1u);
@@ -363,7 +363,7 @@ TEST(GltfBadInput, InstancesThatAreNowhere) {
 
 TEST(GltfBadInput, FactorsAreBroughtIntoRange) {
   GltfBuilder file = make_triangle();
-  file.json["materials"] = Json::parse(R"([{
+  file.json["materials"] = GltfJson::parse(R"([{
       "pbrMetallicRoughness": {"baseColorFactor": [-1, 2, 1e300, 5], "metallicFactor": 7, "roughnessFactor": -3},
       "emissiveFactor": [1e300, -1, 1], "alphaMode": "PERHAPS", "alphaCutoff": -1e300,
       "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 1e300}, "KHR_materials_ior": {"ior": -2},

@@ -12,8 +12,7 @@
 #include "tests/support/moving_files.h"
 #include "tests/support/scene_check.h"
 
-namespace ods {
-namespace {
+namespace ods::gltf_bad_motion_test {
 
 // What the reader says; a file that it takes is played.
 std::string answer(const Binary& bytes) {
@@ -39,10 +38,10 @@ GltfBuilder make_moving() {
   const int delta = file.add<float>({0, 1, 0, 0, 1, 0, 0, 1, 0}, kFloat, "VEC3");
   file.primitive()["targets"] = {{{"POSITION", delta}, {"NORMAL", delta}}};
   file.primitive()["material"] = 0;
-  file.json["materials"] = Json::parse(R"([{"emissiveFactor": [1, 1, 1]}])");
-  file.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([{"type": "point"}])");
+  file.json["materials"] = GltfJson::parse(R"([{"emissiveFactor": [1, 1, 1]}])");
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = GltfJson::parse(R"([{"type": "point"}])");
   file.node(1)["extensions"]["KHR_lights_punctual"]["light"] = 0;
-  file.json["cameras"] = Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
+  file.json["cameras"] = GltfJson::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
   file.node(2)["camera"] = 0;
   animate(file, node_target(0, "weights"), {0, 1}, {0, 1}, "SCALAR");
   animate(file, node_target(1, "translation"), {0, 1}, {0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0}, "VEC3",
@@ -74,7 +73,7 @@ class GltfMotionBreakage : public testing::TestWithParam<Breakage> {};
 
 TEST_P(GltfMotionBreakage, IsAnErrorOrLeftOut) {
   GltfBuilder file = make_moving();
-  file.json[Json::json_pointer(GetParam().path)] = Json::parse(GetParam().value);
+  file.json[GltfJson::json_pointer(GetParam().path)] = GltfJson::parse(GetParam().value);
   const std::string error = answer(file.glb());
   if (*GetParam().words == '\0') {
     EXPECT_EQ(error, "") << GetParam().path;
@@ -170,7 +169,7 @@ TEST(GltfBadMotion, ManyNamesForTheSameNumbers) {
   std::vector<float> rising;
   for (int i = 0; i < 10000; i++) rising.push_back(static_cast<float>(i));
   animate(file, node_target(0, "translation"), rising, zeros, "VEC3");
-  Json& channels = file.json["animations"][0]["channels"];
+  GltfJson& channels = file.json["animations"][0]["channels"];
   for (int i = 0; i < 500; i++) channels.push_back(channels[0]);
   EXPECT_NE(answer(file.glb()).find("far more"), std::string::npos);
   GltfBuilder morphed = make_triangle();
@@ -182,5 +181,4 @@ TEST(GltfBadMotion, ManyNamesForTheSameNumbers) {
   EXPECT_NE(answer(morphed.glb()).find("far more"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::gltf_bad_motion_test

@@ -17,15 +17,15 @@ Binary small_ktx2() {
 constexpr size_t kTexels = 61 * 61;
 
 // A triangle that shows the picture of texture 0.
-GltfBuilder make_textured(const Json& texture) {
+GltfBuilder make_textured(const GltfJson& texture) {
   GltfBuilder file = make_triangle();
   file.json["textures"] = {texture};
-  file.json["materials"] = Json::parse(R"([{"emissiveTexture": {"index": 0}}])");
+  file.json["materials"] = GltfJson::parse(R"([{"emissiveTexture": {"index": 0}}])");
   return file;
 }
 
 TEST(GltfBasis, IsDecoded) {
-  GltfBuilder file = make_textured(Json::parse(R"({"extensions": {"KHR_texture_basisu": {"source": 0}}})"));
+  GltfBuilder file = make_textured(GltfJson::parse(R"({"extensions": {"KHR_texture_basisu": {"source": 0}}})"));
   file.json["extensionsRequired"] = file.json["extensionsUsed"] = {"KHR_texture_basisu"};
   file.json["images"] = {{{"bufferView", file.add_view(small_ktx2())}, {"mimeType", "image/ktx2"}}};
   const Scene scene = file.load();
@@ -36,7 +36,7 @@ TEST(GltfBasis, IsDecoded) {
 
 // Some exporters name the picture as if every program read it.
 TEST(GltfBasis, NeedsNoExtension) {
-  GltfBuilder file = make_textured(Json::parse(R"({"source": 0})"));
+  GltfBuilder file = make_textured(GltfJson::parse(R"({"source": 0})"));
   file.json["images"] = {{{"bufferView", file.add_view(small_ktx2())}}};
   const Scene scene = file.load();
   EXPECT_EQ(scene.texels.size(), kTexels);
@@ -45,7 +45,7 @@ TEST(GltfBasis, NeedsNoExtension) {
 
 TEST(GltfBasis, WhatHasLostLessIsBetter) {
   GltfBuilder file =
-      make_textured(Json::parse(R"({"source": 1, "extensions": {"KHR_texture_basisu": {"source": 0}}})"));
+      make_textured(GltfJson::parse(R"({"source": 1, "extensions": {"KHR_texture_basisu": {"source": 0}}})"));
   file.json["extensionsUsed"] = {"KHR_texture_basisu"};
   file.json["images"] = {{{"bufferView", file.add_view({1, 2, 3})}}, {{"bufferView", file.add_view(small_png())}}};
   const Scene scene = file.load();
@@ -56,7 +56,7 @@ TEST(GltfBasis, WhatHasLostLessIsBetter) {
 TEST(GltfBasis, OthersAreAnErrorThatNamesThem) {
   Binary cube = small_ktx2();
   cube[36] = 6;  // faces
-  GltfBuilder file = make_textured(Json::parse(R"({"extensions": {"KHR_texture_basisu": {"source": 0}}})"));
+  GltfBuilder file = make_textured(GltfJson::parse(R"({"extensions": {"KHR_texture_basisu": {"source": 0}}})"));
   file.json["images"] = {{{"bufferView", file.add_view(cube)}}};
   const std::string error = error_of(file.glb());
   EXPECT_NE(error.find("image 0"), std::string::npos) << error;

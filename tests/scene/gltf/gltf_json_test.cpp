@@ -10,14 +10,13 @@
 #include "ods/scene/gltf/json.h"
 #include "tests/support/gltf_builder.h"
 
-namespace ods {
-namespace {
+namespace ods::gltf_json_test {
 
 // Every whole number of a document written as a real: 3 becomes 3.0.
-void write_as_reals(Json& json) {
+void write_as_reals(GltfJson& json) {
   if (json.is_number_integer()) json = json.get<double>();
   if (json.is_structured()) {
-    for (Json& value : json) write_as_reals(value);
+    for (GltfJson& value : json) write_as_reals(value);
   }
 }
 
@@ -29,13 +28,13 @@ GltfBuilder make_moving() {
   file.primitive()["indices"] = file.add<uint16_t>({0, 1, 2}, kUshort, "SCALAR");
   file.primitive()["material"] = 0;
   file.json["images"] = {{{"bufferView", file.add_view(small_png())}, {"mimeType", "image/png"}}};
-  file.json["textures"] = Json::parse(R"([{"source": 0, "sampler": 0}])");
-  file.json["samplers"] = Json::parse(R"([{"wrapS": 33071}])");
-  file.json["materials"] = Json::parse(R"([{"emissiveTexture": {"index": 0}}])");
-  file.json["cameras"] = Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
-  file.json["skins"] = Json::parse(R"([{"joints": [1, 2]}])");
-  file.json["scenes"] = Json::parse(R"([{"nodes": [0, 1]}])");
-  file.json["nodes"] = Json::parse(R"([{"mesh": 0, "skin": 0}, {"children": [2], "camera": 0}, {}])");
+  file.json["textures"] = GltfJson::parse(R"([{"source": 0, "sampler": 0}])");
+  file.json["samplers"] = GltfJson::parse(R"([{"wrapS": 33071}])");
+  file.json["materials"] = GltfJson::parse(R"([{"emissiveTexture": {"index": 0}}])");
+  file.json["cameras"] = GltfJson::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
+  file.json["skins"] = GltfJson::parse(R"([{"joints": [1, 2]}])");
+  file.json["scenes"] = GltfJson::parse(R"([{"nodes": [0, 1]}])");
+  file.json["nodes"] = GltfJson::parse(R"([{"mesh": 0, "skin": 0}, {"children": [2], "camera": 0}, {}])");
   const int times = file.add<float>({0, 1}, kFloat, "SCALAR");
   const int places = file.add<float>({0, 0, 0, 2, 0, 0}, kFloat, "VEC3");
   file.json["animations"] = {{{"samplers", {{{"input", times}, {"output", places}}}},
@@ -69,7 +68,7 @@ TEST(GltfJson, LargeNumbersAreNotCutToSmallOnes) {
   EXPECT_NE(error_of(file.glb()).find("does not exist"), std::string::npos);
   file = make_triangle();
   file.primitive()["material"] = 0;
-  file.json["materials"] = Json::parse(
+  file.json["materials"] = GltfJson::parse(
       R"([{"emissiveFactor": [1, 1, 1], "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 0}}}])");
   file.json["materials"][0]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 50000000;
   EXPECT_EQ(file.load().materials[0].emission.x, 5e7f);
@@ -118,11 +117,11 @@ TEST(GltfJson, IndicesWithoutABufferView) {
 
 TEST(GltfJson, SkipsWhatReadersDoNotKnow) {
   GltfBuilder file = make_triangle();
-  file.json["extras"] = Json::parse(R"({"a": [{"b": {}}, []], "c": null})");
-  file.json["mine"] = Json::parse(R"({"nodes": 1})");
+  file.json["extras"] = GltfJson::parse(R"({"a": [{"b": {}}, []], "c": null})");
+  file.json["mine"] = GltfJson::parse(R"({"nodes": 1})");
   file.node(0)["extras"] = 5;
-  file.node(0)["extensions"] = Json::parse(R"({"MY_extension": {"mesh": [1, [2]]}})");
-  file.json["extensions"] = Json::parse(R"({"KHR_lights_punctual": {"lights": [{"type": "point", "extras": "x"}]}})");
+  file.node(0)["extensions"] = GltfJson::parse(R"({"MY_extension": {"mesh": [1, [2]]}})");
+  file.json["extensions"] = GltfJson::parse(R"({"KHR_lights_punctual": {"lights": [{"type": "point", "extras": "x"}]}})");
   file.node(0)["extensions"]["KHR_lights_punctual"] = {{"light", 0}};
   const Scene scene = file.load();
   EXPECT_EQ(scene.lights.size(), 1u);
@@ -151,8 +150,8 @@ TEST(GltfJson, TheLastMemberOfANameCounts) {
 // Work that grows with the square of the file's size.
 TEST(GltfJson, ManyNodesOfManyPrimitives) {
   GltfBuilder file = make_triangle();
-  file.json["meshes"][0]["primitives"] = std::vector<Json>(2000, Json::object());
-  file.json["nodes"] = std::vector<Json>(2000, Json{{"mesh", 0}});
+  file.json["meshes"][0]["primitives"] = std::vector<GltfJson>(2000, GltfJson::object());
+  file.json["nodes"] = std::vector<GltfJson>(2000, GltfJson{{"mesh", 0}});
   file.json.erase("scenes");
   EXPECT_NE(error_of(file.glb()).find("far more geometry"), std::string::npos);
 }
@@ -160,7 +159,7 @@ TEST(GltfJson, ManyNodesOfManyPrimitives) {
 TEST(GltfJson, ManyReasonsToWarn) {
   GltfBuilder file = make_triangle();
   for (int i = 0; i < 1000; i++) {
-    file.json["textures"].push_back(Json::object());
+    file.json["textures"].push_back(GltfJson::object());
     file.json["materials"].push_back({{"emissiveTexture", {{"index", i}}}});
   }
   EXPECT_EQ(file.load().warnings.size(), 100u);
@@ -172,5 +171,4 @@ TEST(GltfJson, ObjectsWithManyMembersAreRefused) {
   EXPECT_NE(error_of(file.glb()).find("members"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::gltf_json_test

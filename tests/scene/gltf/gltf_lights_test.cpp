@@ -16,11 +16,11 @@ void expect_near(vec3 a, vec3 b) {
 TEST(GltfLights, PunctualLights) {
   GltfBuilder file = make_triangle();
   file.json["extensionsUsed"] = {"KHR_lights_punctual"};
-  file.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = GltfJson::parse(R"([
       {"type": "spot", "color": [1, 0.5, 0], "intensity": 10, "range": 7, "spot": {"innerConeAngle": 0.1, "outerConeAngle": 0.2}},
       {"type": "point"}, {"type": "directional", "intensity": 3}])");
   file.json["scenes"][0]["nodes"] = {0, 1, 2};
-  file.json["nodes"] = Json::parse(R"([{"translation": [1,2,3]}, {}, {"rotation": [-0.70710678,0,0,0.70710678]}])");
+  file.json["nodes"] = GltfJson::parse(R"([{"translation": [1,2,3]}, {}, {"rotation": [-0.70710678,0,0,0.70710678]}])");
   for (size_t i = 0; i < 3; i++) file.node(i)["extensions"]["KHR_lights_punctual"]["light"] = i;
   const Scene scene = file.load();
   ASSERT_EQ(scene.lights.size(), 3u);
@@ -41,12 +41,12 @@ TEST(GltfLights, PunctualLights) {
 TEST(GltfLights, LightShapes) {
   GltfBuilder file = make_triangle();
   file.json["extensionsUsed"] = {"KHR_lights_punctual", "ODS_light_shape"};
-  file.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = GltfJson::parse(R"([
       {"type": "spot", "spot": {}, "extensions": {"ODS_light_shape": {"radius": 0.2, "cone": "smooth"}}},
       {"type": "point", "extensions": {"ODS_light_shape": {"radius": -1, "cone": "smooth cosine"}}},
       {"type": "directional", "extensions": {"ODS_light_shape": {"angle": 0.01, "radius": 3, "cone": 7}}}])");
   file.json["scenes"][0]["nodes"] = {0, 1, 2};
-  file.json["nodes"] = Json::parse(R"([{}, {}, {}])");
+  file.json["nodes"] = GltfJson::parse(R"([{}, {}, {}])");
   for (size_t i = 0; i < 3; i++) file.node(i)["extensions"]["KHR_lights_punctual"]["light"] = i;
   const Scene scene = file.load();
   ASSERT_EQ(scene.lights.size(), 3u);
@@ -65,7 +65,7 @@ TEST(GltfLights, UnseenNodes) {
     file.json["extensionsUsed"] = {"ODS_unseen"};
     file.json["nodes"].push_back({{"mesh", 0}});
     file.json["scenes"][0]["nodes"] = {0, 1};
-    file.node(1)["extensions"]["ODS_unseen"] = Json::parse(unseen);
+    file.node(1)["extensions"]["ODS_unseen"] = GltfJson::parse(unseen);
     const Scene scene = file.load();
     ASSERT_EQ(scene.instances.size(), 2u);
     EXPECT_EQ(scene.instances[0].role, kOrdinary);

@@ -107,7 +107,7 @@ TEST(NormalMaps, PackingKeepsDirections) {
 GltfBuilder make_older(const char* material) {
   GltfBuilder file = make_triangle();
   file.json["extensionsRequired"] = {"KHR_materials_pbrSpecularGlossiness"};
-  file.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"] = Json::parse(material);
+  file.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"] = GltfJson::parse(material);
   file.primitive()["material"] = 0;
   return file;
 }
@@ -145,7 +145,7 @@ TEST(SpecularGlossiness, TheTextureIsSplit) {
                                     return c == 3 ? static_cast<float>(x) * 0.2f : codes[c];
                                   }));
   const int diffuse = add_texture(file, small_png());
-  Json& older = file.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"];
+  GltfJson& older = file.json["materials"][0]["extensions"]["KHR_materials_pbrSpecularGlossiness"];
   older["specularGlossinessTexture"] = {{"index", texture}};
   older["diffuseTexture"] = {{"index", diffuse}};
   const Scene scene = file.load();
@@ -171,14 +171,14 @@ TEST(SpecularGlossiness, TheTextureIsSplit) {
 GltfBuilder make_lit(const std::string& channels, const std::function<vec4(int face, int x, int y)>& color) {
   GltfBuilder file = make_triangle();
   file.json["extensionsUsed"] = {"EXT_lights_image_based"};
-  Json faces = Json::array();
+  GltfJson faces = GltfJson::array();
   for (int face = 0; face < 6; face++) {
     const Binary png =
         make_png(4, 4, channels, SampleType::kUint8, [&](int x, int y, int c) { return color(face, x, y)[c]; });
     add_texture(file, png);
     faces.push_back(face);
   }
-  Json& light = file.json["extensions"]["EXT_lights_image_based"]["lights"][0];
+  GltfJson& light = file.json["extensions"]["EXT_lights_image_based"]["lights"][0];
   light["specularImages"] = {faces, faces};
   light["specularImageSize"] = 4;
   file.json["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
@@ -239,7 +239,7 @@ TEST(ImageLights, FacesAreTurnedAsInOpenGl) {
 
 TEST(ImageLights, RotationAndIntensity) {
   GltfBuilder file = make_lit("RGB", [](int face, int, int) { return face_color(face); });
-  Json& light = file.json["extensions"]["EXT_lights_image_based"]["lights"][0];
+  GltfJson& light = file.json["extensions"]["EXT_lights_image_based"]["lights"][0];
   light["intensity"] = 2.5;
   const float s = std::sqrt(0.5f);
   light["rotation"] = {0, s, 0, s};  // a quarter turn about +Y: what was at +Z comes to +X, what was at +X to -Z
@@ -279,26 +279,26 @@ TEST(ImageLights, OnlyTheSceneThatNamesIt) {
 
 TEST(ImageLights, BadOnesAreNamed) {
   const GltfBuilder good = make_lit("RGB", [](int face, int, int) { return face_color(face); });
-  const auto changed = [&](const std::function<void(Json & light, GltfBuilder & file)>& change) {
+  const auto changed = [&](const std::function<void(GltfJson & light, GltfBuilder & file)>& change) {
     GltfBuilder file = good;
     change(file.json["extensions"]["EXT_lights_image_based"]["lights"][0], file);
     return error_of(file.glb());
   };
-  EXPECT_EQ(changed([](Json&, GltfBuilder&) {}), "");
-  EXPECT_NE(changed([](Json& light, GltfBuilder&) {
+  EXPECT_EQ(changed([](GltfJson&, GltfBuilder&) {}), "");
+  EXPECT_NE(changed([](GltfJson& light, GltfBuilder&) {
               light["specularImages"][0] = {0, 1, 2};
             }).find("six faces"),
             std::string::npos);
-  EXPECT_NE(changed([](Json& light, GltfBuilder&) { light["specularImages"][0][5] = 99; }).find("image 99"),
+  EXPECT_NE(changed([](GltfJson& light, GltfBuilder&) { light["specularImages"][0][5] = 99; }).find("image 99"),
             std::string::npos);
-  EXPECT_NE(changed([](Json& light, GltfBuilder&) { light["specularImages"][0][5] = "x"; }).find("image -1"),
+  EXPECT_NE(changed([](GltfJson& light, GltfBuilder&) { light["specularImages"][0][5] = "x"; }).find("image -1"),
             std::string::npos);
-  EXPECT_NE(changed([](Json& light, GltfBuilder& file) {
+  EXPECT_NE(changed([](GltfJson& light, GltfBuilder& file) {
               add_texture(file, small_png());
               light["specularImages"][0][5] = 6;
             }).find("squares of one size"),
             std::string::npos);
-  EXPECT_NE(changed([](Json&, GltfBuilder& file) {
+  EXPECT_NE(changed([](GltfJson&, GltfBuilder& file) {
               file.json["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 7;
             }).find("light 7"),
             std::string::npos);

@@ -16,8 +16,7 @@
 #include "tests/support/gltf_builder.h"
 #include "tests/support/scene_check.h"
 
-namespace ods {
-namespace {
+namespace ods::gltf_test {
 
 void expect_near(vec3 actual, vec3 expected, float tolerance = 1e-5f) {
   for (int i = 0; i < 3; i++) EXPECT_NEAR(actual[i], expected[i], tolerance) << "component " << i;
@@ -150,8 +149,8 @@ TEST(Gltf, TextureCoordinatesAreCutAtOnePlace) {
   file.primitive()["material"] = 0;
   file.primitive()["attributes"]["TEXCOORD_0"] = file.add<float>({5e5f, -5e5f, 2e6f, -2e6f, 0, 0}, kFloat, "VEC2");
   file.json["images"] = {{{"bufferView", file.add_view(small_png())}, {"mimeType", "image/png"}}};
-  file.json["textures"] = Json::parse(R"([{"source": 0}])");
-  file.json["materials"] = Json::parse(R"([{"emissiveTexture": {"index": 0, "extensions": {"KHR_texture_transform":
+  file.json["textures"] = GltfJson::parse(R"([{"source": 0}])");
+  file.json["materials"] = GltfJson::parse(R"([{"emissiveTexture": {"index": 0, "extensions": {"KHR_texture_transform":
       {"offset": [5e5, -2e6], "scale": [-5e5, 2e6]}}}}])");
   const Scene scene = file.load();
   EXPECT_EQ(scene.vertices[0].uv0, vec2(5e5f, -5e5f));
@@ -166,7 +165,7 @@ TEST(Gltf, InterleavedAttributes) {
   GltfBuilder file = make_triangle();
   const int positions = file.add<float>({0, 0, 0, .1f, .2f, 1, 0, 0, .3f, .4f, 0, 1, 0, .5f, .6f, 0}, kFloat, "SCALAR");
   file.json["bufferViews"].back()["byteStride"] = 20;
-  Json& accessors = file.json["accessors"];
+  GltfJson& accessors = file.json["accessors"];
   accessors.back() = {{"bufferView", positions}, {"componentType", kFloat}, {"count", 3}, {"type", "VEC3"}};
   accessors.push_back(
       {{"bufferView", positions}, {"byteOffset", 12}, {"componentType", kFloat}, {"count", 3}, {"type", "VEC2"}});
@@ -216,7 +215,7 @@ TEST(Gltf, TangentsFollowTheTexture) {
 
 TEST(Gltf, HierarchyOfMatrixAndTrs) {
   GltfBuilder file = make_triangle();
-  file.json["nodes"] = Json::parse(R"([
+  file.json["nodes"] = GltfJson::parse(R"([
       {"children": [1], "matrix": [1,0,0,0, 0,1,0,0, 0,0,1,0, 10,20,30,1]},
       {"mesh": 0, "translation": [1,2,3], "rotation": [0,0,0.70710678,0.70710678], "scale": [2,3,4]}])");
   const Scene scene = file.load();
@@ -230,7 +229,7 @@ TEST(Gltf, SharedMeshIsStoredOnce) {
   GltfBuilder file = make_triangle();
   file.json["scenes"][0]["nodes"] = {0, 1, 2};
   file.json["nodes"] =
-      Json::parse(R"([{"mesh": 0}, {"mesh": 0, "translation": [1,0,0]}, {"mesh": 0, "scale": [2,2,2]}])");
+      GltfJson::parse(R"([{"mesh": 0}, {"mesh": 0, "translation": [1,0,0]}, {"mesh": 0, "scale": [2,2,2]}])");
   const Scene scene = file.load();
   EXPECT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(scene.instances.size(), 3u);
@@ -252,8 +251,8 @@ TEST(Gltf, GpuInstancing) {
 
 TEST(Gltf, SeveralScenes) {
   GltfBuilder file = make_triangle();
-  file.json["scenes"] = Json::parse(R"([{"nodes": [0]}, {"nodes": [0, 1]}, {}])");
-  file.json["nodes"] = Json::parse(R"([{"mesh": 0}, {"mesh": 0, "translation": [1,0,0]}])");
+  file.json["scenes"] = GltfJson::parse(R"([{"nodes": [0]}, {"nodes": [0, 1]}, {}])");
+  file.json["nodes"] = GltfJson::parse(R"([{"mesh": 0}, {"mesh": 0, "translation": [1,0,0]}])");
   file.json["scene"] = 1;
   EXPECT_EQ(file.load().instances.size(), 2u);
   EXPECT_EQ(file.load({.scene = 0}).instances.size(), 1u);
@@ -270,7 +269,7 @@ TEST(Gltf, CamerasComeBackAsTheyWereSet) {
     stereo.roll = angles.z;
     const Camera camera = make_camera(stereo);
     GltfBuilder file = make_triangle();
-    file.json["cameras"] = Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
+    file.json["cameras"] = GltfJson::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
     const vec3 x = 2.0f * camera.right, y = 2.0f * camera.up, z = 2.0f * camera.back;
     file.json["nodes"] = {{{"camera", 0},
                            {"name", "door"},
@@ -313,7 +312,7 @@ TEST(Gltf, DefaultMaterialIsGltfs) {
 TEST(Gltf, EveryFactorOfAMaterial) {
   GltfBuilder file = make_triangle();
   file.primitive()["material"] = 0;
-  file.json["materials"] = Json::parse(R"([{
+  file.json["materials"] = GltfJson::parse(R"([{
       "pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 0.4], "metallicFactor": 0.5, "roughnessFactor": 0.6},
       "emissiveFactor": [1, 0.5, 0], "alphaMode": "MASK", "alphaCutoff": 0.7, "doubleSided": true,
       "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 8}, "KHR_materials_unlit": {},
@@ -348,7 +347,7 @@ TEST(Gltf, AScenesReachIsWarnedOf) {
 // KHR_materials_ior: 0 asks for a Fresnel term of 1.
 TEST(Gltf, IndexOfRefractionZeroIsAMirror) {
   GltfBuilder file = make_triangle();
-  file.json["materials"] = Json::parse(R"([{"extensions": {"KHR_materials_ior": {"ior": 0}}},
+  file.json["materials"] = GltfJson::parse(R"([{"extensions": {"KHR_materials_ior": {"ior": 0}}},
       {"extensions": {"KHR_materials_ior": {"ior": 0.5}}},
       {"extensions": {"KHR_materials_ior": {"ior": 0}, "KHR_materials_specular": {"specularFactor": 0.1}}}])");
   const Scene scene = file.load();
@@ -366,9 +365,9 @@ TEST(Gltf, TexturesAndTheirSamplers) {
   GltfBuilder file = make_triangle();
   file.primitive()["material"] = 0;
   file.json["images"] = {{{"bufferView", file.add_view(small_png())}, {"mimeType", "image/png"}}};
-  file.json["samplers"] = Json::parse(R"([{"wrapS": 33071, "wrapT": 33648, "magFilter": 9728}])");
-  file.json["textures"] = Json::parse(R"([{"source": 0, "sampler": 0}, {"source": 0}])");
-  file.json["materials"] = Json::parse(R"([{
+  file.json["samplers"] = GltfJson::parse(R"([{"wrapS": 33071, "wrapT": 33648, "magFilter": 9728}])");
+  file.json["textures"] = GltfJson::parse(R"([{"source": 0, "sampler": 0}, {"source": 0}])");
+  file.json["materials"] = GltfJson::parse(R"([{
       "pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 1}, "metallicRoughnessTexture": {"index": 0}},
       "emissiveTexture": {"index": 1, "extensions": {"KHR_texture_transform":
           {"offset": [0, 1], "rotation": 1.5707963267948966, "scale": [0.5, 0.5]}}}}])");
@@ -421,9 +420,9 @@ TEST(Gltf, BuffersAndPicturesBesideTheFile) {
         .write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
   };
   file.json["buffers"] = {{{"uri", "my%20data.bin"}, {"byteLength", file.binary.size()}}};
-  file.json["images"] = Json::parse(R"([{"uri": "tile.png"}])");
-  file.json["textures"] = Json::parse(R"([{"source": 0}])");
-  file.json["materials"] = Json::parse(R"([{"emissiveTexture": {"index": 0}}])");
+  file.json["images"] = GltfJson::parse(R"([{"uri": "tile.png"}])");
+  file.json["textures"] = GltfJson::parse(R"([{"source": 0}])");
+  file.json["materials"] = GltfJson::parse(R"([{"emissiveTexture": {"index": 0}}])");
   write("my data.bin", file.binary);
   write("tile.png", small_png());
   std::ofstream(folder / "scene.gltf") << file.json.dump();
@@ -459,5 +458,4 @@ TEST(Gltf, SharedScenes) {
   EXPECT_EQ(instanced_triangles(helmet), 15452u);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::gltf_test

@@ -18,13 +18,13 @@ namespace {
 // Materials 0, 1 and 2 differ by their roughness: 0.0, 0.1 and 0.2. The mesh has the first by default.
 void add_variants(GltfBuilder& file) {
   file.json["extensionsUsed"] = {"KHR_materials_variants"};
-  file.json["materials"] = Json::parse(R"([{"pbrMetallicRoughness": {"roughnessFactor": 0.0}},
+  file.json["materials"] = GltfJson::parse(R"([{"pbrMetallicRoughness": {"roughnessFactor": 0.0}},
       {"pbrMetallicRoughness": {"roughnessFactor": 0.1}}, {"pbrMetallicRoughness": {"roughnessFactor": 0.2}}])");
   file.json["extensions"]["KHR_materials_variants"]["variants"] =
-      Json::parse(R"([{"name": "red"}, {"name": "green"}, {"name": "blue"}])");
+      GltfJson::parse(R"([{"name": "red"}, {"name": "green"}, {"name": "blue"}])");
   file.primitive()["material"] = 0;
   file.primitive()["extensions"]["KHR_materials_variants"]["mappings"] =
-      Json::parse(R"([{"variants": [2, 1], "material": 2}, {"variants": [1], "material": 1}])");
+      GltfJson::parse(R"([{"variants": [2, 1], "material": 2}, {"variants": [1], "material": 1}])");
 }
 
 float roughness_of(const Scene& scene, size_t instance) {
@@ -88,15 +88,15 @@ TEST(GltfVariants, AMappingToAMaterialThatDoesNotExistIsDamage) {
 
 // --- KHR_node_visibility
 
-const Json kHidden = {{"KHR_node_visibility", {{"visible", false}}}};
+const GltfJson kHidden = {{"KHR_node_visibility", {{"visible", false}}}};
 
 // A node with a lamp and a camera, and below it one with the mesh.
 GltfBuilder make_family() {
   GltfBuilder file = make_triangle();
   file.json["extensionsUsed"] = {"KHR_node_visibility", "KHR_lights_punctual"};
-  file.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([{"type": "point"}])");
-  file.json["cameras"] = Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
-  file.json["nodes"] = Json::parse(R"([{"children": [1], "camera": 0}, {"mesh": 0}])");
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = GltfJson::parse(R"([{"type": "point"}])");
+  file.json["cameras"] = GltfJson::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
+  file.json["nodes"] = GltfJson::parse(R"([{"children": [1], "camera": 0}, {"mesh": 0}])");
   file.node(0)["extensions"]["KHR_lights_punctual"]["light"] = 0;
   return file;
 }
@@ -116,7 +116,7 @@ TEST(GltfVisibility, AHiddenNodeHidesWhatIsBelowIt) {
 
 // A channel that shows and hides a node: bytes, in steps.
 void blink(GltfBuilder& file, int node, const std::vector<float>& times, const std::vector<uint8_t>& shown) {
-  Json& animation = file.json["animations"][0];
+  GltfJson& animation = file.json["animations"][0];
   const size_t index = animation["samplers"].size();
   animation["samplers"].push_back({{"input", file.add<float>(times, kFloat, "SCALAR")},
                                    {"output", file.add<uint8_t>(shown, kUbyte, "SCALAR")},

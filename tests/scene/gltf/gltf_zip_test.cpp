@@ -18,8 +18,8 @@ std::map<std::string, Binary> loose_scene(const std::string& folder, const std::
   GltfBuilder file = make_triangle();
   file.json["buffers"] = {{{"byteLength", file.binary.size()}, {"uri", "scene.bin"}}};
   file.json["images"] = {{{"uri", picture}}};
-  file.json["textures"] = Json::parse(R"([{"source": 0}])");
-  file.json["materials"] = Json::parse(R"([{"emissiveTexture": {"index": 0}}])");
+  file.json["textures"] = GltfJson::parse(R"([{"source": 0}])");
+  file.json["materials"] = GltfJson::parse(R"([{"emissiveTexture": {"index": 0}}])");
   const std::string text = file.json.dump();
   return {{folder + "scene.gltf", {text.begin(), text.end()}},
           {folder + "scene.bin", file.binary},

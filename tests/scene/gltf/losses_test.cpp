@@ -27,11 +27,11 @@ GltfBuilder make_lit_export() {
   GltfBuilder file = make_export();
   file.json["extensionsUsed"] = {"KHR_lights_punctual"};
   file.json["extensions"]["KHR_lights_punctual"]["lights"] =
-      Json::parse(R"([{"color": [1, 1, 1], "intensity": 543.5, "type": "point", "name": "bulb"}])");
-  file.json["nodes"].push_back(Json::parse(R"({"name": "bulb", "extensions": {"KHR_lights_punctual": {"light": 0}}})"));
-  file.json["nodes"].push_back(Json::parse(R"({"name": "ceiling area", "rotation": [-0.7071068, 0, 0, 0.7071068]})"));
-  file.json["nodes"].push_back(Json::parse(R"({"name": "Eye", "translation": [1, 1.6, 2]})"));
-  file.json["nodes"].push_back(Json::parse(R"({"name": "Empty"})"));
+      GltfJson::parse(R"([{"color": [1, 1, 1], "intensity": 543.5, "type": "point", "name": "bulb"}])");
+  file.json["nodes"].push_back(GltfJson::parse(R"({"name": "bulb", "extensions": {"KHR_lights_punctual": {"light": 0}}})"));
+  file.json["nodes"].push_back(GltfJson::parse(R"({"name": "ceiling area", "rotation": [-0.7071068, 0, 0, 0.7071068]})"));
+  file.json["nodes"].push_back(GltfJson::parse(R"({"name": "Eye", "translation": [1, 1.6, 2]})"));
+  file.json["nodes"].push_back(GltfJson::parse(R"({"name": "Empty"})"));
   file.json["scenes"][0]["nodes"] = {0, 1, 2, 3, 4};
   const int times = file.add<float>({0, 1}, kFloat, "SCALAR");
   const int places = file.add<float>({1, 1.6f, 2, 1, 1.6f, 3}, kFloat, "VEC3");
@@ -69,8 +69,8 @@ TEST(GltfLosses, ANodeStandsInForTheCameraThatItWas) {
 // A camera of that name is the one that is meant.
 TEST(GltfLosses, ACameraWinsOverANodeOfItsName) {
   GltfBuilder file = make_lit_export();
-  file.json["cameras"] = Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
-  file.json["nodes"].push_back(Json::parse(R"({"name": "Eye", "camera": 0, "translation": [7, 0, 0]})"));
+  file.json["cameras"] = GltfJson::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");
+  file.json["nodes"].push_back(GltfJson::parse(R"({"name": "Eye", "camera": 0, "translation": [7, 0, 0]})"));
   file.json["scenes"][0]["nodes"].push_back(5);
   const Scene scene = file.load({.camera = "Eye"});
   ASSERT_EQ(scene.view_points.size(), 1u);
@@ -79,7 +79,7 @@ TEST(GltfLosses, ACameraWinsOverANodeOfItsName) {
 
 TEST(GltfLosses, MaterialsWithoutValues) {
   GltfBuilder file = make_export();
-  file.json["materials"] = Json::parse(R"([
+  file.json["materials"] = GltfJson::parse(R"([
       {"doubleSided": true, "name": "procedural plaster", "pbrMetallicRoughness": {"metallicFactor": 0}},
       {"doubleSided": true, "name": "glass bsdf", "pbrMetallicRoughness": {}},
       {"name": "wall", "pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.78, 0.74, 1]}},

@@ -12,7 +12,7 @@ namespace {
 GltfBuilder with_materials(const char* materials) {
   GltfBuilder file = make_triangle();
   file.primitive()["material"] = 0;
-  file.json["materials"] = Json::parse(materials);
+  file.json["materials"] = GltfJson::parse(materials);
   return file;
 }
 
@@ -105,7 +105,7 @@ TEST(MaterialLayers, EveryTexture) {
       "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 1,
           "diffuseTransmissionTexture": {"index": 0}, "diffuseTransmissionColorTexture": {"index": 0}}}}])");
   file.json["images"] = {{{"bufferView", file.add_view(small_png())}, {"mimeType", "image/png"}}};
-  file.json["textures"] = Json::parse(R"([{"source": 0}])");
+  file.json["textures"] = GltfJson::parse(R"([{"source": 0}])");
   const Scene scene = file.load();
   const MaterialLayers& layers = scene.material_layers.at(0);
   const TextureSlot colors[] = {layers.specular_color_slot, layers.sheen_color_slot,

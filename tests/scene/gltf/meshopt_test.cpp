@@ -14,8 +14,7 @@
 #include "tests/support/compressed_gltf.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::meshopt_test {
 
 GltfBuilder compressed_grid(const std::string& name = "EXT_meshopt_compression") {
   GltfBuilder file = make_grid(12);
@@ -25,7 +24,7 @@ GltfBuilder compressed_grid(const std::string& name = "EXT_meshopt_compression")
   return file;
 }
 
-Json& extension_of(GltfBuilder& file, int view) {
+GltfJson& extension_of(GltfBuilder& file, int view) {
   return file.json["bufferViews"][size_t(view)]["extensions"]["EXT_meshopt_compression"];
 }
 
@@ -142,8 +141,8 @@ TEST(GltfMeshopt, PicturesSparseValuesAndSkins) {
   png.resize((png.size() + 3) / 4 * 4);
   const int picture = file.add_view(png);
   file.json["images"] = {{{"bufferView", picture}, {"mimeType", "image/png"}}};
-  file.json["textures"] = Json::parse(R"([{"source": 0}])");
-  file.json["materials"] = Json::parse(R"([{"emissiveTexture": {"index": 0}}])");
+  file.json["textures"] = GltfJson::parse(R"([{"source": 0}])");
+  file.json["materials"] = GltfJson::parse(R"([{"emissiveTexture": {"index": 0}}])");
   for (const int view : {0, values, indices, picture}) compress_meshopt(file, view, "ATTRIBUTES", 4);
   const Scene scene = file.load();
   EXPECT_EQ(scene.vertices.at(1).position, vec3(5, 6, 7));
@@ -182,7 +181,7 @@ TEST(GltfMeshoptDamage, Fields) {
   struct Case {
     int view;
     const char* key;
-    Json value;
+    GltfJson value;
     const char* words;
   };
   for (const auto& [view, key, value, words] : {Case{0, "byteStride", 3, "invalid"},
@@ -228,7 +227,7 @@ TEST(GltfMeshoptDamage, ManyViewsOfOneStream) {
   GltfBuilder file = make_triangle();
   file.add_view(Binary(4 << 20, 0));
   compress_meshopt(file, 1, "ATTRIBUTES", 256);
-  const Json view = file.json["bufferViews"][1];
+  const GltfJson view = file.json["bufferViews"][1];
   for (int i = 0; i < 100; i++) file.json["bufferViews"].push_back(view);
   EXPECT_NE(error_of(file.glb()).find("far more than a file of its size"), std::string::npos) << error_of(file.glb());
 }
@@ -245,12 +244,11 @@ TEST(GltfMeshoptDamage, FlippedBits) {
   std::mt19937 random(3);
   for (int round = 0; round < 500; round++) {
     GltfBuilder file = whole;
-    const Json& source = extension_of(file, round % 5);
+    const GltfJson& source = extension_of(file, round % 5);
     const size_t first = source["byteOffset"], size = source["byteLength"];
     for (int i = 0; i < 3; i++) file.binary[first + random() % size] ^= static_cast<unsigned char>(1u << random() % 8);
     error_of(file.glb());
   }
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::meshopt_test

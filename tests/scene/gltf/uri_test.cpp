@@ -107,8 +107,8 @@ TEST_F(GltfUri, OneWarningForAllFiles) {
   GltfBuilder file = make_triangle();
   file.json["buffers"] = {{{"byteLength", file.binary.size()}, {"uri", "A.bin"}}};
   file.json["images"] = {{{"uri", "textures\\Wood.png"}}, {{"uri", "Textures/wood.PNG"}}};
-  file.json["textures"] = Json::parse(R"([{"source": 0}, {"source": 1}])");
-  file.json["materials"] = Json::parse(R"([{"emissiveTexture": {"index": 0}}, {"emissiveTexture": {"index": 1}}])");
+  file.json["textures"] = GltfJson::parse(R"([{"source": 0}, {"source": 1}])");
+  file.json["materials"] = GltfJson::parse(R"([{"emissiveTexture": {"index": 0}}, {"emissiveTexture": {"index": 1}}])");
   folder.write("in/scene.gltf", file.json.dump());
   const Scene loaded = load_gltf(folder.path("in/scene.gltf"));
   ASSERT_EQ(loaded.warnings.size(), 1u);

@@ -18,8 +18,7 @@
 #include "tests/support/made_videos.h"
 #include "tests/support/temporary_folder.h"
 
-namespace ods {
-namespace {
+namespace ods::mp4_file_test {
 
 SphericalMetadata stacked() {
   SphericalMetadata metadata;
@@ -201,6 +200,29 @@ TEST_F(Mp4Video, VexuOfLayersStays) {
   EXPECT_FALSE(result.has_vexu);
   EXPECT_FALSE(read(tagged).vexu);
   EXPECT_NE(tagged.find(options.entry_boxes), std::string::npos);
+}
+
+TEST_F(Mp4Video, LayersSayWhatTheirEyesShow) {
+  const std::string none(4, '\0');
+  const auto layers_of = [&](const std::string& boxes) {
+    made::Mp4Options options;
+    options.entry_boxes = made::box("lhvC", "layers") + boxes;
+    return *read(made::mp4(options)).layers;
+  };
+  const EyeLayers silent = layers_of("");
+  EXPECT_EQ(metadata_text(silent.beside), "side-by-side, flat");
+  EXPECT_FALSE(silent.right_first);
+  EXPECT_FALSE(silent.fov);
+  const std::string eyes = made::box("eyes", made::box("stri", none + made::number(1 + 2 + 8, 1)) +
+                                                 made::box("cams", made::box("blin", none + made::number(65000, 4))));
+  const EyeLayers half = layers_of(made::box("vexu", eyes + made::box("proj", made::box("prji", none + "hequ"))) +
+                                   made::box("hfov", made::number(90500, 4)));
+  EXPECT_EQ(metadata_text(half.beside), "side-by-side, lat-long 180x180");
+  EXPECT_TRUE(half.right_first);
+  EXPECT_EQ(half.fov, 90.5f);
+  EXPECT_EQ(half.beside.ipd, 0.065);
+  EXPECT_FALSE(layers_of(made::box("hfov", made::number(360000, 4))).fov) << "no window is as wide";
+  EXPECT_EQ(metadata_text(layers_of(made::box("vexu", "\xff\xff\xff\xffproj")).beside), "side-by-side, flat");
 }
 
 TEST_F(Mp4Video, ADamagedVexuSaysNothing) {
@@ -423,5 +445,4 @@ TEST_F(Mp4Video, SamplesInOtherFilesAreRefused) {
   EXPECT_NE(error_of(video).find("other files"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace ods
+}  // namespace ods::mp4_file_test

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/picture/over_job.h"
+#include "cli/compose/over_job.h"
 
 #include <fmt/format.h>
 
@@ -12,13 +12,13 @@
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kOverExamples =
     "  ods over title.exr footage_TB.png -o titled_TB.png\n"
     "  ods over title.exr video_360_TB.mp4 -o titled_360_TB.mp4\n"
     "  ods over robot.exr street.exr -o both.exr --by-depth\n"
     "  ods over 'title.####.exr' 'footage_TB.####.jpg' -o 'titled_TB.####.jpg'";
 
-constexpr const char* kSummary =
+constexpr const char* kOverSummary =
     "Composites a stereo 360 picture with alpha over another, in linear light: titles and computer graphics over\n"
     "footage. The foreground is converted to the background's projection, layout and size. Both can be pictures, "
     "frames\n"
@@ -29,7 +29,7 @@ constexpr const char* kSummary =
 }  // namespace
 
 bool read_over_job(OverJob& job, int argc, char** argv) {
-  Options options("over", kSummary, kExamples);
+  Options options("over", kOverSummary, kOverExamples);
   options.argument(ValueKind::input_file("FOREGROUND"), job.foreground,
                    "a picture, frames or a video with alpha, such as those of ods title and ods render --transparent");
   options.argument(ValueKind::input_file("BACKGROUND"), job.background,

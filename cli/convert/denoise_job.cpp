@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/picture/denoise_job.h"
+#include "cli/convert/denoise_job.h"
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
@@ -11,12 +11,12 @@
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kDenoiseExamples =
     "  ods denoise noisy.exr -o clean.exr\n"
     "  ods denoise noisy.exr -o clean_TB.png --exposure 0.5\n"
     "  ods denoise other_TB.exr -o clean_TB.exr --half-a halfA --half-b halfB";
 
-constexpr const char* kSummary =
+constexpr const char* kDenoiseSummary =
     "Removes the noise of a rendered picture with the help of statistics: the variance of each pixel, or two pictures\n"
     "of half of the samples each. Albedo, normals and depth help if the file has them. Both eyes are denoised\n"
     "together. The more samples there are, the less is changed.";
@@ -53,7 +53,7 @@ void add_output_options(Options& options, DenoiseJob& job, std::optional<ods::La
 }  // namespace
 
 bool read_denoise_job(DenoiseJob& job, int argc, char** argv) {
-  Options options("denoise", kSummary, kExamples);
+  Options options("denoise", kDenoiseSummary, kDenoiseExamples);
   std::optional<ods::Layout> layout;
   bool alone = false;
   add_input_options(options, job, job.known.projection);

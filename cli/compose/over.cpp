@@ -9,12 +9,12 @@
 #include <algorithm>
 #include <chrono>
 
+#include "cli/compose/over_job.h"
+#include "cli/compose/over_video.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
 #include "cli/options/time_options.h"
-#include "cli/picture/over_job.h"
-#include "cli/picture/over_video.h"
 #include "ods/base/error.h"
 #include "ods/files/frames.h"
 

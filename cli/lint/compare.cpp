@@ -11,8 +11,8 @@
 #include <stdexcept>
 
 #include "cli/console/console.h"
+#include "cli/lint/compare_report.h"
 #include "cli/options/picture_options.h"
-#include "cli/picture/compare_report.h"
 #include "ods/base/error.h"
 #include "ods/kernel/camera/camera.h"
 #include "ods/picture/save.h"
@@ -21,12 +21,12 @@ using ods::Image, ods::LoadedEyes;
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kCompareExamples =
     "  ods compare reference.exr picture.exr\n"
     "  ods compare a_%V.png b_TB.png --diff difference.exr\n"
     "  ods compare reference.png picture.jpg --min-psnr 40 || echo too different";
 
-constexpr const char* kSummary =
+constexpr const char* kCompareSummary =
     "Measures the difference between pictures A and B: RMSE, PSNR, WS-PSNR (rows weighted by their area on the "
     "sphere)\n"
     "and the largest error and its place, per eye and overall. Two integer files are compared as code values from 0 "
@@ -42,7 +42,7 @@ struct CompareJob {
 };
 
 bool read_options(CompareJob& job, int argc, char** argv) {
-  Options options("compare", kSummary, kExamples);
+  Options options("compare", kCompareSummary, kCompareExamples);
   options.argument(ValueKind::input_file("A"), job.a, "a picture; %V in the name: one file per eye");
   options.argument(ValueKind::input_file("B"), job.b, "a picture of the same size; its layout may differ");
   add_layout_option(options, job.layout, "layout of both files, if it is not detected (separate: one eye)");
@@ -129,7 +129,7 @@ void check_limits(const CompareJob& job, const ods::Errors& whole) {
   if (limited && whole.not_finite > 0) fail(fmt::format("{} pixels are NaN or infinite", whole.not_finite));
 }
 
-void run(int argc, char** argv) {
+void run_compare(int argc, char** argv) {
   CompareJob job;
   if (!read_options(job, argc, argv)) return;
   for (const std::string& input : {job.a, job.b}) refuse_overwriting(job.difference, input);
@@ -142,5 +142,5 @@ void run(int argc, char** argv) {
 }  // namespace
 
 int ods_compare(int argc, char** argv) {
-  return run_command([=] { run(argc, argv); });
+  return run_command([=] { run_compare(argc, argv); });
 }

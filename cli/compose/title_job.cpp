@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/picture/title_job.h"
+#include "cli/compose/title_job.h"
 
 #include <fmt/format.h>
 
@@ -14,12 +14,12 @@
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kTitleExamples =
     "  ods title 'The Long Way Home' --at 0,10,3 -o title.exr\n"
     "  ods title 'first line\\nsecond line' --font 'DejaVu Serif Bold' --color '#ffd070' -o title.png\n"
     "  ods title 'Chapter 2' --frames 1-120 --fps 30 --fade-in 0.5 --fade-out 1 -o title.####.exr";
 
-constexpr const char* kSummary =
+constexpr const char* kTitleSummary =
     "Makes a transparent picture of text at a given distance in stereo 360; .exr has depth, too. ods over\n"
     "composites it over pictures and videos. Use the same --ipd, --merge, ... as for the footage.";
 
@@ -82,7 +82,7 @@ void add_frame_options(Options& options, TitleJob& job) {
 }  // namespace
 
 bool read_title_job(TitleJob& job, int argc, char** argv) {
-  Options options("title", kSummary, kExamples);
+  Options options("title", kTitleSummary, kTitleExamples);
   add_text_options(options, job);
   bool flat = false;
   options.flag(

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/picture/testcard_video.h"
+#include "cli/compose/testcard_video.h"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 //
 // ods over with a video as background and output.
 #pragma once
+#include "cli/compose/over_job.h"
 #include "cli/console/progress.h"
-#include "cli/picture/over_job.h"
 #include "ods/video/footage.h"
 
 void lay_over_video(const OverJob& job, ods::Footage& back, ods::Footage& front, ProgressLines& lines);

@@ -8,22 +8,22 @@
 
 #include <cmath>
 
+#include "cli/compose/testcard_video.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/camera_options.h"
 #include "cli/options/picture_options.h"
-#include "cli/picture/testcard_video.h"
 #include "ods/picture/save.h"
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kTestcardExamples =
     "  ods testcard -o card.png\n"
     "  ods testcard -o card_180.jpg --projection vr180 --width 2880\n"
     "  ods testcard -o card.png --size deovr-4096 --merge cosine,60,90\n"
     "  ods testcard --video -o card_360_TB.mp4 --duration 60 --fps 60";
 
-constexpr const char* kSummary =
+constexpr const char* kTestcardSummary =
     "Makes a picture that shows at a glance what a player does with stereo 360: each eye sees its own name, plates "
     "are\n"
     "at the distances written on them, rings are round, and every direction has its degrees. A video also shows "
@@ -39,7 +39,7 @@ struct TestcardJob {
 };
 
 bool read_options(TestcardJob& job, int argc, char** argv) {
-  Options options("testcard", kSummary, kExamples);
+  Options options("testcard", kTestcardSummary, kTestcardExamples);
   options.group("Picture");
   options.text("-o,--output", ValueKind::output_file(), job.output,
                "output file: .png .jpg .tif .webp .hdr .exr, or a video; %V in the name writes one file per eye");

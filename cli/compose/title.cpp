@@ -8,9 +8,9 @@
 
 #include <algorithm>
 
+#include "cli/compose/title_job.h"
 #include "cli/console/console.h"
 #include "cli/options/picture_options.h"
-#include "cli/picture/title_job.h"
 #include "ods/files/frames.h"
 
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/picture/compare_report.h"
+#include "cli/lint/compare_report.h"
 
 #include <fmt/format.h>
 

@@ -12,21 +12,21 @@
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
+#include "cli/lint/lint_report.h"
 #include "cli/options/picture_options.h"
 #include "cli/options/projection_options.h"
-#include "cli/picture/lint_report.h"
 #include "ods/lint/video.h"
 #include "ods/video/container/video_file.h"
 
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kLintExamples =
     "  ods lint picture.png\n"
     "  ods lint eye_%V.exr --json\n"
     "  ods lint film_360_TB.mp4\n"
     "  ods lint video_frame.jpg --layout side-by-side --projection vr180 || echo do not ship it";
 
-constexpr const char* kSummary =
+constexpr const char* kLintSummary =
     "Finds faults in a stereo 360 picture or video: swapped eyes, one eye twice, a wrong layout, a mirrored viewing\n"
     "circle, two fixed cameras, an eye that is higher, rolled, tinted, darker or blurred against the other, a visible\n"
     "seam, no pole merge, a tilted horizon, clipped highlights, a wrong shape, metadata that contradicts the pixels; "
@@ -47,7 +47,7 @@ struct LintJob {
 };
 
 bool read_options(LintJob& job, int argc, char** argv) {
-  Options options("lint", kSummary, kExamples);
+  Options options("lint", kLintSummary, kLintExamples);
   options.argument(ValueKind::input_file("FILE"), job.path, "a picture or a video; %V in the name: one file per eye");
   add_layout_option(options, job.lint.layout, "layout, if it is not detected (separate: one eye)");
   options.number("--min-certainty", job.min_certainty, 0.0f, 1.0f, "hide findings below this certainty");
@@ -80,7 +80,7 @@ ods::LintReport lint_with_progress(const LintJob& job, ProgressLines& lines) {
   return ods::lint_video(job.path, {job.lint, job.every}, progress);
 }
 
-void run(int argc, char** argv) {
+void run_lint(int argc, char** argv) {
   LintJob job;
   if (!read_options(job, argc, argv)) return;
   const bool is_film = !ods::names_eye(job.path) && std::filesystem::exists(job.path) && ods::is_video(job.path);
@@ -103,5 +103,5 @@ void run(int argc, char** argv) {
 }  // namespace
 
 int ods_lint(int argc, char** argv) {
-  return run_command([=] { run(argc, argv); });
+  return run_command([=] { run_lint(argc, argv); });
 }

@@ -10,8 +10,8 @@
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
+#include "cli/convert/denoise_job.h"
 #include "cli/options/picture_options.h"
-#include "cli/picture/denoise_job.h"
 #include "ods/denoise/oidn.h"
 #include "ods/files/atomic_file.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/picture/over_video.h"
+#include "cli/compose/over_video.h"
 
 #include <fmt/format.h>
 

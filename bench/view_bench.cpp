@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a frame of the viewer costs, in CPU milliseconds of a Chromium whose GPU is software: while it moves, at rest,
+// and beside both the plainest shader for a lat-long picture, one bilinear look-up, in the same run.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "bench/measure.h"
+#include "cli/http/http_server.h"
+#include "cli/view/export_site.h"
+#include "ods/view/page.h"
+#include "tests/support/browser.h"
+#include "tests/support/stored_pictures.h"
+#include "tests/support/worlds.h"
+
+namespace {
+
+using namespace ods;
+
+constexpr int kMovingFrames = 40, kStillFrames = 2;
+constexpr int kWidth = 640, kHeight = 360;
+
+// Draws frames while the look turns, and says when it begins and ends: each is read back, or drivers would put it off.
+constexpr const char* kScript = R"(
+import { Panorama, compile, loadShader, raysOf } from './panorama.js';
+import { openPicture } from './picture.js';
+const PLAIN = `#version 300 es
+precision highp float;
+uniform sampler2D picture;
+uniform mat3 rays;
+in vec2 screen;
+out vec4 color;
+void main() {
+  vec3 d = normalize(rays * vec3(screen, 1.0));
+  color = texture(picture, vec2(0.5 + atan(d.x, -d.z) / 6.2831853, 0.5 - asin(d.y) / 3.1415927));
+}`;
+const post = (path, body = '') => fetch(path, { method: 'POST', body });
+const [width, height, moving, still] = (await (await fetch('sizes')).text()).split(' ').map(Number);
+const canvas = Object.assign(document.createElement('canvas'), { width, height });
+document.body.append(canvas);
+const view = await (await fetch('view.json')).json();
+const panorama = new Panorama(canvas, await loadShader(location.href));
+const { gl } = panorama;
+const pixel = new Uint8Array(4);
+async function measure(name, count, draw) {
+  const frame = (i) => {
+    draw(raysOf({ yaw: 1.5 * i, pitch: 0.5 * i, fov: 90 }, width / height));
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+  };
+  frame(0);
+  await post('begin');
+  for (let i = 1; i <= count; i++) frame(i);
+  await post(`end/${name}/${count}`);
+}
+try {
+  const picture = await openPicture(panorama, view, view.items[0], {});
+  const box = [0, 0, width, height];
+  // As a slow GPU is soon asked to draw, and as others are.
+  await measure('moving', moving, (rays) => panorama.draw(picture, { rays, box, moves: true, cheap: true }));
+  await measure('anaglyph', moving, (rays) => panorama.draw(picture, { rays, box, moves: true, cheap: true, show: 'anaglyph' }));
+  await measure('fine', moving, (rays) => panorama.draw(picture, { rays, box, moves: true }));
+  await measure('still', still, (rays) => panorama.draw(picture, { rays, box }));
+  const bitmap = await createImageBitmap(await (await fetch(view.items[0].image)).blob());
+  gl.activeTexture(gl.TEXTURE0);
+  gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, bitmap);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
+  const plain = compile(gl, PLAIN);
+  gl.viewport(...box);
+  await measure('plain', moving, (rays) => {
+    gl.useProgram(plain);
+    gl.uniformMatrix3fv(gl.getUniformLocation(plain, 'rays'), false, rays);
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+  });
+  await post('done', 'ok');
+} catch (error) {
+  await post('done', error.message);
+}
+)";
+
+class Frames {
+ public:
+  // Milliseconds by name.
+  std::map<std::string, double> measure(const StereoCamera& stereo, Extent eye) {
+    const Folder folder;
+    const std::string path = folder.path("picture.png");
+    save(stereo, eye, path);
+    FormatHint known;
+    known.layout = Layout::kTopBottom;
+    known.projection = stereo.projection;
+    std::vector<ViewItem> items = {open_view_item(path, known)};
+    items[0].picture.camera = stereo;
+    export_site(items, folder.path("site"));
+    WebOptions options;
+    options.secret = "secret";
+    HttpServer server(options, [&](const WebRequest& request) { return answer(request, folder.path("site/")); });
+    std::thread thread([&server] { server.run(); });
+    {
+      const Browser browser(chromium(folder.path("profile")), folder.path("home"),
+                            fmt::format("http://127.0.0.1:{}/secret/bench.html", server.port()));
+      std::unique_lock lock(mutex_);
+      browser_ = browser.pid();
+      changed_.wait_for(lock, std::chrono::minutes(5), [this] { return !end_.empty(); });
+    }
+    server.stop();
+    thread.join();
+    if (end_ != "ok") times_.clear();
+    return times_;
+  }
+
+  std::string end_;
+
+ private:
+  static void save(const StereoCamera& stereo, Extent eye, const std::string& path) {
+    MadePicture made = make_picture(stereo, eye, {kLeft, kRight});
+    const Camera camera = make_camera(stereo);
+    add_colour(made, [&camera](int which, vec2 uv, float* out) {
+      const Ray ray = camera_ray(camera, which, uv);
+      vec3 light(0.0f);
+      if (ray.direction != vec3(0.0f)) light = hall_at(ray.origin, ray.direction);
+      for (int c = 0; c < 3; c++) out[c] = light[c];
+    });
+    made.picture.is_float = true;
+    SaveOptions options;
+    options.layout = Layout::kTopBottom;
+    save_picture(convert(made.picture, same_format(made.picture)).rows, nullptr, options, path);
+  }
+
+  WebAnswer answer(const WebRequest& request, const std::string& site) {
+    if (request.is_post) {
+      const std::lock_guard lock(mutex_);
+      const double now = cpu_seconds_of(browser_);
+      if (request.path == "begin") begin_ = now;
+      if (request.path == "done") end_ = request.body;
+      if (request.path.starts_with("end/")) {
+        const size_t slash = request.path.rfind('/');
+        times_[request.path.substr(4, slash - 4)] =
+            1000.0 * (now - begin_) / std::atof(request.path.substr(slash + 1).c_str());
+      }
+      changed_.notify_all();
+      return {};
+    }
+    if (request.path == "bench.html") {
+      return {.type = "text/html", .body = "<!DOCTYPE html><script type=\"module\" src=\"bench.js\"></script>"};
+    }
+    if (request.path == "bench.js") return {.type = "text/javascript", .body = kScript};
+    if (request.path == "sizes")
+      return {.body = fmt::format("{} {} {} {}", kWidth, kHeight, kMovingFrames, kStillFrames)};
+    return {.type = std::string(media_type(request.path)), .file = site + request.path};
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  pid_t browser_ = -1;
+  double begin_ = 0.0;
+  std::map<std::string, double> times_;
+};
+
+void frame(benchmark::State& state, const std::string& projection, Extent eye, bool is_toed_in) {
+  StereoCamera stereo;
+  stereo.projection = projection_named(projection);
+  stereo.top = stereo.bottom = kUsualMerge;
+  if (is_toed_in) stereo.convergence = kToeIn;
+  if (chromium("").empty()) return state.SkipWithError("there is no chromium");
+  for (auto _ : state) {
+    Frames frames;
+    const auto times = frames.measure(stereo, eye);
+    if (times.empty()) return state.SkipWithError(frames.end_.empty() ? "it took too long" : frames.end_.c_str());
+    for (const auto& [name, time] : times) state.counters[name + "_ms"] = time;
+    state.counters["ratio"] = times.at("moving") / times.at("plain");
+  }
+}
+
+const bool registered = [] {
+  struct Case {
+    const char* name;
+    const char* projection;
+    Extent eye;
+    bool is_toed_in = false;
+  };
+  for (const Case& each : {Case{"lat-long", "lat-long", {4096, 2048}}, Case{"toe-in", "lat-long", {4096, 2048}, true},
+                           Case{"cube", "cube-3x2", {3072, 2048}}, Case{"eac", "eac", {3072, 2048}},
+                           Case{"vr180", "vr180", {2048, 2048}}, Case{"fisheye", "fisheye", {2048, 2048}}}) {
+    benchmark::RegisterBenchmark(
+        (std::string("frame/") + each.name).c_str(),
+        [each](benchmark::State& state) { frame(state, each.projection, each.eye, each.is_toed_in); })
+        ->Iterations(1)
+        ->Unit(benchmark::kSecond);
+  }
+  return true;
+}();
+
+}  // namespace
+
+BENCHMARK_MAIN();

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/comfort/heat.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cli/console/console.h"
+#include "ods/files/atomic_file.h"
+#include "ods/files/file_input.h"
+#include "ods/files/private_folder.h"
+#include "ods/image/image_file.h"
+#include "ods/image/tone.h"
+#include "ods/kernel/surface.h"
+#include "ods/picture/save.h"
+
+static constexpr ods::vec3 kColors[] = {{0, 0, 0}, {1.0f, 0.75f, 0.05f}, {1.0f, 0.22f, 0.0f}, {0.75f, 0.0f, 0.03f}};
+static constexpr float kHot = 0.7f;  // how much of a pixel's colour is its level's
+
+ods::Image heat_of(const Judged& judged, const ods::ComfortReport& report) {
+  ods::Image heat(judged.light.width, judged.light.height, 3);
+  for (size_t k = 0; k < report.level.pixels.size(); k++) {
+    const float* from = &judged.light.pixels[3 * k];
+    const float grey = ods::luminance(ods::vec3(from[0], from[1], from[2]));
+    const float light = grey > 0.0f ? 0.6f * std::min(grey, 1.0f) : 0.0f;
+    const auto color = static_cast<size_t>(report.level.pixels[k]);
+    for (int c = 0; c < 3; c++) {
+      const float hot = (1.0f - kHot) * light + kHot * kColors[color][c];
+      heat.pixels[3 * k + static_cast<size_t>(c)] = color == 0 ? light : hot;
+    }
+  }
+  return heat;
+}
+
+ods::Picture heat_picture(const Looked& looked, const std::vector<ods::ComfortReport>& reports) {
+  ods::Picture picture;
+  for (size_t i = 0; i < looked.eyes.size(); i++) {
+    ods::EyeImage& eye = picture.eyes.emplace_back();
+    eye.eye = looked.eyes[i].seen.eye;
+    eye.radiance = heat_of(looked.eyes[i], reports[i]);
+  }
+  return picture;
+}
+
+void save_heat(const std::string& path, const Looked& looked, const std::vector<ods::ComfortReport>& reports) {
+  for (const std::string& file : ods::save_picture(heat_picture(looked, reports), looked.camera, {}, path)) {
+    announce_file(file);
+  }
+}
+
+std::string heat_png(const ods::ComfortReport& report) {
+  const ods::PrivateFolder folder((std::filesystem::temp_directory_path() / "ods-heat-").native());
+  ods::AtomicFile file(folder.path() + "/heat.png");  // image libraries want a file
+  ods::FileHeader header;
+  header.width = report.level.width, header.height = report.level.height;
+  header.channels = {{"R"}, {"G"}, {"B"}, {"A"}};
+  ods::write_image(file, header, [&](int y, std::span<float> row) {
+    for (int x = 0; x < report.level.width; x++) {
+      const auto level = static_cast<size_t>(*report.level.at(x, y));
+      float* pixel = &row[static_cast<size_t>(4 * x)];
+      for (int c = 0; c < 3; c++) pixel[c] = ods::srgb_encode(kColors[level][c]);
+      pixel[3] = level == 0 ? 0.0f : kHot;
+    }
+  });
+  file.finish();
+  const ods::FileInput bytes(file.temporary());
+  return bytes.read(0, bytes.size());
+}

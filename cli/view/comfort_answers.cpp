@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/view/comfort_answers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/comfort/heat.h"
+#include "ods/comfort/merge_from_depth.h"
+
+namespace {
+
+constexpr int kMostWidth = 1024;  // of what is judged
+
+ods::SeenDepth depth_of(const ods::LiveSeen& seen, size_t eye) {
+  const ods::EyeImage& image = seen.picture->eyes[eye];
+  return {seen.camera, image.eye, ods::nearest_of_blocks(image.depth, kMostWidth), {}, {}};
+}
+
+}  // namespace
+
+WebAnswer heat_answer(const ods::LiveSeen& seen, int eye) {
+  if (!seen.picture) return {.status = 204};
+  const size_t index = std::min(static_cast<size_t>(eye), seen.picture->eyes.size() - 1);
+  return {.type = "image/png", .body = heat_png(ods::judge_comfort(depth_of(seen, index)))};
+}
+
+ods::Json comfort_json(const ods::LiveSeen& seen) {
+  if (!seen.picture) return nullptr;
+  std::vector<ods::SeenDepth> eyes;
+  for (size_t i = 0; i < seen.picture->eyes.size(); i++) eyes.push_back(depth_of(seen, i));
+  const ods::ComfortReport report = ods::judge_comfort(eyes[0]);
+  const auto limit = static_cast<float>(ods::kFusionLimit);
+  const ods::Image map = ods::merge_map_of(ods::comfortable_shares(eyes, seen.camera, limit));
+  ods::Json json = {{"level", ods::comfort_level_name(ods::worst_level(report))}, {"share", report.share}};
+  json["nearest"] = std::isfinite(report.nearest) ? ods::Json(report.nearest) : ods::Json();
+  for (int row = 0; row < map.height; row++) json["auto"].push_back(*map.at(0, row));
+  return json;
+}
+
+void add_comfort(ods::Json& pick, const ods::StereoCamera& camera, const ods::LivePick& found, int eye) {
+  if (!found.places[eye]) return;
+  const ods::PointComfort point = ods::judge_point(camera, eye, *found.places[eye], found.distance);
+  pick["comfort"] = {{"level", ods::comfort_level_name(point.level)},
+                     {"distance", point.distance},
+                     {"near", point.near},
+                     {"vertical", point.vertical}};
+}

@@ -1,0 +1,457 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The viewer's shaders. Where a picture has a line of sight is the kernel's to say: the build runs the C preprocessor
+// over this file and adds the line "#version 300 es"; lines that begin with % are directives for the browser. panorama.js
+// defines what a program is for: a GPU that is software runs every branch that is not constant.
+//
+// The filter is that of ods/convert/texel_filter.h: a pixel that covers a texel or less is interpolated by the
+// Catmull-Rom cubic, clamped to the range of its texels. A pixel that covers s texels averages with the variance
+// (s^2 - 1) / 6; here mip levels, which are boxes, supply the variance of the narrow axis, and points along the wide one
+// supply the rest. While the view moves, the GPU filters instead: the line of sight is the same.
+precision highp float;
+precision highp int;
+precision highp sampler2DArray;
+#define inline
+#include "ods/kernel/camera/merge.h"
+#include "ods/kernel/camera/projection.h"
+#include "ods/kernel/camera/camera.h"
+#include "ods/kernel/camera/line.h"
+
+uniform Camera camera;
+uniform sampler2D merge_texels;
+uniform sampler2D head_tilt_texels;
+uniform ivec2 sides;  // which of the camera's eyes are shown
+uniform mat3 rays;    // a pixel at (x, y), both -1..1, looks along rays * (x, y, 1) in the picture's frame
+uniform vec2 shift;   // cosine and sine: the left eye's picture turns so far to the left, the right eye's to the right
+
+float camera_map_texel(Camera a_camera, int which, int i) {
+  int width = which == kMapOfMerge ? a_camera.merge_map.width : a_camera.head_tilt_map.width;
+  ivec2 at = ivec2(i % width, i / width);
+  return which == kMapOfMerge ? texelFetch(merge_texels, at, 0).x : texelFetch(head_tilt_texels, at, 0).x;
+}
+
+// Where an eye's picture has what the view shows along a direction.
+vec3 shifted(int which, vec3 direction) {
+  float side = sides[which] == kRight ? -shift.y : shift.y;
+  return vec3(shift.x * direction.x - side * direction.z, direction.y, side * direction.x + shift.x * direction.z);
+}
+
+%ifdef ODS_VERTEX
+// A corner of the view. Labels (ods/kernel/camera/line.h) are as long as the corner's direction: then they are linear
+// across the view, and pixels between corners have exactly theirs. Only toed-in eyes need more than one triangle: a mesh,
+// whose error is at most an eighth of the squared side of a cell times the label's second derivative.
+uniform int cells;  // of the mesh, each way; 0: one triangle
+out vec2 screen;
+out vec3 label_0;
+out vec3 label_1;
+
+vec3 label_of(int which, vec3 direction) {
+  direction = shifted(which, direction);
+  return line_label(camera, sides[which], normalize(direction)) * length(direction);
+}
+
+void main() {
+  screen = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  if (cells > 0) screen = vec2(gl_VertexID % (cells + 1), gl_VertexID / (cells + 1)) * (2.0 / float(cells)) - 1.0;
+  label_0 = label_of(0, rays * vec3(screen, 1.0));
+  label_1 = label_of(1, rays * vec3(screen, 1.0));
+  gl_Position = vec4(screen, 0.0, 1.0);
+}
+
+%else
+const int kKind = ODS_KIND;       // of the picture's projection
+const bool kBoth = ODS_BOTH;      // an anaglyph or a difference is shown, not the eye at 0
+const bool kMoves = ODS_MOVES;    // the view moves
+const bool kOver = ODS_OVER;      // the picture is a finer window of one that is drawn already
+const bool kAround = ODS_AROUND;  // the view is a lat-long picture of the whole sphere
+const bool kPlanet = ODS_PLANET;  // the view is stereographic, a little planet
+const bool kGrid = ODS_GRID;
+const bool kCheap = ODS_CHEAP;    // for kMoves: the same filter each way
+const bool kLight = ODS_LIGHT;    // the texels are scene-linear, and developed here
+const bool kPaged = ODS_PAGED;    // only some tiles are there; a coarse picture stands in for the others
+const bool kAsk = ODS_ASK;        // which tiles are needed is shown instead
+const float kBorder = 16.0;  // texels around a tile
+const int kLastLevel = 5;    // of the mip levels
+
+// An eye's picture, cut into tiles that are the layers of a texture.
+struct Eye {
+  vec2 size;  // texels
+  vec2 tile;  // of a tile without its border
+  int columns;
+  int down;  // for kPaged: the coarse picture is 2^down times smaller
+};
+
+uniform Projection below;  // for kOver: of that picture
+uniform Eye eyes[2];
+uniform sampler2DArray tiles_0;
+uniform sampler2DArray tiles_1;
+uniform sampler2DArray coarse_0;
+uniform sampler2DArray coarse_1;
+uniform highp isampler2D slots_0;  // the layer of each tile; below 0: it is not there
+uniform highp isampler2D slots_1;
+uniform vec2 viewport;    // pixels
+uniform float ask_scale;  // for kAsk: the view's own pixels over those that are asked for
+uniform bool difference;  // instead of an anaglyph
+uniform float exposure;   // for kLight: a factor,
+uniform bool neutral;     // and the tone curve, else linear
+in vec2 screen;
+in vec3 label_0;
+in vec3 label_1;
+out vec4 color;
+
+vec3 direction_at(vec2 at) {
+  if (kAround) return look_at_angles(at.x * kPi, at.y * 0.5 * kPi).direction;
+  if (!kPlanet) return rays * vec3(at, 1.0);
+  vec3 aside = rays * vec3(at, 0.0);
+  return aside + rays[2] * (1.0 - 0.25 * dot(aside, aside));
+}
+
+// --- where ----------------------------------------------------------------------------------------------------------
+
+struct Place {
+  vec2 at;    // texels from the left and top edge of the eye's picture
+  vec2 low;   // the texels that are contiguous in the world: a cube's face, or everything
+  vec2 high;
+  bool seen;
+  vec3 label;  // the direction under which the picture stores the line of sight
+};
+
+bool wraps() {
+  return has_range(kKind) && camera.projection.span.x > 2.0 * kPi - 1e-4;
+}
+
+vec3 label_of(int which, vec3 direction) {
+  Camera known = camera;
+  known.convergence = ODS_CONVERGENCE;
+  return line_label(known, sides[which], normalize(direction));
+}
+
+Place place_under(int which, vec3 label) {
+  Projection known = camera.projection;
+  known.kind = kKind;
+  ImagePoint point = place_of(known, label);
+  vec2 size = eyes[which].size;
+  Place place;
+  place.label = label;
+  place.at = point.uv * size;
+  place.low = vec2(-1e6);
+  place.high = vec2(1e6);
+  // Rounding may put a place on the picture's edge just outside.
+  vec2 off = abs(point.uv - 0.5);
+  place.seen = point.seen || (!has_image_circle(kKind) && max(off.x, off.y) < 0.50001);
+  if (is_cube(kKind)) {
+    int columns = cube_columns(kKind);
+    int cell = cube_cell_toward(kKind, label);
+    vec2 face = size / vec2(float(columns), float(6 / columns));
+    vec2 corner = vec2(float(cell % columns), float(cell / columns));
+    place.low = ceil(corner * face - 0.5);
+    place.high = ceil((corner + 1.0) * face - 0.5);
+    place.at = clamp(place.at, place.low + 1.0 / 128.0, place.high - 1.0 / 128.0);
+  }
+  return place;
+}
+
+// How the place moves with a step of the direction, in texels. A step that leaves the face is taken backwards.
+// (Drivers inline every call and compile for seconds: whatever is large is called from few places, in loops.)
+vec2 movement(int which, vec3 direction, vec3 step_by, Place from) {
+  const float kPart = 0.25;
+  vec2 size = eyes[which].size;
+  float turn = size.x * 2.0 * kPi / camera.projection.span.x;
+  for (int i = 0; i < 2; i++) {
+    float part = i == 0 ? kPart : -kPart;
+    Place there = place_under(which, label_of(which, direction + step_by * part));
+    vec2 move = there.at - from.at;
+    if (has_range(kKind)) move.x -= turn * floor(move.x / turn + 0.5);
+    bool is_near = max(abs(move.x) / size.x, abs(move.y) / size.y) < 0.2;
+    if (there.low == from.low && is_near) return move / part;
+  }
+  return vec2(0.0);
+}
+
+// --- texels ---------------------------------------------------------------------------------------------------------
+
+// A place in a layer, in texels of the level 0.
+struct Spot {
+  vec2 at;
+  vec2 low;
+  vec2 high;
+  int layer;
+  int down;  // for a layer of the coarse picture: its levels are so many fewer
+};
+
+vec2 layer_size(int which) {
+  if (!kBoth || which == 0) return vec2(textureSize(tiles_0, 0).xy);
+  return vec2(textureSize(tiles_1, 0).xy);
+}
+
+vec2 coarse_size(int which) {
+  if (!kBoth || which == 0) return vec2(textureSize(coarse_0, 0).xy);
+  return vec2(textureSize(coarse_1, 0).xy);
+}
+
+int slot_of(int which, ivec2 cell) {
+  if (!kBoth || which == 0) return texelFetch(slots_0, cell, 0).x;
+  return texelFetch(slots_1, cell, 0).x;
+}
+
+// Whether the coarse picture has all that a pixel over this many squared texels needs.
+bool is_coarse(int which, float square) {
+  return 2.0 * square - 1.0 >= exp2(2.0 * float(eyes[which].down));
+}
+
+vec2 cell_of(int which, vec2 at) {
+  vec2 size = eyes[which].size;
+  vec2 tile = eyes[which].tile;
+  return min(floor(at / tile), vec2(float(eyes[which].columns - 1), ceil(size.y / tile.y) - 1.0));
+}
+
+// square: of the texels that the pixel covers.
+Spot spot_at(int which, Place place, vec2 offset, float square) {
+  vec2 size = eyes[which].size;
+  vec2 at = clamp(place.at + offset, place.low + 0.5, place.high - 0.5);
+  if (wraps()) at.x -= size.x * floor(at.x / size.x);
+  at = clamp(at, vec2(0.0), size);
+  vec2 cell = cell_of(which, at);
+  vec2 origin = cell * eyes[which].tile - kBorder;
+  Spot spot;
+  spot.down = 0;
+  spot.at = at - origin;
+  spot.low = max(place.low - origin, vec2(0.0));
+  spot.high = min(place.high - origin, layer_size(which));
+  spot.layer = int(cell.y) * eyes[which].columns + int(cell.x);
+  if (kPaged) {
+    spot.layer = slot_of(which, ivec2(cell));
+    if (spot.layer < 0 || is_coarse(which, square)) {
+      float part = exp2(-float(eyes[which].down));
+      spot.at = at * part + kBorder;
+      spot.low = max(place.low * part + kBorder, vec2(0.0));
+      spot.high = min(place.high * part + kBorder, coarse_size(which));
+      spot.layer = 0;
+      spot.down = eyes[which].down;
+    }
+  }
+  return spot;
+}
+
+vec3 texel_of(int which, ivec3 at, int level, bool is_of_coarse) {
+  if (kPaged && is_of_coarse) {
+    if (!kBoth || which == 0) return texelFetch(coarse_0, at, level).rgb;
+    return texelFetch(coarse_1, at, level).rgb;
+  }
+  if (!kBoth || which == 0) return texelFetch(tiles_0, at, level).rgb;
+  return texelFetch(tiles_1, at, level).rgb;
+}
+
+vec4 cubic(float t) {
+  return vec4(0.0, 1.0, 0.0, 0.0) + t * (vec4(-0.5, 0.0, 0.5, 0.0) + t * (vec4(1.0, -2.5, 2.0, -0.5) +
+         t * vec4(-0.5, 1.5, -1.5, 0.5)));
+}
+
+vec3 bicubic(int which, Spot spot, int level) {
+  if (kPaged) level = max(level - spot.down, 0);
+  float scale = exp2(float(-level));
+  vec2 at = spot.at * scale - 0.5;
+  vec2 whole = floor(at);
+  vec4 across = cubic(at.x - whole.x);
+  vec4 down = cubic(at.y - whole.y);
+  ivec2 high = ivec2(floor(spot.high * scale)) - 1;
+  ivec2 low = min(ivec2(ceil(spot.low * scale)), high);
+  vec3 sum = vec3(0.0);
+  vec3 least = vec3(65504.0);
+  vec3 most = vec3(0.0);
+  for (int j = 0; j < 4; j++) {
+    for (int i = 0; i < 4; i++) {
+      ivec3 texel = ivec3(clamp(ivec2(whole) + ivec2(i - 1, j - 1), low, high), spot.layer);
+      vec3 light = texel_of(which, texel, level, spot.down > 0);
+      sum += light * across[i] * down[j];
+      least = min(least, light);
+      most = max(most, light);
+    }
+  }
+  return clamp(sum, least, most);
+}
+
+// The level's box has the variance (4^level - 1) / 12, the pixel wants (square - 1) / 6: two levels are mixed.
+vec3 averaged(int which, Spot spot, float square) {
+  float boxes = 2.0 * square - 1.0;
+  int level = clamp(int(floor(0.5 * log2(boxes))), 0, kLastLevel - 1 + (kPaged ? spot.down : 0));
+  float box = exp2(2.0 * float(level));
+  float more = clamp((boxes - box) / (3.0 * box), 0.0, 1.0);
+  if (more < 0.01) more = 0.0;
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < 2; i++) {
+    float weight = i == 0 ? 1.0 - more : more;
+    if (weight > 0.0) sum += weight * bicubic(which, spot, level + i);
+  }
+  return sum;
+}
+
+// dx, dy: how far the place moves from pixel to pixel, in texels.
+vec3 filtered(int which, Place place, vec2 dx, vec2 dy) {
+  // The squared half axes of the ellipse that a round pixel becomes.
+  float xx = dx.x * dx.x + dy.x * dy.x;
+  float yy = dx.y * dx.y + dy.y * dy.y;
+  float xy = dx.x * dx.y + dy.x * dy.y;
+  float middle = 0.5 * (xx + yy);
+  float spread = sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy);
+  float large = max(middle + spread, 1.0);
+  float square = max(max(middle - spread, 1.0), large / 9.0);
+  float rest = large - square;
+  int count = 1 + int(ceil(2.0 * sqrt(rest / square) - 0.1));
+  // A tent of points, as make_tent() in ods/convert/texel_filter.cpp.
+  vec2 axis = xx >= yy ? vec2(middle + spread - yy, xy) : vec2(xy, middle + spread - xx);
+  axis = count > 1 ? normalize(axis) : vec2(0.0);
+  float n = float(count);
+  bool is_even = count % 2 == 0;
+  float variance = is_even ? 1.0 + 2.0 / (n * n) : (n * n - 1.0) * (n * n + 3.0) / (n * n * (n * n + 1.0));
+  float radius = count > 1 ? sqrt(rest / variance) : 0.0;
+  float unit = 2.0 / (is_even ? n * n : n * n + 1.0);
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < count; i++) {
+    float offset = (float(i) + 0.5) * 2.0 * radius / n - radius;
+    float weight = unit * float(min(2 * i + 1, 2 * (count - i) - 1));
+    sum += weight * averaged(which, spot_at(which, place, axis * offset, square), square);
+  }
+  return sum;
+}
+
+// --- light ----------------------------------------------------------------------------------------------------------
+
+const float kNothing = 0.0103;  // a neutral dark grey, where the picture has nothing
+
+// How much a picture covers what is below it: a window fades at its edges, and adds nothing where the picture below ends.
+float cover_of(int which, Place place) {
+  if (!kOver) return 1.0;
+  vec2 inside = min(place.at, eyes[which].size - place.at);
+  return place_of(below, place.label).seen ? clamp(min(inside.x, inside.y) / 12.0, 0.0, 1.0) : 0.0;
+}
+
+// As ods/image/tone.cpp.
+vec3 developed(vec3 light) {
+  if (!kLight) return light;
+  const float kStart = 0.76;
+  const float kRoom = 0.24;
+  vec3 color = max(light * exposure, vec3(0.0));
+  if (!neutral) return color;
+  float low = min(color.r, min(color.g, color.b));
+  color -= low < 0.08 ? low - 6.25 * low * low : 0.04;
+  float peak = max(color.r, max(color.g, color.b));
+  if (peak < kStart) return color;
+  float rolled = 1.0 - kRoom * kRoom / (peak + kRoom - kStart);
+  return mix(vec3(rolled), color * (rolled / peak), 1.0 / (0.15 * (peak - rolled) + 1.0));
+}
+
+// Linear light of an eye's picture along a direction, and its cover; dx, dy: the direction's steps from pixel to pixel.
+vec4 light_of(int which, vec3 direction, vec3 dx, vec3 dy) {
+  Place place = place_under(which, label_of(which, direction));
+  if (!place.seen) return vec4(vec3(kNothing), kOver ? 0.0 : 1.0);
+  vec2 moves[2];
+  for (int i = 0; i < 2; i++) moves[i] = movement(which, direction, i == 0 ? dx : dy, place);
+  return vec4(developed(filtered(which, place, moves[0], moves[1])), cover_of(which, place));
+}
+
+// --- while the view moves -------------------------------------------------------------------------------------------
+
+// How the place moves to the next pixel, from what neighbours found; label_move: how the label does. Where the edges of
+// the picture or of a cube's faces lie between them, the distance means nothing.
+vec2 moved(vec2 move, vec3 label, vec3 label_move, vec2 size) {
+  if (wraps()) move.x -= size.x * floor(move.x / size.x + 0.5);
+  if (is_cube(kKind)) {
+    float face = 0.5 * size.x / float(cube_columns(kKind)) * length(label_move) / length(label);  // at its middle
+    if (dot(move, move) > 16.0 * face * face) move = vec2(face, 0.0);
+  }
+  return move;
+}
+
+// dx, dy: how far the place moves from pixel to pixel, as parts of a layer; square: of the texels that the pixel covers.
+vec3 sampled(sampler2DArray tiles, vec3 at, vec2 dx, vec2 dy, float square) {
+  if (!kCheap) return textureGrad(tiles, at, dx, dy).rgb;
+  return textureLod(tiles, at, 0.5 * log2(max(square, 1.0))).rgb;
+}
+
+// As light_of(), with the GPU's filter.
+vec4 quick_light_of(int which, vec3 label) {
+  Place place = place_under(which, label);
+  vec2 size = eyes[which].size;
+  vec2 dx = moved(dFdx(place.at), label, dFdx(label), size);
+  vec2 dy = moved(dFdy(place.at), label, dFdy(label), size);
+  float large = max(dot(dx, dx), dot(dy, dy));
+  float inset = sqrt(clamp(large, 1.0, 256.0));
+  if (is_cube(kKind)) place.at = clamp(place.at, place.low + inset - 0.5, place.high - inset + 0.5);
+  float square = max(min(dot(dx, dx), dot(dy, dy)), large / 9.0);
+  if (kAsk) {
+    vec2 cell = cell_of(which, clamp(place.at, vec2(0.0), eyes[which].size));
+    return vec4(cell / 255.0, place.seen && !is_coarse(which, square * ask_scale * ask_scale) ? 1.0 : 0.0, 1.0);
+  }
+  Spot spot = spot_at(which, place, vec2(0.0), square);
+  bool is_of_coarse = kPaged && spot.down > 0;
+  vec2 layer = is_of_coarse ? coarse_size(which) : layer_size(which);
+  vec3 at = vec3(spot.at / layer, float(spot.layer));
+  float part = kPaged ? exp2(-float(spot.down)) : 1.0;
+  dx *= part / layer;
+  dy *= part / layer;
+  square *= part * part;
+  vec3 light;
+  if (is_of_coarse && kBoth && which == 1) light = sampled(coarse_1, at, dx, dy, square);
+  else if (is_of_coarse) light = sampled(coarse_0, at, dx, dy, square);
+  else if (kBoth && which == 1) light = sampled(tiles_1, at, dx, dy, square);
+  else light = sampled(tiles_0, at, dx, dy, square);
+  return place.seen ? vec4(developed(light), cover_of(which, place)) : vec4(vec3(kNothing), kOver ? 0.0 : 1.0);
+}
+
+// --- colour ---------------------------------------------------------------------------------------------------------
+
+vec3 encode(vec3 light) {
+  light = clamp(light, 0.0, 1.0);
+  return mix(1.055 * pow(light, vec3(1.0 / 2.4)) - 0.055, 12.92 * light, vec3(lessThanEqual(light, vec3(0.0031308))));
+}
+
+// The matrices of ods/picture/anaglyph.cpp, by columns.
+vec3 dubois(vec3 left, vec3 right) {
+  return mat3(0.437, -0.062, -0.048, 0.449, -0.062, -0.050, 0.164, -0.024, -0.017) * left +
+         mat3(-0.011, 0.377, -0.026, -0.032, 0.761, -0.093, -0.007, 0.009, 1.234) * right;
+}
+
+// How strongly a line at a multiple of `every` degrees covers the pixel, whose size is in degrees.
+float line_at(float angle, float every, float stretch, float pixel) {
+  float off = abs(angle - every * floor(angle / every + 0.5)) * stretch;
+  return clamp(1.2 - off / pixel, 0.0, 1.0);
+}
+
+vec3 with_grid(vec3 shown, vec3 direction, vec3 dy) {
+  float level = length(direction.xz);
+  float pixel = degrees(length(dy) / length(direction));
+  float heading = degrees(atan(direction.x, -direction.z));
+  float elevation = degrees(atan(direction.y, level));
+  float stretch = level / length(direction);
+  float meridian = abs(elevation) < 80.5 ? line_at(heading, 10.0, stretch, pixel) : 0.0;
+  float thin = max(meridian, line_at(elevation, 10.0, 1.0, pixel));
+  float thick = max(line_at(heading, 90.0, stretch, 1.5 * pixel), line_at(elevation, 180.0, 1.0, 1.5 * pixel));
+  shown = mix(shown, vec3(1.0), 0.3 * thin);
+  return mix(shown, vec3(1.0, 0.8, 0.3), 0.8 * thick);
+}
+
+vec4 shown_by(int which, vec3 label, vec3 direction, vec3 dx, vec3 dy) {
+  direction = shifted(which, direction);
+  if (!kMoves) return light_of(which, direction, shifted(which, dx), shifted(which, dy));
+  return quick_light_of(which, kAround || kPlanet ? label_of(which, direction) : label);
+}
+
+void main() {
+  vec3 direction = direction_at(screen);
+  vec3 dx = direction_at(screen + vec2(2.0 / viewport.x, 0.0)) - direction;
+  vec3 dy = direction_at(screen - vec2(0.0, 2.0 / viewport.y)) - direction;
+  vec4 first = shown_by(0, label_0, direction, dx, dy);
+  color = first;
+  if (kAsk) return;
+  if (kBoth) {
+    vec4 second = shown_by(1, label_1, direction, dx, dy);
+    color = vec4(difference ? abs(encode(first.rgb) - encode(second.rgb)) : encode(dubois(first.rgb, second.rgb)),
+                 min(first.a, second.a));
+  } else {
+    color.rgb = encode(first.rgb);
+  }
+  if (kGrid) color.rgb = with_grid(color.rgb, direction, dy);
+}
+%endif

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the pages of one server have in common while somebody wears a headset: what is shown and how. The desk sees what
+// the wearer sees, the wearer where the desk points. Each page tells the others all it knows, and of each thing the latest
+// change counts, whoever made it; so no message is missed for long.
+import { directionAt } from './places.js';
+
+const TICK = 100; // milliseconds
+const SPEAK = 2000; // at least so often
+const GONE = 6000; // without a word
+const APART = 0.7; // seconds that films may differ while they play
+
+const sleep = (time) => new Promise((done) => setTimeout(done, time));
+const round = (look) => Object.fromEntries(Object.entries(look).map(([name, value]) => [name, typeof value === 'number' ? Math.round(100 * value) / 100 : value]));
+
+// Each with its value now, undefined where there is none, and a way to take another page's.
+const FIELDS = {
+  shown: {
+    of: ({ viewer: { item, choice } }) => ({ item, choice }),
+    async take({ viewer }, { item, choice }) {
+      if (item < 0) return viewer.steering?.studio.showScene();
+      if (!viewer.view.items[item]) viewer.view.items = (await (await fetch('view.json')).json()).items; // rendered since
+      return viewer.view.items[item] && viewer.open(item, choice);
+    },
+  },
+  swap: { of: ({ viewer }) => viewer.state.swap, take: ({ viewer }, swap) => viewer.set({ swap }) },
+  worn: { of: ({ viewer }) => viewer.state.worn ?? 'stereo', take: ({ viewer }, worn) => viewer.set({ worn }) },
+  film: { of: (share) => share.film(), take: (share, film, time) => share.play(film, time) },
+  settings: {
+    of: ({ viewer }) => viewer.steering?.studio.session.settings,
+    take: ({ viewer }, settings) => viewer.steering?.studio.session.use(settings),
+  },
+};
+
+export class Share {
+  constructor({ viewer, headset }) {
+    Object.assign(this, { viewer, headset, id: Math.random().toString(36).slice(2, 12), clock: 0, known: {}, number: 0, spoke: 0, others: {} });
+    Object.assign(this, { follows: true, reel: {}, point: null, heard: new AbortController() });
+    const { canvas } = viewer;
+    const on = (event, run) => canvas.addEventListener(event, run, { signal: this.heard.signal });
+    on('pointerdown', () => this.follow(false));
+    on('pointermove', ({ offsetX, offsetY }) => (this.point = directionAt(viewer, offsetX, offsetY)));
+    on('pointerleave', () => (this.point = null));
+    for (const name of Object.keys(FIELDS)) this.note(name, viewer.session ? 1 : 0); // who comes later takes the wearer's
+    this.timer = setInterval(() => this.tick(), TICK);
+    this.listen();
+  }
+
+  end() {
+    clearInterval(this.timer);
+    this.heard.abort();
+    this.button?.remove();
+  }
+
+  note(name, clock, by = this.id) {
+    const value = FIELDS[name].of(this);
+    if (value === undefined) return;
+    this.clock = Math.max(this.clock, clock);
+    this.known[name] = { value, text: JSON.stringify(value), clock, by };
+  }
+
+  // --- what this page says ---
+
+  tick() {
+    for (const name of Object.keys(FIELDS)) {
+      const value = FIELDS[name].of(this);
+      const known = this.known[name];
+      if (value !== undefined && JSON.stringify(value) !== known?.text) this.note(name, known || name !== 'film' ? this.clock + 1 : 0);
+    }
+    const { viewer: { session, state }, known, point } = this;
+    const fields = Object.fromEntries(Object.entries(known).map(([name, { value, clock, by }]) => [name, { value, clock, by }]));
+    const look = session ? round({ yaw: state.yaw, pitch: state.pitch, roll: state.roll }) : undefined;
+    const text = JSON.stringify({ fields, look, point: session || !point ? undefined : round(point) });
+    const now = performance.now();
+    this.forget(now);
+    const isHeard = Object.keys(this.others).length > 0;
+    if (this.speaking || ((text === this.said || !isHeard) && now - this.spoke < SPEAK)) return;
+    Object.assign(this, { said: text, spoke: now, speaking: true });
+    const body = JSON.stringify({ ...JSON.parse(text), time: this.viewer.picture?.video?.currentTime });
+    fetch(`share?id=${this.id}`, { method: 'POST', body }).catch(() => {}).finally(() => (this.speaking = false));
+  }
+
+  // The video's state since it was last touched; a page that has just opened one has nothing to say of it yet.
+  film() {
+    const { viewer: { picture, item }, reel } = this;
+    if (!picture?.video) return undefined;
+    const { video, fps } = picture;
+    const now = performance.now() / 1000;
+    const expected = reel.time + (video.paused ? 0 : (now - reel.now) * video.playbackRate);
+    if (reel.picture !== picture) delete this.known.film;
+    if (reel.picture !== picture || reel.film.playing === video.paused || Math.abs(video.currentTime - expected) > (video.paused ? 0.5 / fps : APART / 2)) {
+      reel.film = { item, playing: !video.paused, at: Math.round(1000 * video.currentTime) / 1000 };
+    }
+    Object.assign(reel, { picture, now, time: video.currentTime });
+    return reel.film;
+  }
+
+  play(film, time = film.at) {
+    const { viewer: { picture, item, session }, reel } = this;
+    if (!picture?.video || film.item !== item) return;
+    const { video, fps } = picture;
+    if (Math.abs(video.currentTime - time) > (film.playing ? APART : 0.5 / fps)) picture.seek(time);
+    if (film.playing === video.paused) {
+      if (film.playing && !session) video.muted = true; // else the browser waits for a click
+      picture.toggle();
+    }
+    Object.assign(reel, { film, now: performance.now() / 1000, time: video.currentTime });
+  }
+
+  // --- what others say ---
+
+  async listen() {
+    while (!this.heard.signal.aborted) {
+      try {
+        const answer = await fetch(`share?id=${this.id}&after=${this.number}`, { signal: this.heard.signal });
+        const { number, messages } = await answer.json();
+        this.number = number;
+        for (const [id, message] of Object.entries(messages)) this.take(id, message);
+        await sleep(TICK / 2);
+      } catch {
+        this.number = 0; // of a server that has been started again
+        await sleep(1000);
+      }
+    }
+  }
+
+  take(id, { fields = {}, look, point, time }) {
+    for (const [name, { value, clock, by }] of Object.entries(fields)) {
+      const known = this.known[name];
+      if (!FIELDS[name] || clock < (known?.clock ?? 0) || (known && clock === known.clock && by <= known.by)) continue;
+      if (name === 'film' && this.film()?.item !== value.item) continue;
+      if (known?.text !== JSON.stringify(value)) FIELDS[name].take(this, value, time);
+      this.note(name, clock, by);
+    }
+    if (JSON.stringify(point) !== JSON.stringify(this.others[id]?.point)) this.headset.mark(point ?? null);
+    this.others[id] = { look, point, at: performance.now() };
+    if (look && !this.viewer.session) this.watch(look);
+  }
+
+  forget(now) {
+    for (const [id, { at }] of Object.entries(this.others)) if (now - at > GONE) delete this.others[id];
+    if (this.button) this.button.hidden = !Object.values(this.others).some(({ look }) => look);
+  }
+
+  // --- the desk looks where the wearer does, until somebody at the desk looks elsewhere ---
+
+  follow(is) {
+    this.follows = is;
+    this.button?.setAttribute('aria-pressed', is);
+  }
+
+  watch(look) {
+    const { viewer } = this;
+    if (!this.button) {
+      this.button = document.createElement('button');
+      Object.assign(this.button, { id: 'follow', type: 'button', textContent: 'Follow the headset' });
+      this.button.addEventListener('click', () => this.follow(!this.follows));
+      viewer.canvas.after(this.button);
+      this.follow(this.follows);
+    }
+    this.wanted = look;
+    if (this.moving) return;
+    this.moving = true;
+    requestAnimationFrame(() => this.move());
+  }
+
+  // Smoothly, as looks come ten times a second.
+  move() {
+    const { viewer, wanted } = this;
+    const by = (name) => ((wanted[name] - viewer.state[name] + 540) % 360) - 180;
+    const rest = ['yaw', 'pitch', 'roll'].map((name) => [name, by(name)]);
+    this.moving = this.follows && !viewer.session && rest.some(([, angle]) => Math.abs(angle) > 0.02);
+    if (!this.moving) return;
+    viewer.set(Object.fromEntries(rest.map(([name, angle]) => [name, viewer.state[name] + (Math.abs(angle) > 0.1 ? 0.35 * angle : angle)])));
+    requestAnimationFrame(() => this.move());
+  }
+}
