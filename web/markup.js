@@ -14,11 +14,10 @@ const speeds = [[0.25, '¼×'], [0.5, '½×'], [1, '1×'], [1.5, '1½×'], [2, '
 
 export const MARKUP = `
 <p id="message" role="alert" hidden></p>
-<p id="toast" role="status"></p>
 <div id="spinner" hidden></div>
 <progress id="loading" max="1" aria-label="Loading" hidden></progress>
 <div id="title"><span id="folder" hidden>${button('previous')}${button('next')}</span><span id="name"></span><output id="look" aria-label="Where you look" hidden></output></div>
-<div id="foot"><p id="hint" hidden></p><div id="bar" role="toolbar" aria-label="Viewer">
+<div id="foot"><p id="toast" role="status"></p><p id="hint" hidden></p><div id="bar" role="toolbar" aria-label="Viewer">
   <div id="film" hidden>
     ${button('play')}${button('step-back')}${button('step')}
     <input id="seek" type="range" min="0" value="0" aria-label="Frame" data-tip="Seek">
