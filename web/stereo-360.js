@@ -141,7 +141,7 @@ class Stereo360 extends HTMLElement {
   opened() {
     this.shadowRoot.getElementById('poster').hidden = true;
     this.box.classList.remove('waiting');
-    this.say('load');
+    if (!this.viewer.picture.isPreview) this.say('load');
     this.player.turn(this.turns());
   }
 

@@ -173,7 +173,7 @@ export class Viewer extends EventTarget {
     try {
       const picture = await openPicture(this.panorama, this.view, this.about, {
         base: this.base, choice, signal: loading.signal, progress: (part) => this.say('loading', part),
-        early: (preview) => this.take(preview, loading.signal),
+        early: (preview) => this.take(Object.assign(preview, { isPreview: true }), loading.signal),
       });
       this.take(picture, loading.signal);
     } catch (error) {

@@ -53,7 +53,7 @@ std::string wrapped(const std::string& name, const std::string& module) {
 
 // Behind what it imports, at once or later.
 void add(const std::string& name, std::set<std::string>& known, std::string& script) {
-  if (is_of_studio(name) || !known.insert(name).second) return;
+  if (needs_server(name) || !known.insert(name).second) return;
   const std::string text(find_page_file(name)->data);
   for (const auto& [pattern, group] : {std::pair{&kImport, size_t{2}}, {&kLazyImport, size_t{1}}}) {
     for (const std::string& other : names_in(text, *pattern, group)) add(other, known, script);
@@ -63,15 +63,17 @@ void add(const std::string& name, std::set<std::string>& known, std::string& scr
 
 }  // namespace
 
-bool is_of_studio(std::string_view name) {
-  return name.starts_with("studio") || name.starts_with("merge-curve");
+bool needs_server(std::string_view name) {
+  return name.starts_with("studio") || name.starts_with("merge-curve") || name == "share.js";
 }
 
 std::string bundle(const std::string& entry, std::map<std::string, std::string> files) {
-  for (const char* const name : {"panorama.glsl", "player.css"}) files[name] = find_page_file(name)->data;
   std::set<std::string> known;
   std::string modules;
   add(entry, known, modules);
+  for (const char* const name : {"panorama.glsl", "player.css"}) {
+    if (modules.find(name) != std::string::npos) files[name] = find_page_file(name)->data;
+  }
   const std::string beginning(find_page_file("bundle.js")->data);
   return fmt::format("// Made by ods view from its modules.\n(() => {{\n'use strict';\nconst $files = {};{}{}}})();\n",
                      Json(files).dump(-1, ' ', true, Json::error_handler_t::replace),

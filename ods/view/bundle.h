@@ -9,14 +9,14 @@
 
 namespace ods {
 
-// entry: a module of the page, main.js. files: by their names, besides those of the page: view.json. What only the
-// studio has is left out.
+// entry: a module of the page, main.js. files: by their names, besides those of the page: view.json. What
+// needs_server() is left out.
 std::string bundle(const std::string& entry, std::map<std::string, std::string> files);
 
 // What lies beside a file, as FILE.js, so that a page from disk gets it: its bytes in base64, 4/3 as large.
 std::string script_of_file(std::string_view name, std::string_view bytes);
 
 // Only a server has what these files need.
-bool is_of_studio(std::string_view name);
+bool needs_server(std::string_view name);
 
 }  // namespace ods

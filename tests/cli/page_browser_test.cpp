@@ -252,13 +252,10 @@ size_t gzipped(std::string_view text) {
   return size;
 }
 
-// As web hosts send it: the page with everything that it loads later, and the element.
+// As web hosts send it: an exported page with everything that it loads later, and the element.
 TEST(Page, IsSmallOnTheWire) {
-  size_t page = 0;
-  for (const PageFile& file : page_files()) {
-    const bool is_other = file.name.starts_with("example") || file.name == "stereo-360.js" || file.name == "bundle.js";
-    if (!is_of_studio(file.name) && !is_other) page += gzipped(file.data);
-  }
+  size_t page = gzipped(bundle("main.js", {{"view.json", "{}"}}));
+  for (const char* const name : {"index.html", "style.css", "player.css"}) page += gzipped(find_page_file(name)->data);
   const size_t element = gzipped(bundle("stereo-360.js", {{"view.json", "{}"}}));
   RecordProperty("page", static_cast<int>(page));
   RecordProperty("element", static_cast<int>(element));
