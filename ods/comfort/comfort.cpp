@@ -49,11 +49,11 @@ double half_parallax_of(const Camera& camera, int eye, const ViewDirection& look
 using Strains = std::array<float, std::size(kStrains)>;
 
 // Where a pixel's surface is.
-struct Place {
+struct JudgedPlace {
   double half_parallax = 0.0, across = 0.0, height = 0.0, distance = kFar;  // as in strain.h; from the centre
 };
 
-Place place_of(const Camera& camera, int eye, vec2 uv, const ViewDirection& look, float depth) {
+JudgedPlace place_of(const Camera& camera, int eye, vec2 uv, const ViewDirection& look, float depth) {
   if (!is_surface(depth)) return {};
   const Ray ray = camera_ray(camera, eye, uv);
   const vec3 away = ray.origin + ray.direction * depth - camera.center;
@@ -108,7 +108,7 @@ class Judge {
   };
 
   View view_of(int x, int y) const;
-  Place place_at(int x, int y, const View& view) const;
+  JudgedPlace place_at(int x, int y, const View& view) const;
   void judge_row(int y);
   void judge_pixel(int x, int y, View& view);
   void add_steps(int y);
@@ -174,7 +174,7 @@ Judge::View Judge::view_of(int x, int y) const {
 }
 
 // On an even row the eye, its ray and the circle's centre are a right triangle.
-Place Judge::place_at(int x, int y, const View& view) const {
+JudgedPlace Judge::place_at(int x, int y, const View& view) const {
   const float depth = *seen_.depth.at(x, y);
   if (!is_even_) return place_of(camera_, seen_.eye, pixel_middle(x, y, seen_.depth), view.look, depth);
   if (!is_surface(depth)) return {};
@@ -196,7 +196,7 @@ void Judge::judge_pixel(int x, int y, View& view) {
   point.is_known = view.look.seen && *seen_.depth.at(x, y) > 0.0f;
   if (!point.is_known) return;
   point.solid_angle = view.solid_angle, point.looked = view.looked;
-  const Place place = place_at(x, y, view);
+  const JudgedPlace place = place_at(x, y, view);
   if (place.distance == kFar) return;
   point.distance = static_cast<float>(place.distance);
   const double converged = vergence(place.half_parallax, view.elevation);
@@ -281,7 +281,7 @@ double Judge::circle_for(size_t pixel) const {
   const Point& point = points_[pixel];
   if (point.level < ComfortLevel::kWarning || options_.rules != ComfortRules::kStrain) return 1.0;
   const int x = static_cast<int>(pixel) % width_, y = static_cast<int>(pixel) / width_;
-  const Place place = place_at(x, y, view_of(x, y));
+  const JudgedPlace place = place_at(x, y, view_of(x, y));
   const double circle = place.across * std::sin(place.half_parallax);
   double share = 1.0;
   for (int i = 0; i < 8; i++) {
@@ -436,7 +436,7 @@ ComfortReport judge_comfort(const SeenDepth& seen, const ComfortOptions& options
 PointComfort judge_point(const StereoCamera& setting, int eye, vec2 uv, float depth, const Viewer& viewer) {
   const Camera camera = make_camera(setting);
   const ViewDirection look = look_of(camera.projection, uv, uv);
-  const Place place = place_of(camera, eye, uv, look, depth);
+  const JudgedPlace place = place_of(camera, eye, uv, look, depth);
   const double elevation = elevation_of(look), gaze = double{viewer.gaze_degrees} * kDegree;
   PointComfort point{ComfortLevel::kOk, place.distance};
   point.near = vergence_dioptres(vergence(place.half_parallax, elevation), viewer);
