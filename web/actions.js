@@ -1,18 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Everything that a key or a button of the page does: one table, from which the help is made, too. A row has its id for
-// buttons, its keys as KeyboardEvent.key says them, its words for people, and where only some items have it, `when`.
-// run(page, viewer) may return what to say in a few words.
+// Everything that a key or a button does: one table, from which help and tooltips are made, too. A row has its id for
+// buttons, its keys as KeyboardEvent.key says them, its words and its group for people, and where it does not always
+// apply, when(viewer, player). run(player, viewer) may return, or promise, what to say in a few words.
 import { MODES, modeOf } from './modes.js';
 
-const turn = (yaw, pitch) => (page, viewer) =>
+const turn = (yaw, pitch) => (player, viewer) =>
   viewer.set({ yaw: viewer.state.yaw + yaw, pitch: viewer.state.pitch + pitch });
-const zoom = (by) => (page, viewer) => viewer.set({ fov: viewer.state.fov * by });
-const film = (run) => (page, viewer) => viewer.picture?.video && run(viewer.picture, viewer.picture.video);
+const zoom = (by) => (player, viewer) => viewer.set({ fov: viewer.state.fov * by });
+const film = (run) => (player, viewer) => viewer.picture?.video && run(viewer.picture, viewer.picture.video);
 const isFilm = (viewer) => viewer.about?.kind === 'video';
 const isLive = (viewer) => viewer.about?.live;
-const isFolder = (viewer) => viewer.view.items.length > 1;
+const isPicture = (viewer) => Boolean(viewer.picture) && !viewer.scene;
+const isFolder = (viewer, player) => viewer.view.items.length > 1 && !player.isSingle();
 
 function show(viewer, name) {
   viewer.set({ mode: name });
@@ -24,55 +25,92 @@ function expose(viewer, by) {
   return `Exposure ${viewer.choice.exposure} stops`;
 }
 
+function converge(viewer, by) {
+  viewer.set({ shift: Math.round((viewer.state.shift + by) * 10) / 10 });
+  const { shift } = viewer.state;
+  return shift ? `Everything ${Math.abs(shift)}° ${shift > 0 ? 'farther' : 'nearer'}` : 'Depth as in the file';
+}
+
+// All around as a disc, the nadir in its middle; and back to where one looked.
+function planet(player, viewer) {
+  const { state } = viewer;
+  if (!state.planet) player.before = { pitch: state.pitch, fov: state.fov };
+  viewer.set(state.planet ? { pitch: 0, fov: player.fov(), ...player.before, planet: false } : { pitch: -90, fov: 260, planet: true });
+  return state.planet ? 'Little planet' : 'Panorama';
+}
+
+const LOOK = 'Look around';
+const EYES = 'Eyes';
+const FILM = 'Video';
+const FOLDER = 'Pictures';
+const PAGE = 'More';
+
 export const ACTIONS = [
-  { id: 'left', keys: ['ArrowLeft'], shown: '← → ↑ ↓', label: 'look around (Shift: finely)', run: turn(-5, 0), fine: turn(-1, 0) },
+  { id: 'left', keys: ['ArrowLeft'], shown: '← → ↑ ↓', label: 'look around (Shift: finely)', group: LOOK, run: turn(-5, 0), fine: turn(-1, 0) },
   { id: 'right', keys: ['ArrowRight'], run: turn(5, 0), fine: turn(1, 0) },
   { id: 'up', keys: ['ArrowUp'], run: turn(0, 5), fine: turn(0, 1) },
   { id: 'down', keys: ['ArrowDown'], run: turn(0, -5), fine: turn(0, -1) },
-  { id: 'closer', keys: ['+', '='], shown: '+ −', label: 'field of view', run: zoom(1 / 1.1) },
+  { id: 'closer', keys: ['+', '='], shown: '+ −', label: 'field of view', group: LOOK, run: zoom(1 / 1.1) },
   { id: 'wider', keys: ['-', '_'], run: zoom(1.1) },
-  { id: 'recentre', keys: ['0', 'Home'], label: 'recentre', run: (page, viewer) => viewer.set({ yaw: 0, pitch: 0, fov: page.fov() }) },
-  { id: 'swap', keys: ['s'], label: 'swap the eyes', run(page, viewer) {
+  { id: 'recentre', keys: ['0', 'Home'], label: 'recentre', group: LOOK, run: (player, viewer) => viewer.set({ yaw: 0, pitch: 0, fov: player.fov() }) },
+  { id: 'turn', keys: ['t'], label: 'turn slowly', group: LOOK, run(player) {
+    player.turn();
+    return player.turning ? 'Turning' : 'Still';
+  } },
+  { id: 'grid', keys: ['g'], label: 'degrees: grid and numbers', group: LOOK, run(player, viewer) {
+    viewer.set({ grid: !viewer.state.grid });
+    return viewer.state.grid ? 'Grid, every 10 degrees' : 'No grid';
+  } },
+  { id: 'planet', keys: ['w'], label: 'little planet', group: LOOK, run: planet },
+  { id: 'swap', keys: ['s'], label: 'swap the eyes', group: EYES, run(player, viewer) {
     viewer.set({ swap: !viewer.state.swap });
     return viewer.state.swap ? 'Eyes swapped' : 'Eyes as in the file';
   } },
-  { id: 'mode', keys: ['m'], label: 'next way to show the eyes', run(page, viewer) {
+  { id: 'mode', keys: ['m'], label: 'next way to show the eyes', group: EYES, run(player, viewer) {
     const at = MODES.indexOf(modeOf(viewer.state.mode));
     return show(viewer, MODES[(at + 1) % MODES.length].name);
   } },
   ...MODES.map((mode, i) => ({
-    id: `mode-${mode.name}`, keys: [String(i + 1)], label: mode.label.toLowerCase(), run: (page, viewer) => show(viewer, mode.name),
+    id: `mode-${mode.name}`, keys: [String(i + 1)], label: mode.label.toLowerCase(), group: EYES, run: (player, viewer) => show(viewer, mode.name),
   })),
-  { id: 'grid', keys: ['g'], label: 'grid of degrees', run(page, viewer) {
-    viewer.set({ grid: !viewer.state.grid });
-    return viewer.state.grid ? 'Grid, every 10 degrees' : 'No grid';
-  } },
-  { id: 'next', keys: ['n', 'PageDown'], label: 'next picture', when: isFolder, run: (page, viewer) => viewer.go(1) },
-  { id: 'previous', keys: ['p', 'PageUp'], label: 'previous picture', when: isFolder, run: (page, viewer) => viewer.go(-1) },
-  { id: 'play', keys: [' '], shown: 'Space', label: 'play, pause', when: isFilm, run: film((picture) => picture.toggle()) },
-  { id: 'step-back', keys: [','], label: 'previous frame', when: isFilm, run: film((picture) => picture.step(-1)) },
-  { id: 'step', keys: ['.'], label: 'next frame', when: isFilm, run: film((picture) => picture.step(1)) },
-  { id: 'back', keys: ['j'], label: 'back 5 s', when: isFilm, run: film((picture, video) => picture.seek(video.currentTime - 5)) },
-  { id: 'ahead', keys: ['k'], label: 'ahead 5 s', when: isFilm, run: film((picture, video) => picture.seek(video.currentTime + 5)) },
-  { id: 'loop', keys: ['l'], label: 'loop', when: isFilm, run: film((picture) => {
+  { id: 'farther', keys: [']'], shown: '[ ]', label: 'depth nearer, farther (flat screens)', group: EYES, run: (player, viewer) => converge(viewer, 0.1) },
+  { id: 'nearer', keys: ['['], run: (player, viewer) => converge(viewer, -0.1) },
+  { id: 'next', keys: ['n', 'PageDown'], label: 'next picture', group: FOLDER, when: isFolder, run: (player, viewer) => viewer.go(1) },
+  { id: 'previous', keys: ['p', 'PageUp'], label: 'previous picture', group: FOLDER, when: isFolder, run: (player, viewer) => viewer.go(-1) },
+  { id: 'play', keys: [' '], shown: 'Space', label: 'play, pause', group: FILM, when: isFilm, run: film((picture) => picture.toggle()) },
+  { id: 'step-back', keys: [','], label: 'previous frame', group: FILM, when: isFilm, run: film((picture) => picture.step(-1)) },
+  { id: 'step', keys: ['.'], label: 'next frame', group: FILM, when: isFilm, run: film((picture) => picture.step(1)) },
+  { id: 'back', keys: ['j'], label: 'back 5 s', group: FILM, when: isFilm, run: film((picture, video) => picture.seek(video.currentTime - 5)) },
+  { id: 'ahead', keys: ['k'], label: 'ahead 5 s', group: FILM, when: isFilm, run: film((picture, video) => picture.seek(video.currentTime + 5)) },
+  { id: 'loop', keys: ['l'], label: 'loop', group: FILM, when: isFilm, run: film((picture) => {
     picture.loop(!picture.loops);
     return picture.loops ? 'Loop' : 'Play once';
   }) },
-  { id: 'sound', keys: ['a'], label: 'sound', when: isFilm, run: film((picture, video) => {
+  { id: 'sound', keys: ['a'], label: 'sound', group: FILM, when: isFilm, run: film((picture, video) => {
     video.muted = !video.muted;
     return video.muted ? 'No sound' : 'Sound';
   }) },
-  { id: 'brighter', keys: ['e'], label: 'exposure + ¼ stop', when: isLive, run: (page, viewer) => expose(viewer, 0.25) },
-  { id: 'darker', keys: ['d'], label: 'exposure − ¼ stop', when: isLive, run: (page, viewer) => expose(viewer, -0.25) },
-  { id: 'fullscreen', keys: ['f'], label: 'full screen', run: () => {
-    if (document.fullscreenElement) document.exitFullscreen();
-    else document.documentElement.requestFullscreen?.().catch(() => {});
+  { id: 'brighter', keys: ['e'], label: 'exposure + ¼ stop', group: FOLDER, when: isLive, run: (player, viewer) => expose(viewer, 0.25) },
+  { id: 'darker', keys: ['d'], label: 'exposure − ¼ stop', group: FOLDER, when: isLive, run: (player, viewer) => expose(viewer, -0.25) },
+  { id: 'subtitles', keys: ['r'], label: 'subtitles', group: FILM, when: (viewer) => viewer.about?.video?.subtitles, run(player, viewer) {
+    const on = player.subtitles?.();
+    viewer.say('change');
+    return on ? 'Subtitles' : 'No subtitles';
   } },
-  { id: 'headset', keys: ['v'], label: 'view in the headset', run: (page) => page.enterHeadset() },
-  { id: 'screenshot', keys: ['c'], label: 'save a screenshot', run: (page) => page.screenshot() },
-  { id: 'settings', keys: ['o'], label: 'settings', run: (page) => page.toggleSettings() },
-  { id: 'help', keys: ['?', 'h'], label: 'this help', run: (page) => page.help() },
+  { id: 'compare', keys: ['x'], label: 'compare with another picture or setting', group: FOLDER, when: isPicture, run: (player) => player.compare() },
+  { id: 'comfort', keys: ['q'], label: 'what strains the eyes', group: FOLDER, when: (viewer) => isPicture(viewer) && viewer.view.live && !isFilm(viewer), run: (player) => player.comfort() },
+  { id: 'link', keys: ['u'], label: 'copy a link to this view', group: PAGE, when: (viewer, player) => player.copyLink, run: (player) => player.copyLink() },
+  { id: 'fullscreen', keys: ['f'], label: 'full screen', group: PAGE, run: (player) => player.toggleFullscreen() },
+  { id: 'headset', keys: ['v'], label: 'view in the headset', group: PAGE, run: (player) => player.enterHeadset() },
+  { id: 'screenshot', keys: ['c'], label: 'save a screenshot', group: PAGE, run: (player) => player.screenshot() },
+  { id: 'settings', keys: ['o'], label: 'settings', group: PAGE, run: (player) => player.toggleSettings() },
+  { id: 'help', keys: ['?', 'h'], label: 'help', group: PAGE, run: (player) => player.help() },
 ];
+
+export const applies = ({ when }, player) => !when || Boolean(when(player.viewer, player));
+
+// What a key does now.
+export const actionOf = (key, player) => ACTIONS.find((action) => action.keys.includes(key) && applies(action, player));
 
 const SHOWN = { PageDown: 'Page ↓', PageUp: 'Page ↑' };
 export const keysOf = (action) => (action.shown?.split(' ') ?? action.keys).map((key) => SHOWN[key] ?? (key.length > 1 ? key : key.toUpperCase()));

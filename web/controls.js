@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The bar, the settings and the help: what they show follows the viewer, what they are told goes to it.
-import { ACTIONS, keysOf } from './actions.js';
+import { ACTIONS, applies, keysOf } from './actions.js';
 import { hasOtherLayouts } from './form.js';
 import { BUTTONS } from './headset.js';
 import { followDevice, hasDevice } from './look.js';
 import { MODES } from './modes.js';
 
-const find = (id) => document.getElementById(id);
+const GAP = 8; // pixels
+const isTouch = () => matchMedia('(pointer: coarse)').matches;
 
 function make(tag, text, ...children) {
   const element = document.createElement(tag);
@@ -27,14 +28,27 @@ function fill(select, rows) {
 
 const signed = (value, digits) => `${value < 0 ? '−' : ''}${Math.abs(value).toFixed(digits)}`;
 const two = (value) => String(Math.floor(value)).padStart(2, '0');
+const titled = (label) => label.charAt(0).toUpperCase() + label.slice(1);
+
+// Names, tooltips and keys of the buttons in an element, from their actions.
+export function nameButtons(element) {
+  for (const button of element.querySelectorAll('button[data-action]')) {
+    const action = ACTIONS.find(({ id }) => id === button.dataset.action);
+    if (!action || button.dataset.tip) continue;
+    const label = titled(action.label);
+    if (!button.textContent.trim()) button.ariaLabel = label;
+    Object.assign(button.dataset, { tip: label, key: keysOf(action).slice(0, 1).join('') });
+  }
+}
 
 export class Controls {
-  constructor(page) {
-    const { viewer } = page;
-    Object.assign(this, { page, viewer });
-    fill(find('mode'), MODES.map(({ name, label }) => [name, label]));
-    fill(find('tone'), viewer.view.tones.map((name) => [name, name]));
-    find('device-row').hidden = !hasDevice();
+  constructor(player) {
+    const { viewer } = player;
+    Object.assign(this, { player, viewer, find: (id) => player.find(id) });
+    fill(this.find('mode'), MODES.map(({ name, label }) => [name, label]));
+    fill(this.find('tone'), viewer.view.tones.map((name) => [name, name]));
+    this.find('device-row').hidden = !hasDevice();
+    nameButtons(player.element);
     this.listen();
     for (const event of ['change', 'open', 'failed']) viewer.addEventListener(event, () => this.update());
     viewer.addEventListener('open', () => this.describe());
@@ -42,17 +56,18 @@ export class Controls {
   }
 
   listen() {
-    const { page, viewer } = this;
-    document.addEventListener('click', (event) => {
+    const { player, viewer, find } = this;
+    (player.isPage ? document : player.element).addEventListener('click', (event) => {
       const button = event.target.closest?.('button[data-action]');
       if (!button) return;
-      page.act(button.dataset.action);
+      player.act(button.dataset.action);
       this.giveBack(event);
     });
     const on = (id, event, run) => find(id).addEventListener(event, (what) => {
       run(find(id));
       if (what.type === 'change') this.giveBack(what);
     });
+    const video = () => viewer.picture?.video;
     on('mode', 'change', (select) => viewer.set({ mode: select.value }));
     on('layout', 'change', (select) => viewer.choose({ layout: select.value || undefined }));
     on('projection', 'change', (select) => viewer.choose({ projection: select.value || undefined }));
@@ -60,51 +75,74 @@ export class Controls {
     on('exposure', 'change', (range) => viewer.choose({ exposure: Number(range.value) }));
     on('exposure', 'input', () => this.label('exposure', `${signed(Number(find('exposure').value), 2)}`));
     on('fov', 'input', (range) => viewer.set({ fov: Number(range.value) }));
+    on('shift', 'input', (range) => viewer.set({ shift: Number(range.value) }));
+    on('planet', 'change', () => player.act('planet'));
     on('grid', 'change', (box) => viewer.set({ grid: box.checked }));
+    on('turn', 'change', (box) => player.turn(box.checked));
+    on('loop', 'change', (box) => viewer.picture?.loop?.(box.checked));
     on('seek', 'input', (range) => viewer.picture?.seek?.((Number(range.value) + 0.5) / viewer.picture.fps));
-    on('speed', 'change', (select) => viewer.picture?.video && (viewer.picture.video.playbackRate = Number(select.value)));
+    on('speed', 'change', (select) => video() && (video().playbackRate = Number(select.value)));
     find('device').addEventListener('change', () => this.device());
     find('settings').addEventListener('submit', (event) => event.preventDefault());
+    find('settings').addEventListener('toggle', () => this.placeSettings());
     addEventListener('pointerdown', () => (this.byPointer = true), true);
     addEventListener('keydown', () => (this.byPointer = false), true);
   }
 
+  // Above the right end of the bar, wherever that is; as high as there is room.
+  placeSettings() {
+    const [settings, bar] = [this.find('settings'), this.find('bar').getBoundingClientRect()];
+    if (!settings.matches(':popover-open')) return;
+    const { style } = settings;
+    const room = Math.max(bar.top, innerHeight - bar.bottom);
+    style.maxHeight = `${room - 2 * GAP}px`;
+    style.left = `${Math.max(Math.min(bar.right, innerWidth - GAP) - settings.offsetWidth, GAP)}px`;
+    const isAbove = bar.top >= room;
+    style.bottom = isAbove ? `${innerHeight - bar.top + GAP}px` : 'auto'; // it grows with what is in it
+    style.top = isAbove ? 'auto' : `${bar.bottom + GAP}px`;
+  }
+
   // After a click the keys are the picture's again; who works by keyboard stays where he is.
   giveBack({ target }) {
-    if (this.byPointer && !target.closest('#settings, dialog')) find('picture').focus({ preventScroll: true });
+    if (this.byPointer && !target.closest('#settings, dialog, #studio')) this.find('picture').focus({ preventScroll: true });
   }
 
   async device() {
-    const box = find('device');
+    const box = this.find('device');
     this.endDevice?.();
     this.endDevice = box.checked ? await followDevice(this.viewer) : null;
     if (box.checked && !this.endDevice) {
       box.checked = false;
-      this.page.toast('The browser refuses: allow motion sensors for this page');
+      this.player.toast('The browser refuses: allow motion sensors for this page');
     }
   }
 
   label(id, text) {
-    find(id).nextElementSibling.textContent = text;
+    this.find(id).nextElementSibling.textContent = text;
   }
 
   progress(part) {
-    const bar = find('loading');
+    const bar = this.find('loading');
     bar.hidden = part === null;
+    this.find('spinner').hidden = part === null || Boolean(this.viewer.picture);
     if (part > 0 && part < 1) bar.value = part;
     else bar.removeAttribute('value');
   }
 
   // What does not change while an item is open.
   describe() {
-    const { view, about, choice, picture, item } = this.viewer;
-    find('folder').hidden = view.items.length < 2;
-    const many = !this.viewer.scene && view.items.length > 1 ? `  ${item + 1} / ${view.items.length}` : '';
-    find('name').textContent = about.name + many;
-    find('name').title = about.name;
-    document.title = `${about.name} – Omnistereo`;
-    find('picture').setAttribute('aria-label', `${about.name}. Look around with the arrow keys; ? lists all keys.`);
+    const { find, viewer, player } = this;
+    const { view, about, choice, picture, item } = viewer;
+    const isOneOfMany = view.items.length > 1 && !player.isSingle();
+    const name = player.nameOf(about);
+    find('folder').hidden = !isOneOfMany;
+    find('title').classList.toggle('bare', !name && !isOneOfMany);
+    find('name').textContent = name + (!viewer.scene && isOneOfMany ? `  ${item + 1} / ${view.items.length}` : '');
+    find('name').title = name;
+    if (player.isPage) document.title = `${about.name} – Omnistereo`;
+    find('picture').ariaLabel = `${name || 'A panorama'}. Look around with the arrow keys; ? lists all keys.`;
     find('reason').textContent = choice.layout ? '' : (about.layout_reason ?? '');
+    find('why').hidden = !find('reason').textContent;
     const layouts = view.layouts.map(({ name }) => [name, name]);
     const hasLayout = hasOtherLayouts(view, about);
     fill(find('layout'), hasLayout ? [['', `as found: ${about.layout}`], ...layouts] : [['', about.layout ?? 'a file per eye']]);
@@ -117,46 +155,71 @@ export class Controls {
     find('exposure').value = exposure;
     this.label('exposure', signed(exposure, 2));
     find('tone').value = choice.tone ?? about.tone;
-    find('film').hidden = !picture?.video;
-    document.body.classList.toggle('film', Boolean(picture?.video));
-    if (!picture?.video) return;
+    const isFilm = Boolean(picture?.video);
+    find('film').hidden = !isFilm;
+    for (const id of ['speed-row', 'loop-row']) find(id).hidden = !isFilm;
+    player.element.classList.toggle('film', isFilm);
+    if (!isFilm) return;
     find('seek').max = picture.frames - 1;
     picture.video.playbackRate = Number(find('speed').value);
   }
 
   update() {
-    const { state, picture } = this.viewer;
+    const { find, viewer: { state, picture }, player } = this;
+    find('look').hidden = !state.grid;
     find('look').textContent = `yaw ${signed(state.yaw, 1)}°  pitch ${signed(state.pitch, 1)}°  fov ${state.fov.toFixed(0)}°`;
     find('mode').value = state.mode;
+    find('fov').max = state.planet ? 330 : 150;
     find('fov').value = state.fov;
     find('grid').checked = state.grid;
+    find('planet').checked = state.planet;
+    find('shift').value = state.shift;
+    this.label('shift', `${signed(state.shift, 1)}°`);
+    find('turn').checked = Boolean(player.turning);
     this.label('fov', `${state.fov.toFixed(0)}°`);
     this.press('swap', state.swap);
+    this.press('compare', Boolean(this.viewer.compare));
+    this.button('compare').hidden = !picture || Boolean(this.viewer.scene);
+    find('shift-row').hidden = Boolean(picture?.mono);
     if (picture?.video) this.film(picture);
   }
 
+  button(action) {
+    return this.player.element.querySelector(`button[data-action="${action}"]`);
+  }
+
   press(action, is) {
-    for (const button of document.querySelectorAll(`button[data-action="${action}"]`)) button.setAttribute('aria-pressed', is);
+    this.button(action).ariaPressed = String(is);
   }
 
   film({ video, fps, frames, frame, loops }) {
-    const play = document.querySelector('[data-action="play"]');
-    play.dataset.on = !video.paused;
-    play.setAttribute('aria-label', video.paused ? 'Play' : 'Pause');
-    document.querySelector('[data-action="sound"]').dataset.on = !video.muted;
+    const { find } = this;
+    this.player.element.classList.toggle('playing', !video.paused);
+    this.button('play').dataset.on = !video.paused;
+    this.button('play').ariaLabel = video.paused ? 'Play' : 'Pause';
+    this.button('sound').dataset.on = !video.muted;
     this.press('sound', !video.muted);
-    this.press('loop', loops);
+    find('loop').checked = loops;
     const at = frame();
-    if (document.activeElement !== find('seek') || !video.paused) find('seek').value = at;
+    if (this.player.root.activeElement !== find('seek') || !video.paused) find('seek').value = at;
     const clock = (seconds) => `${Math.floor(seconds / 60)}:${two(seconds % 60)}`;
-    find('time').textContent = `${clock(at / fps)} / ${clock(frames / fps)}  frame ${at}`;
+    this.button('subtitles').hidden = !this.viewer.about.video?.subtitles;
+    find('time').textContent = `${clock(at / fps)} / ${clock(frames / fps)}${video.paused ? `  frame ${at}` : ''}`;
   }
 
+  // What applies now: what is done most where one is comes first.
   fillHelp() {
-    const key = (text) => make('kbd', text);
-    const rows = ACTIONS.filter(({ label, when }) => label && (!when || when(this.viewer)));
-    find('keys').replaceChildren(...rows.map((action) =>
-      make('div', null, make('dt', action.label), make('dd', null, ...keysOf(action).flatMap((text) => [key(text), ' '])))));
-    find('buttons').replaceChildren(...BUTTONS.map(([what, does]) => make('div', null, make('dt', what), make('dd', does))));
+    const { viewer, find } = this;
+    const rows = ACTIONS.filter((action) => action.label && applies(action, this.player));
+    const groups = [...new Set(rows.map(({ group }) => group))];
+    const first = viewer.scene ? 'Studio' : viewer.picture?.video ? 'Video' : 'Look around';
+    groups.sort((a, b) => (b === first) - (a === first));
+    const list = (pairs) => make('dl', null, ...pairs.map(([what, ...does]) => make('div', null, make('dt', what), make('dd', null, ...does))));
+    const keys = (action) => keysOf(action).flatMap((text) => [make('kbd', text), ' ']);
+    const section = (title, pairs) => make('section', null, make('h2', title), list(pairs));
+    find('keys').replaceChildren(...groups.map((group) =>
+      section(group, rows.filter((row) => row.group === group).map((action) => [action.label, ...keys(action)]))));
+    if (navigator.xr) find('keys').append(section('In the headset', BUTTONS.filter(([what]) => Boolean(viewer.scene) || !/studio/.test(what))));
+    find('gestures').textContent = isTouch() ? 'Drag to look around, pinch to zoom.' : 'Drag to look around; turn the wheel to zoom.';
   }
 }

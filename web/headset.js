@@ -186,8 +186,8 @@ export class Headset {
     for (const { at, eye, show } of modeOf(state.mode).parts(now)) {
       const box = boxOf(at, canvas);
       const rays = (turn) => raysOf({ ...state, yaw: state.yaw - degrees(turn) }, box[2] / box[3]);
-      if (picture) panorama.draw(picture, { rays: rays(0), box, eye, show, swap: state.swap, grid: state.grid, moves: true });
-      this.panel?.draw({ rays: rays(this.turn), eye: [x, y, z], index: 0, box, target: null });
+      if (picture) panorama.draw(picture, { rays: rays(0), box, eye, show, swap: state.swap, grid: state.grid, planet: state.planet, moves: true });
+      if (!state.planet) this.panel?.draw({ rays: rays(this.turn), eye: [x, y, z], index: 0, box, target: null });
     }
   }
 

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Mouse, touch, wheel and the device's own orientation turn the viewer's look.
+import { fovOf, halfWidth } from './panorama.js';
+
 const radians = (angle) => (angle * Math.PI) / 180;
 const degrees = (angle) => (angle * 180) / Math.PI;
 
 // Dragging takes the picture along: what is in the middle of the view follows the pointer exactly.
-export function followPointer(viewer, element = viewer.canvas) {
+// hasWheel(): whether the wheel is the picture's now, and not the page's around it.
+export function followPointer(viewer, element = viewer.canvas, hasWheel = () => true) {
   const held = new Map();
   const spread = () => {
     const [a, b] = [...held.values()];
@@ -21,22 +24,22 @@ export function followPointer(viewer, element = viewer.canvas) {
     const last = held.get(event.pointerId);
     if (!last) return;
     const [dx, dy] = [event.clientX - last.x, event.clientY - last.y];
-    const { yaw, pitch, fov, mode } = viewer.state;
+    const { yaw, pitch, fov, mode, planet } = viewer.state;
     if (held.size === 2) {
       const before = spread();
       Object.assign(last, { x: event.clientX, y: event.clientY });
-      const wide = Math.tan(radians(fov) / 2) * (before / Math.max(spread(), 1));
-      return viewer.set({ fov: degrees(2 * Math.atan(wide)) });
+      return viewer.set({ fov: fovOf(halfWidth(fov, planet) * (before / Math.max(spread(), 1)), planet) });
     }
     Object.assign(last, { x: event.clientX, y: event.clientY });
     const parts = mode === 'side-by-side' || mode === 'cross-eyed' ? 2 : 1;
-    const pixel = degrees((2 * parts * Math.tan(radians(fov) / 2)) / element.clientWidth);
+    const pixel = degrees((2 * parts * halfWidth(fov, planet)) / element.clientWidth);
     viewer.set({ yaw: yaw - dx * pixel, pitch: pitch + dy * pixel });
   });
   for (const end of ['pointerup', 'pointercancel']) {
     element.addEventListener(end, (event) => held.delete(event.pointerId));
   }
   element.addEventListener('wheel', (event) => {
+    if (!hasWheel()) return;
     event.preventDefault();
     const lines = event.deltaMode === 0 ? event.deltaY / 40 : event.deltaY;
     viewer.set({ fov: viewer.state.fov * Math.exp(lines * 0.03) });

@@ -23,11 +23,18 @@ uniform sampler2D merge_texels;
 uniform sampler2D head_tilt_texels;
 uniform ivec2 sides;  // which of the camera's eyes are shown
 uniform mat3 rays;    // a pixel at (x, y), both -1..1, looks along rays * (x, y, 1) in the picture's frame
+uniform vec2 shift;   // cosine and sine: the left eye's picture turns so far to the left, the right eye's to the right
 
 float camera_map_texel(Camera a_camera, int which, int i) {
   int width = which == kMapOfMerge ? a_camera.merge_map.width : a_camera.head_tilt_map.width;
   ivec2 at = ivec2(i % width, i / width);
   return which == kMapOfMerge ? texelFetch(merge_texels, at, 0).x : texelFetch(head_tilt_texels, at, 0).x;
+}
+
+// Where an eye's picture has what the view shows along a direction.
+vec3 shifted(int which, vec3 direction) {
+  float side = sides[which] == kRight ? -shift.y : shift.y;
+  return vec3(shift.x * direction.x - side * direction.z, direction.y, side * direction.x + shift.x * direction.z);
 }
 
 %ifdef ODS_VERTEX
@@ -40,6 +47,7 @@ out vec3 label_0;
 out vec3 label_1;
 
 vec3 label_of(int which, vec3 direction) {
+  direction = shifted(which, direction);
   return line_label(camera, sides[which], normalize(direction)) * length(direction);
 }
 
@@ -57,6 +65,7 @@ const bool kBoth = ODS_BOTH;      // an anaglyph or a difference is shown, not t
 const bool kMoves = ODS_MOVES;    // the view moves
 const bool kOver = ODS_OVER;      // the picture is a finer window of one that is drawn already
 const bool kAround = ODS_AROUND;  // the view is a lat-long picture of the whole sphere
+const bool kPlanet = ODS_PLANET;  // the view is stereographic, a little planet
 const bool kGrid = ODS_GRID;
 const bool kCheap = ODS_CHEAP;    // for kMoves: the same filter each way
 const bool kLight = ODS_LIGHT;    // the texels are scene-linear, and developed here
@@ -93,7 +102,9 @@ out vec4 color;
 
 vec3 direction_at(vec2 at) {
   if (kAround) return look_at_angles(at.x * kPi, at.y * 0.5 * kPi).direction;
-  return rays * vec3(at, 1.0);
+  if (!kPlanet) return rays * vec3(at, 1.0);
+  vec3 aside = rays * vec3(at, 0.0);
+  return aside + rays[2] * (1.0 - 0.25 * dot(aside, aside));
 }
 
 // --- where ----------------------------------------------------------------------------------------------------------
@@ -422,8 +433,9 @@ vec3 with_grid(vec3 shown, vec3 direction, vec3 dy) {
 }
 
 vec4 shown_by(int which, vec3 label, vec3 direction, vec3 dx, vec3 dy) {
-  if (!kMoves) return light_of(which, direction, dx, dy);
-  return quick_light_of(which, kAround ? label_of(which, direction) : label);
+  direction = shifted(which, direction);
+  if (!kMoves) return light_of(which, direction, shifted(which, dx), shifted(which, dy));
+  return quick_light_of(which, kAround || kPlanet ? label_of(which, direction) : label);
 }
 
 void main() {

@@ -42,17 +42,23 @@ function finish(gl, { program, shaders }) {
   return program;
 }
 
+// Half of a view's width where what is straight ahead has the scale 1, and the angle of view of one.
+export const halfWidth = (fov, planet) => (planet ? 2 * Math.tan((fov * Math.PI) / 720) : Math.tan((fov * Math.PI) / 360));
+export const fovOf = (wide, planet) => (planet ? 4 * Math.atan(wide / 2) : 2 * Math.atan(wide)) * (180 / Math.PI);
+// Of the stereographic view (panorama.glsl); 0: none.
+export const bendOf = ({ planet }) => (planet ? 0.25 : 0);
+
 export const compile = (gl, fragment) => finish(gl, begin(gl, fragment, VERTICES));
 
 // The columns of a matrix that turns a place on the screen (-1..1) into a direction. yaw to the right, pitch up, roll
-// clockwise, in degrees; fov: the horizontal angle of view; aspect: width over height.
-export function raysOf({ yaw = 0, pitch = 0, roll = 0, fov = 90 }, aspect) {
+// clockwise, in degrees; fov: the horizontal angle of view; aspect: width over height. planet: the view is stereographic.
+export function raysOf({ yaw = 0, pitch = 0, roll = 0, fov = 90, planet = false }, aspect) {
   const [y, p, r] = [yaw, pitch, roll].map((angle) => (angle * Math.PI) / 180);
   const [sy, cy, sp, cp, sr, cr] = [Math.sin(y), Math.cos(y), Math.sin(p), Math.cos(p), Math.sin(r), Math.cos(r)];
   const right = [cy, 0, sy];
   const up = [-sy * sp, cp, cy * sp];
   const ahead = [sy * cp, sp, -cy * cp];
-  const wide = Math.tan((fov * Math.PI) / 360);
+  const wide = halfWidth(fov, planet);
   const mix = (a, b, size) => right.map((x, i) => (x * a + up[i] * b) * size);
   return [...mix(cr, -sr, wide), ...mix(sr, cr, wide / aspect), ...ahead];
 }
@@ -95,11 +101,11 @@ export class Panorama {
   }
 
   // The program for a picture and options of drawOne(), compiled when it is first asked for.
-  programFor({ camera, below, light = false, pager }, { show = 'eye', moves = false, all = false, grid = false, cheap = false, ask = false }) {
+  programFor({ camera, below, light = false, pager }, { show = 'eye', moves = false, all = false, planet = false, grid = false, cheap = false, ask = false }) {
     const { gl } = this;
     const about = {
       KIND: camera.projection.kind, CONVERGENCE: camera.convergence, BOTH: show !== 'eye', MOVES: moves, OVER: Boolean(below),
-      AROUND: all, GRID: grid, CHEAP: cheap, LIGHT: light, PAGED: Boolean(pager), ASK: ask,
+      AROUND: all, PLANET: planet, GRID: grid, CHEAP: cheap, LIGHT: light, PAGED: Boolean(pager), ASK: ask,
     };
     const key = Object.values(about).join();
     if (!this.programs.has(key)) {
@@ -175,14 +181,15 @@ export class Panorama {
   // Draws a view of a picture: `show` is eye, anaglyph or difference; `eye` is 0 for left, 1 for right.
   // rays: as raysOf(). box: x, y, width, height in pixels of the target, from its lower left corner. swap: exchanges
   // the eyes. moves: quickly, with the GPU's filter; cheap: with less of it. target: a framebuffer, or null for the
-  // canvas. clip: a part of the box, for all that is drawn. all: the whole sphere as a lat-long picture instead. ask: which
-  // tiles are needed instead, for a view that is askScale times as wide.
+  // canvas. clip: a part of the box, for all that is drawn. all: the whole sphere as a lat-long picture instead; planet: a
+  // stereographic view. shift: radians by which the left eye's picture turns to the left, and the right eye's to the right.
+  // ask: which tiles are needed instead, for a view that is askScale times as wide.
   drawOne(picture, options) {
-    const { rays, box, clip = box, show = 'eye', eye = 0, swap = false, moves = false, cheap = false, target = null, all = false, askScale = 1 } = options;
+    const { rays, box, clip = box, show = 'eye', eye = 0, swap = false, moves = false, cheap = false, target = null, all = false, planet = false, shift = 0, askScale = 1 } = options;
     const { gl } = this;
     const shown = show === 'eye' ? [eye, eye] : [0, 1];
     const eyes = shown.map((side) => picture.eyes[swap ? 1 - side : side]);
-    const cells = moves && !all && picture.camera.convergence === TOE_IN ? CELLS : 0;
+    const cells = moves && !all && !planet && picture.camera.convergence === TOE_IN ? CELLS : 0;
     gl.bindFramebuffer(gl.FRAMEBUFFER, target);
     gl.viewport(...box);
     gl.scissor(...clip);
@@ -198,10 +205,11 @@ export class Panorama {
     if (picture.pager) this.bindPages(eyes);
     this.bindMap(2, picture.camera.merge_map);
     this.bindMap(3, picture.camera.head_tilt_map);
+    const turn = picture.mono ? 0 : shift;
     this.set(uniforms, {
       camera: picture.camera, merge_texels: 2, head_tilt_texels: 3, eyes: eyes.map((each) => each.uniforms), tiles_0: 0, tiles_1: 1,
       sides: picture.mono ? [2, 2] : shown, rays, viewport: box.slice(2), difference: show === 'difference', below: picture.below, cells,
-      coarse_0: 4, coarse_1: 5, slots_0: 6, slots_1: 7, ask_scale: askScale,
+      shift: [Math.cos(turn), Math.sin(turn)], coarse_0: 4, coarse_1: 5, slots_0: 6, slots_1: 7, ask_scale: askScale,
       exposure: 2 ** (picture.stops ?? 0), neutral: picture.tone !== 'linear',
     });
     if (cells) gl.drawElements(gl.TRIANGLES, 6 * cells * cells, gl.UNSIGNED_SHORT, 0);

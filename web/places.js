@@ -4,7 +4,7 @@
 // Where on the page a direction is, and which direction a place of the page shows. Places are CSS pixels from the
 // canvas's upper left corner, directions have yaw and pitch in degrees.
 import { boxOf, modeOf } from './modes.js';
-import { raysOf } from './panorama.js';
+import { bendOf, raysOf } from './panorama.js';
 
 const degrees = (radians) => (radians * 180) / Math.PI;
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -26,7 +26,8 @@ export function directionAt(viewer, x, y) {
   const [left, top, width, height] = part.box;
   const [right, up, ahead] = columns(raysOf(viewer.state, width / height));
   const [a, b] = [(2 * (x - left)) / width - 1, 1 - (2 * (y - top)) / height];
-  const d = ahead.map((value, i) => value + a * right[i] + b * up[i]);
+  const aside = right.map((value, i) => a * value + b * up[i]);
+  const d = ahead.map((value, i) => aside[i] + value * (1 - bendOf(viewer.state) * dot(aside, aside)));
   return { yaw: degrees(Math.atan2(d[0], -d[2])), pitch: degrees(Math.asin(d[1] / Math.hypot(...d))), eye: part.eye ? 'right' : 'left' };
 }
 
@@ -34,7 +35,7 @@ export function directionAt(viewer, x, y) {
 export function placeOf({ state }, { yaw, pitch }, { box: [left, top, width, height] }) {
   const axes = columns(raysOf(state, width / height));
   const d = raysOf({ yaw, pitch }, 1).slice(6, 9);
-  const ahead = dot(d, axes[2]);
+  const ahead = state.planet ? (1 + dot(d, axes[2])) / 2 : dot(d, axes[2]);
   if (ahead <= 0.01) return null;
   const [x, y] = [0, 1].map((i) => dot(d, axes[i]) / (dot(axes[i], axes[i]) * ahead));
   return Math.max(Math.abs(x), Math.abs(y)) < 1 ? [left + ((x + 1) / 2) * width, top + ((1 - y) / 2) * height] : null;

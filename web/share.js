@@ -151,11 +151,12 @@ export class Share {
   }
 
   watch(look) {
+    const { viewer } = this;
     if (!this.button) {
       this.button = document.createElement('button');
       Object.assign(this.button, { id: 'follow', type: 'button', textContent: 'Follow the headset' });
       this.button.addEventListener('click', () => this.follow(!this.follows));
-      document.body.append(this.button);
+      viewer.canvas.after(this.button);
       this.follow(this.follows);
     }
     this.wanted = look;

@@ -1,64 +1,64 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// <stereo-360> puts a stereo panorama into any page, with this module and its neighbours on the page's own host:
+// <stereo-360> puts a stereo panorama into any page, with the bar, the keys and the headset of the viewer's own page:
 //
-//   <script type="module" src="stereo-360.js"></script>
+//   <script src="stereo-360.js"></script>
 //   <stereo-360 src="picture_360_TB.jpg" layout="top-bottom" projection="lat-long"></stereo-360>
 //
-// src         a picture or a video (.mp4 .m4v .mov .webm .mkv); or item="0", an item of view.json
-// layout      top-bottom, side-by-side, mono, ...; projection: lat-long, vr180, eac, ... [what view.json says of the
-//             file; else top-bottom, lat-long]
-// mode        left, right, side-by-side, cross-eyed, anaglyph, wiggle, difference [left]
-// yaw, pitch, fov   the first look, degrees [0, 0, 90]
-// fps         of a video, for exact frames [30]
-// view        the address of view.json, which has the tables of layouts and projections [beside this module]
-// controls    "none" leaves the buttons out
-// The element has the size that its page gives it. Its property `viewer` (viewer.js) is there from the event `ready` on.
-import { Headset, hasHeadset } from './headset.js';
-import { followPointer } from './look.js';
-import { MODES, modeOf } from './modes.js';
+// ods view --export writes it as one classic script. docs/view.md lists attributes, properties, methods and events.
+import { modeOf } from './modes.js';
 import { loadShader } from './panorama.js';
-import { Viewer } from './viewer.js';
+import { Player } from './player.js';
 
 const STYLE = `
 :host { display: block; position: relative; aspect-ratio: 16 / 9; background: #1a1a1a; overflow: hidden; }
 :host([hidden]) { display: none; }
-canvas { position: absolute; inset: 0; width: 100%; height: 100%; cursor: grab; touch-action: pan-y; }
-canvas:active { cursor: grabbing; }
-div { position: absolute; right: 8px; bottom: 8px; display: flex; gap: 4px; }
-button, select { font: 13px system-ui, sans-serif; color: #f1f1ef; background: rgb(22 23 25 / 72%);
-  border: 1px solid rgb(255 255 255 / 14%); border-radius: 8px; min-height: 32px; padding: 0 10px; cursor: pointer; }
-:focus-visible { outline: 2px solid #ffb648; outline-offset: -2px; }
-p { position: absolute; inset: auto 12px 50%; margin: 0; text-align: center; color: #f1f1ef; font: 14px system-ui, sans-serif; }
-[hidden] { display: none; }`;
+#player { position: absolute; inset: 0; }
+#picture { touch-action: pan-y; }
+:host(:fullscreen) #picture { touch-action: none; }
+#poster { position: absolute; inset: 0; width: 100%; height: 100%; object-fit: cover; }
+#reveal { position: absolute; inset: 0; margin: auto; width: 76px; height: 76px; padding: 0; border-radius: 50%; background: var(--glass); border: 1px solid var(--edge); color: var(--text); }
+#reveal svg { width: 40px; height: 40px; }
+#again { display: block; margin: 10px auto 0; background: var(--touch); padding: 0 16px; }
+.waiting :is(#bar, #title), .bare :is(#bar, #title) { display: none; }`;
 const VIDEO = /\.(mp4|m4v|mov|webm|mkv)$/i;
-const KEYS = { ArrowLeft: [-5, 0], ArrowRight: [5, 0], ArrowUp: [0, 5], ArrowDown: [0, -5] };
+const NEAR = '300px'; // of the window: then it loads
+const FILE = ['src', 'item', 'layout', 'projection', 'fps'];
+const LOOK = ['mode', 'yaw', 'pitch', 'fov'];
+const BASE = import.meta.url;
+const calm = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
 
-function make(tag, attributes, text = '') {
-  const element = Object.assign(document.createElement(tag), { textContent: text });
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-  return element;
-}
+let parts; // the style and the shader, once for all elements
+const loadParts = () => (parts ??= Promise.all([fetch(new URL('player.css', BASE)).then((answer) => answer.text()), loadShader(BASE)]));
 
 class Stereo360 extends HTMLElement {
-  static observedAttributes = ['src', 'item', 'layout', 'projection', 'mode', 'yaw', 'pitch', 'fov'];
+  static observedAttributes = [...FILE, ...LOOK, 'poster', 'autorotate', 'controls'];
 
   connectedCallback() {
-    if (!this.started) this.started = this.start().catch((error) => this.fail(error.message));
-    else this.started.then(() => this.show());
+    if (!this.shadowRoot) this.build();
+    if (this.player) return this.show();
+    if (this.getAttribute('loading') === 'eager') return this.approach();
+    this.watcher = new IntersectionObserver((entries) => entries.some((entry) => entry.isIntersecting) && this.approach(), { rootMargin: NEAR });
+    this.watcher.observe(this);
   }
 
   // Frees the picture, which may be hundreds of megabytes.
   disconnectedCallback() {
-    this.viewer?.loading?.abort();
-    this.viewer?.close();
+    this.watcher?.disconnect();
+    const viewer = this.player?.viewer;
+    viewer?.loading?.abort();
+    viewer?.close();
   }
 
   attributeChangedCallback(name) {
-    if (!this.viewer) return;
-    if (['src', 'item', 'layout', 'projection'].includes(name)) this.show();
-    else this.viewer.set(this.look());
+    if (!this.shadowRoot) return;
+    if (name === 'poster') this.showPoster();
+    if (name === 'controls') this.box.classList.toggle('bare', this.getAttribute('controls') === 'none');
+    if (!this.player) return;
+    if (name === 'autorotate') this.player.turn(this.turns());
+    if (FILE.includes(name)) this.show();
+    if (LOOK.includes(name)) this.player.viewer.set(this.look());
   }
 
   number(name, otherwise) {
@@ -71,65 +71,93 @@ class Stereo360 extends HTMLElement {
     return { yaw: this.number('yaw', 0), pitch: this.number('pitch', 0), fov: this.number('fov', 90), mode };
   }
 
-  async start() {
-    const root = this.attachShadow({ mode: 'open' });
-    const sheet = new CSSStyleSheet();
-    sheet.replaceSync(STYLE);
-    root.adoptedStyleSheets = [sheet];
-    const name = this.getAttribute('aria-label') ?? 'Stereo panorama. Drag or use the arrow keys to look around.';
-    this.canvas = make('canvas', { tabindex: 0, role: 'application', 'aria-label': name });
-    this.bar = make('div', {});
-    this.message = make('p', { role: 'alert', hidden: '' });
-    root.append(this.canvas, this.message, this.bar);
-    const table = new URL(this.getAttribute('view') ?? new URL('view.json', import.meta.url), document.baseURI);
-    const answer = await fetch(table);
-    if (!answer.ok) throw new Error(`${table.pathname} did not load (${answer.status}). Export it with ods view --export.`);
-    const view = await answer.json();
-    view.items.forEach((item) => ['image', 'left', 'right', 'light', 'preview', 'thumbnail'].forEach((file) => item[file] && (item[file] = new URL(item[file], table).href)));
-    const viewer = new Viewer(this.canvas, view, await loadShader(), document.baseURI);
-    followPointer(viewer);
-    viewer.addEventListener('failed', ({ detail }) => this.fail(detail));
-    viewer.addEventListener('open', () => (this.message.hidden = true));
-    this.canvas.addEventListener('keydown', (event) => {
-      const by = KEYS[event.key];
-      if (!by) return;
-      event.preventDefault();
-      viewer.set({ yaw: viewer.state.yaw + by[0], pitch: viewer.state.pitch + by[1] });
-    });
-    viewer.set(this.look());
-    this.viewer = viewer;
-    if (this.getAttribute('controls') !== 'none') this.addControls();
-    await this.show();
-    this.dispatchEvent(new Event('ready'));
+  turns() {
+    return this.hasAttribute('autorotate') && !calm();
   }
 
-  addControls() {
-    const { viewer } = this;
-    const modes = make('select', { 'aria-label': 'Eyes' });
-    modes.append(...MODES.map(({ name, label }) => make('option', { value: name }, label)));
-    modes.addEventListener('change', () => viewer.set({ mode: modes.value }));
-    const play = make('button', { hidden: '' }, 'Play');
-    play.addEventListener('click', () => viewer.picture?.toggle?.());
-    const follow = () => {
-      modes.value = viewer.state.mode;
-      play.hidden = !viewer.picture?.video;
-      play.textContent = viewer.picture?.video?.paused === false ? 'Pause' : 'Play';
-    };
-    for (const event of ['change', 'open']) viewer.addEventListener(event, follow);
-    follow();
-    const whole = make('button', {}, 'Full screen');
-    whole.addEventListener('click', () => (document.fullscreenElement ? document.exitFullscreen() : this.requestFullscreen()));
-    const headset = new Headset(viewer);
-    const enter = make('button', { hidden: '' }, 'Headset');
-    enter.addEventListener('click', () => headset.toggle().catch((error) => this.fail(error.message)));
-    hasHeadset().then((has) => (enter.hidden = !has));
-    this.bar.append(play, modes, enter, whole);
+  say(name, detail) {
+    this.dispatchEvent(new CustomEvent(name, { detail }));
+  }
+
+  build() {
+    const root = this.attachShadow({ mode: 'open' });
+    this.sheet = new CSSStyleSheet();
+    this.sheet.replaceSync(STYLE);
+    root.adoptedStyleSheets = [this.sheet];
+    root.innerHTML = '<div id="player" class="waiting"><canvas id="picture" tabindex="0" role="application"></canvas><img id="poster" alt="" hidden></div>';
+    this.box = root.getElementById('player');
+    this.box.classList.toggle('bare', this.getAttribute('controls') === 'none');
+    this.showPoster();
+  }
+
+  // What the page names, else what the exporter has made of an item.
+  showPoster(item) {
+    const poster = this.shadowRoot.getElementById('poster');
+    const src = this.getAttribute('poster') ?? item?.poster;
+    poster.hidden = !src || this.loaded;
+    if (src) poster.src = src;
+  }
+
+  // It is in view, or nearly.
+  approach() {
+    this.watcher?.disconnect();
+    if (this.started) return;
+    this.started = this.start().catch((error) => this.fail(error.message));
+  }
+
+  async start() {
+    const [style, shader] = await loadParts();
+    this.sheet.replaceSync(style + STYLE);
+    const root = this.shadowRoot;
+    const table = new URL(this.getAttribute('view') ?? new URL('view.json', BASE), document.baseURI);
+    const answer = await fetch(table);
+    if (!answer.ok) throw new Error(`${table.pathname} did not load (${answer.status}): ods view --export writes it`);
+    const view = await answer.json();
+    view.items.forEach((item) => ['image', 'left', 'right', 'light', 'preview', 'thumbnail', 'poster'].forEach((file) => item[file] && (item[file] = new URL(item[file], table).href)));
+    if (!this.hasAttribute('src')) this.showPoster(view.items[this.number('item', 0)]);
+    if (this.getAttribute('reveal') === 'click') await this.clicked();
+    const isSingle = () => this.hasAttribute('src') || this.hasAttribute('item');
+    this.player = new Player(this.box, root, { view, shader, base: document.baseURI, nameOf: () => this.ariaLabel ?? '', isSingle });
+    const { viewer } = this.player;
+    this.box.append(root.getElementById('poster'));
+    viewer.addEventListener('failed', ({ detail }) => this.fail(detail));
+    viewer.addEventListener('loading', ({ detail }) => this.say('progress', detail));
+    viewer.addEventListener('change', () => this.changed());
+    viewer.addEventListener('open', () => this.opened());
+    viewer.set(this.look());
+    this.say('ready');
+    await this.show();
+  }
+
+  // Until a visitor asks for it.
+  async clicked() {
+    const button = Object.assign(document.createElement('button'), { id: 'reveal', ariaLabel: 'Show the panorama' });
+    button.innerHTML = '<svg viewBox="0 0 24 24"><path d="M8 5.5v13l10.5-6.5z"/></svg>';
+    this.box.append(button);
+    await new Promise((done) => button.addEventListener('click', done));
+    button.remove();
+  }
+
+  opened() {
+    this.shadowRoot.getElementById('poster').hidden = true;
+    this.box.classList.remove('waiting');
+    if (!this.viewer.picture.isPreview) this.say('load');
+    this.player.turn(this.turns());
+  }
+
+  changed() {
+    const { yaw, pitch, fov, mode } = this;
+    const look = { yaw, pitch, fov, mode };
+    if (Object.keys(look).some((name) => look[name] !== this.said?.[name])) this.say('look', look);
+    this.said = look;
+    const { playing } = this;
+    if (playing !== Boolean(this.played)) this.say(playing ? 'play' : 'pause');
+    this.played = playing;
   }
 
   // The item that `item` or `src` names. view.json knows more of its own files than attributes do.
-  find() {
-    const { view } = this.viewer;
-    const { items } = view;
+  findItem() {
+    const { items } = this.player.viewer.view;
     const src = this.getAttribute('src');
     if (!src) return this.number('item', 0);
     const image = new URL(src, document.baseURI).href;
@@ -142,7 +170,8 @@ class Stereo360 extends HTMLElement {
   }
 
   async show() {
-    const { view } = this.viewer;
+    const { viewer } = this.player;
+    const { view } = viewer;
     const choice = {};
     for (const [what, rows] of [['layout', view.layouts], ['projection', view.projections]]) {
       const name = this.getAttribute(what);
@@ -151,15 +180,90 @@ class Stereo360 extends HTMLElement {
       }
       if (name) choice[what] = name;
     }
-    const item = this.find();
+    const item = this.findItem();
     if (!view.items[item]) return this.fail('There is no such picture. Set src, or item to an index of view.json.');
-    await this.viewer.open(item, choice);
+    await viewer.open(item, choice);
   }
 
-  fail(words) {
-    this.message.textContent = words;
-    this.message.hidden = false;
+  // Visitors are told what they can do; who wrote the page finds the reason in the console and in the event.
+  fail(reason) {
+    console.warn(`stereo-360: ${reason}`);
+    let message = this.shadowRoot.getElementById('message');
+    if (!message) this.box.append((message = Object.assign(document.createElement('p'), { id: 'message', role: 'alert' })));
+    const words = /WebGL/.test(reason) ? 'Your browser cannot show this panorama. A newer one can.'
+      : /did not load|broke/.test(reason) ? 'This panorama did not load. Check your connection.' : 'This panorama cannot be shown.';
+    message.textContent = words;
+    message.hidden = false;
+    const again = Object.assign(document.createElement('button'), { id: 'again', textContent: 'Try again' });
+    again.addEventListener('click', () => {
+      message.hidden = true;
+      if (this.player) return this.show();
+      parts = this.started = undefined;
+      this.approach();
+    });
+    message.append(again);
+    this.say('error', { message: reason });
   }
+
+  // --- for scripts ---
+
+  get viewer() {
+    return this.player?.viewer;
+  }
+
+  get loaded() {
+    return Boolean(this.viewer?.picture);
+  }
+
+  get playing() {
+    const video = this.viewer?.picture?.video;
+    return Boolean(video && !video.paused);
+  }
+
+  get currentTime() {
+    return this.viewer?.picture?.video?.currentTime ?? 0;
+  }
+
+  set currentTime(seconds) {
+    this.viewer?.picture?.seek?.(seconds);
+  }
+
+  async play() {
+    await this.viewer?.picture?.video?.play();
+  }
+
+  pause() {
+    this.viewer?.picture?.video?.pause();
+  }
+
+  // { yaw, pitch, fov, mode }, each of them optional.
+  lookAt(look) {
+    this.viewer?.set(look);
+  }
+
+  // A PNG as a Blob.
+  screenshot() {
+    return this.viewer?.screenshot();
+  }
+
+  // After a click or a key only: browsers want it.
+  enterHeadset() {
+    return this.player?.enterHeadset();
+  }
+}
+
+// Where one looks is a property that follows; the others are their attributes.
+for (const name of LOOK) {
+  Object.defineProperty(Stereo360.prototype, name, {
+    get() { return this.viewer?.state[name] ?? this.look()[name]; },
+    set(value) { this.setAttribute(name, value); },
+  });
+}
+for (const name of ['src', 'item', 'layout', 'projection', 'fps', 'poster']) {
+  Object.defineProperty(Stereo360.prototype, name, {
+    get() { return this.getAttribute(name); },
+    set(value) { value === null ? this.removeAttribute(name) : this.setAttribute(name, value); },
+  });
 }
 
 customElements.define('stereo-360', Stereo360);

@@ -3,6 +3,8 @@
 //
 // Controls of the studio's panel, each a row with its label, its value and a button back to the default. A number is
 // typed, dragged at its label, or moved with the arrow keys (Shift: finely, Ctrl: coarsely).
+import { icon } from './icons.js';
+
 export function make(tag, properties = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(properties)) {
@@ -20,8 +22,9 @@ let count = 0;
 function row(spec, field, reset) {
   const id = `studio-${++count}`;
   field.id = id;
-  const label = make('label', { for: id, textContent: spec.label, title: spec.about ?? '' });
-  const back = make('button', { type: 'button', className: 'reset', textContent: '↺', hidden: true });
+  const label = make('label', { for: id, textContent: spec.label });
+  if (spec.about) label.dataset.tip = spec.about;
+  const back = make('button', { type: 'button', className: 'reset', innerHTML: icon('reset'), hidden: true });
   back.addEventListener('click', reset);
   return { label, back };
 }
@@ -95,7 +98,7 @@ export function numberRow(spec, change, reset) {
       for (const [name, of] of [['now', shown], ['min', low], ['max', high]]) field.setAttribute(`aria-value${name}`, Number(of.toFixed(6)));
       const text = textOf(standard * scale, step);
       back.hidden = field.value === text;
-      back.title = `Back to ${text}${spec.unit ? ` ${spec.unit}` : ''}`;
+      back.dataset.tip = `Back to ${text}${spec.unit ? ` ${spec.unit}` : ''}`;
       back.setAttribute('aria-label', `${spec.label}: back to ${text}`);
     },
   };
@@ -117,7 +120,7 @@ export function choiceRow(spec, change, reset) {
       field.value = value;
       back.hidden = value === standard;
       const text = [...field.options].find((option) => option.value === standard)?.textContent ?? standard;
-      back.title = `Back to ${text}`;
+      back.dataset.tip = `Back to ${text}`;
       back.setAttribute('aria-label', `${spec.label}: back to ${text}`);
     },
   };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The studio's panel: the rows of studio-fields.js, which follow the session and change it, and the merge's curve.
+import { icon } from './icons.js';
 import { MergeCurve } from './merge-curve.js';
 import { groupsOf, limitsOf, readValue } from './studio-fields.js';
 import { choiceRow, make, numberRow } from './studio-number.js';
@@ -21,7 +22,7 @@ export class Panel {
     element.replaceChildren(...groupsOf(view).map((group) => this.group(group)));
     // Beside the panel, which may be hidden.
     this.said = make('span', {});
-    const close = make('button', { type: 'button', className: 'small', title: 'Close', 'aria-label': 'Close', textContent: '×' });
+    const close = make('button', { type: 'button', className: 'small', 'data-tip': 'Close', 'aria-label': 'Close', innerHTML: icon('close') });
     close.addEventListener('click', () => this.complain(''));
     this.fault = make('div', { id: 'fault', role: 'alert', hidden: true }, this.said, close);
     document.body.append(this.fault);
@@ -34,7 +35,7 @@ export class Panel {
 
   group({ name, open = false, rows, top, bottom }) {
     const body = top ? this.merge(top, bottom) : rows.map((row) => this.row(row));
-    return make('details', { open }, make('summary', { textContent: name }), ...body);
+    return make('details', { open }, make('summary', { innerHTML: icon('down') }, name), ...body);
   }
 
   merge(top, bottom) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A click on the picture says what is there: its distance, its disparity and where each eye's picture has it.
+import { icon } from './icons.js';
 import { directionAt, partsOf, placeOf } from './places.js';
 import { make } from './studio-number.js';
 import { ask } from './studio-session.js';
@@ -12,6 +13,7 @@ const TALL = 260; // pixels of the card and of the bar below it
 
 const distance = (metres) => (metres < 1 ? `${(metres * 100).toFixed(1)} cm` : `${metres.toFixed(metres < 100 ? 2 : 0)} m`);
 
+// Returns what picks the middle.
 export function pickWithClicks(studio) {
   const { viewer } = studio.page;
   const { canvas } = viewer;
@@ -42,7 +44,7 @@ export function pickWithClicks(studio) {
     return element;
   };
   const tell = (found) => {
-    const close = make('button', { type: 'button', className: 'small close', textContent: '×', 'aria-label': 'Close' });
+    const close = make('button', { type: 'button', className: 'small close', innerHTML: icon('close'), 'aria-label': 'Close', 'data-tip': 'Close', 'data-key': 'Esc' });
     close.addEventListener('click', hide);
     if (found.nothing) return card.replaceChildren(make('p', { textContent: 'Nothing is there: the sky.' }), close);
     const pixel = (place) => (place ? `${place.map((value) => value.toFixed(1)).join(', ')} px` : 'not seen');
@@ -61,15 +63,8 @@ export function pickWithClicks(studio) {
         button('Focus here', () => studio.session.edit({ 'sidecar.lens.focus_distance': metres }))),
       close);
   };
-  canvas.addEventListener('pointerdown', (event) => {
-    down = event.isPrimary && !event.button ? { x: event.clientX, y: event.clientY, at: performance.now() } : null;
-  });
-  canvas.addEventListener('pointerup', async (event) => {
-    const from = down;
-    down = null;
-    if (!from || !viewer.scene || Math.hypot(event.clientX - from.x, event.clientY - from.y) > NEAR || performance.now() - from.at > LONG) return;
-    if (where) return hide();
-    const direction = directionAt(viewer, event.offsetX, event.offsetY);
+  const pick = async (x, y) => {
+    const direction = directionAt(viewer, x, y);
     if (!direction) return;
     where = direction;
     card.replaceChildren(make('p', { textContent: '…' }));
@@ -82,9 +77,30 @@ export function pickWithClicks(studio) {
       if (where === direction) card.replaceChildren(make('p', { textContent: error.message }));
     }
     follow();
+  };
+  canvas.addEventListener('pointerdown', (event) => {
+    down = event.isPrimary && !event.button ? { x: event.clientX, y: event.clientY, at: performance.now() } : null;
   });
-  addEventListener('keydown', (event) => event.key === 'Escape' && hide());
+  canvas.addEventListener('pointerup', (event) => {
+    const from = down;
+    down = null;
+    if (!from || !viewer.scene || Math.hypot(event.clientX - from.x, event.clientY - from.y) > NEAR || performance.now() - from.at > LONG) return;
+    if (where) hide();
+    else pick(event.offsetX, event.offsetY);
+  });
+  addEventListener('keydown', (event) => {
+    if (event.key !== 'Escape' || !where) return;
+    if (card.contains(document.activeElement)) canvas.focus();
+    hide();
+  });
   viewer.addEventListener('change', follow);
   viewer.addEventListener('open', follow);
   studio.session.addEventListener('edit', follow);
+  // By keyboard: what is in the middle of the view (of the left one); then the card's buttons are next.
+  return async () => {
+    if (where) return hide();
+    const { box: [left, top, width, height] } = partsOf(viewer)[0];
+    await pick(left + width / 2, top + height / 2);
+    card.querySelector('button')?.focus();
+  };
 }

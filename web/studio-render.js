@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The foot of the studio's panel: the command that makes this picture, rendering it, and keeping the camera.
+import { copyText } from './copy.js';
+import { icon } from './icons.js';
 import { make } from './studio-number.js';
 import { ENDED, ask, sleep } from './studio-session.js';
 
@@ -11,15 +13,6 @@ const QUALITIES = ['draft', 'preview', 'final'];
 function timeOf(seconds) {
   if (seconds < 90) return `${Math.ceil(seconds)} s`;
   return seconds < 5400 ? `${Math.round(seconds / 60)} min` : `${(seconds / 3600).toFixed(1)} h`;
-}
-
-export async function copyText(text) {
-  try {
-    await navigator.clipboard.writeText(text);
-    return true;
-  } catch {
-    return false; // the page may not, or has no secure address
-  }
 }
 
 export class RenderFoot {
@@ -42,7 +35,8 @@ export class RenderFoot {
     this.layout.addEventListener('change', () => session.edit({ 'sidecar.picture.layout': this.layout.value }));
     this.width = make('input', { type: 'text', inputMode: 'numeric', 'aria-label': 'Width of one eye in pixels' });
     this.width.addEventListener('change', () => session.edit({ width: Math.round(Number(this.width.value)) || session.settings.width }));
-    this.go = make('button', { type: 'submit', className: 'primary', textContent: 'Render' });
+    this.go = make('button', { type: 'button', className: 'primary', textContent: 'Render' });
+    this.go.addEventListener('click', () => this.attempt(() => this.render()));
     const save = make('button', { type: 'button', textContent: 'Save camera' });
     save.addEventListener('click', () => this.attempt(async () => {
       await session.settle();
@@ -55,16 +49,23 @@ export class RenderFoot {
     this.show = make('button', { type: 'button', className: 'small primary', textContent: 'Show' });
     this.show.addEventListener('click', () => this.attempt(() => studio.showItem(this.item)));
     this.job = make('div', { className: 'job', hidden: true }, this.bar, this.text, this.cancel, this.show);
+    this.what = make('span', { className: 'what' });
     const form = make('form', {},
       make('div', { className: 'out' }, this.name, this.quality),
       make('div', { className: 'out' }, this.layout, this.width, make('span', { className: 'unit', textContent: 'px per eye' })),
-      make('div', { className: 'out' }, this.go, save));
+      make('div', { className: 'out' }, save));
     form.addEventListener('submit', (event) => {
       event.preventDefault();
       this.attempt(() => this.render());
     });
     this.note = make('p', { className: 'note', hidden: true });
-    element.append(make('div', { className: 'command' }, this.command, copy), this.note, form, this.job);
+    const more = make('div', { className: 'more', id: 'render-more', hidden: true }, make('div', { className: 'command' }, this.command, copy), this.note, form);
+    const open = make('button', { type: 'button', className: 'small unfold', innerHTML: icon('down'), 'aria-controls': more.id, 'aria-expanded': 'false', 'aria-label': 'File, size, command', 'data-tip': 'File, size, command' });
+    open.addEventListener('click', () => {
+      more.hidden = !more.hidden;
+      open.ariaExpanded = String(!more.hidden);
+    });
+    element.append(more, make('div', { className: 'line' }, this.go, this.what, this.job, open));
     session.addEventListener('accepted', ({ detail }) => {
       if (detail === session.side) this.tell();
     });
@@ -102,8 +103,10 @@ export class RenderFoot {
   tell() {
     const { command, note } = this.studio.session.side;
     if (!command) return;
+    if (!this.watching) [this.what.hidden, this.job.hidden] = [false, true];
     Object.assign(this.note, { textContent: note ?? '', hidden: !note });
     const name = this.name.value.trim();
+    this.what.textContent = name;
     const quoted = /^[\w.,/:=+%@-]+$/.test(name) ? name : `'${name.replaceAll("'", "'\\''")}'`;
     const whole = command.replace(/ -o .*$/, ` --quality ${this.quality.value} -o ${quoted}`);
     this.command.replaceChildren(...whole.split(/ (?=-)/).flatMap((part, i) => [i ? ' ' : '', make('span', { textContent: part })]));
@@ -121,6 +124,7 @@ export class RenderFoot {
 
   say(text, state) {
     Object.assign(this.job, { hidden: false, className: `job ${state}` });
+    this.what.hidden = true;
     this.text.textContent = text;
     this.bar.hidden = this.cancel.hidden = state !== 'running';
     this.show.hidden = state !== 'done' || this.item === undefined;

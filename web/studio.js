@@ -4,6 +4,9 @@
 // The studio: the viewer shows a scene that the server renders while one looks, and a panel beside it changes every
 // option. Two settings, A and B, can be compared. main.js starts it where view.json has `studio`.
 import { ACTIONS } from './actions.js';
+import { Compare } from './compare.js';
+import { nameButtons } from './controls.js';
+import { icon } from './icons.js';
 import { modeOf } from './modes.js';
 import { VrSteering } from './studio-headset.js';
 import { Live } from './studio-live.js';
@@ -29,7 +32,7 @@ export function progressOf({ part, width, height, samples, seconds, next }) {
 
 class Studio {
   constructor(page) {
-    Object.assign(this, { page, split: null });
+    Object.assign(this, { page, comparing: null });
     const { viewer } = page;
     const { studio } = viewer.view;
     this.live = new Live(viewer.panorama.gl);
@@ -48,44 +51,43 @@ class Studio {
 
   build() {
     const { page, page: { viewer } } = this;
-    const button = (action, label, text) => make('button', { type: 'button', className: 'small', 'data-action': action, 'aria-label': label, title: label, textContent: text });
+    const button = (action, name, className = 'small') => make('button', { type: 'button', className, 'data-action': action, innerHTML: icon(name) });
     this.sideButtons = SIDES.map((name, i) => {
-      const each = make('button', { type: 'button', className: 'small', textContent: name, title: `Settings ${name}` });
+      const each = make('button', { type: 'button', className: 'small', textContent: name, 'data-tip': `Settings ${name}`, 'data-key': 'B' });
       each.addEventListener('click', () => page.toast(this.choose(i)));
       return each;
     });
-    this.back = make('button', { type: 'button', className: 'back', textContent: '← Back to the scene', hidden: true });
+    this.back = make('button', { type: 'button', className: 'back', innerHTML: `${icon('previous')} Back to the scene`, hidden: true });
     this.back.addEventListener('click', () => this.showScene());
     this.status = make('output', { className: 'status' });
     this.rows = make('div', { className: 'rows' });
     this.element = make('aside', { id: 'studio', 'aria-label': 'Studio' },
-      make('header', {}, make('button', { type: 'button', className: 'fold', 'data-action': 'panel', title: 'Hide or show the panel (i)', 'aria-label': 'Hide or show the panel' }),
+      make('header', {}, button('panel', 'next', 'fold'),
         make('strong', { textContent: viewer.view.studio.scene, title: viewer.view.studio.scene }),
-        button('undo', 'Undo (Ctrl-Z)', '↶'), button('redo', 'Redo (Ctrl-Shift-Z)', '↷'),
-        make('span', { className: 'sides', role: 'group', 'aria-label': 'Settings A and B' }, ...this.sideButtons, button('split', 'Compare A and B side by side (x)', '◧'))),
-      this.back, this.rows, make('footer', {}), this.status);
-    this.divider = make('div', { id: 'divider', hidden: true, role: 'separator', 'aria-label': 'A to the left, B to the right', 'aria-orientation': 'vertical' },
-      make('span', { textContent: 'A' }), make('span', { textContent: 'B' }));
+        button('undo', 'undo'), button('redo', 'redo'),
+        make('span', { className: 'sides', role: 'group', 'aria-label': 'Settings A and B' }, ...this.sideButtons, button('split', 'compare'))),
+      this.back, this.rows, make('footer', {}));
     this.shade = make('div', { id: 'drop', hidden: true, textContent: 'Drop a scene (.glb), a light (.hdr, .exr) or a camera (.camera.json)' });
     document.head.append(make('link', { rel: 'stylesheet', href: 'studio.css' }));
-    document.body.append(this.element, this.divider, this.shade);
+    page.element.append(this.status);
+    document.body.append(this.element, this.shade);
     document.body.classList.add('studio');
   }
 
   listen() {
     const { page, session } = this;
     const { viewer } = page;
+    const isLive = () => viewer.scene;
     const rows = [
-      { id: 'pick', keys: [], shown: 'Click', label: 'distance and disparity of a thing', run: () => {} },
+      { id: 'pick', keys: ['Enter'], shown: 'Click Enter', label: 'distance and disparity of a thing, of the middle', when: isLive, run: () => this.pickMiddle() },
       { id: 'undo', keys: [], shown: 'Ctrl-Z', label: 'undo', run: () => { session.step(-1); } },
       { id: 'redo', keys: [], shown: 'Ctrl-Shift-Z', label: 'redo', run: () => { session.step(1); } },
-      { id: 'swap-sides', keys: ['b'], label: 'settings A or B', run: () => {
-        return this.choose(1 - session.active);
-      } },
-      { id: 'split', keys: ['x'], label: 'A and B side by side', run: () => this.compare() },
+      { id: 'swap-sides', keys: ['b'], label: 'settings A or B', run: () => this.choose(1 - session.active) },
+      { id: 'split', keys: ['x'], label: 'compare A and B', when: isLive, run: () => this.compare() },
       { id: 'panel', keys: ['i'], label: 'hide or show the panel', run: () => { document.body.classList.toggle('folded'); } },
-    ];
+    ].map((row) => ({ ...row, group: 'Studio' }));
     ACTIONS.splice(-1, 0, ...rows);
+    nameButtons(this.element);
     this.element.addEventListener('keydown', (event) => {
       if (event.target.matches('input, select') && !event.ctrlKey && !event.metaKey) event.stopPropagation();
     });
@@ -105,9 +107,8 @@ class Studio {
     viewer.addEventListener('open', () => this.update());
     viewer.canvas.addEventListener('webglcontextlost', () => this.live.forget());
     viewer.canvas.addEventListener('webglcontextrestored', () => session.fromStart());
-    this.dragDivider();
     this.watchDrops();
-    pickWithClicks(this);
+    this.pickMiddle = pickWithClicks(this);
     this.update();
   }
 
@@ -117,7 +118,7 @@ class Studio {
     const able = (action, is) => (this.element.querySelector(`[data-action="${action}"]`).disabled = !is);
     able('undo', session.side.past.length);
     able('redo', session.side.future.length);
-    this.element.querySelector('[data-action="split"]').setAttribute('aria-pressed', this.split !== null);
+    this.element.querySelector('[data-action="split"]').setAttribute('aria-pressed', Boolean(this.comparing));
     this.back.hidden = Boolean(this.page.viewer.scene);
     document.body.classList.toggle('live', Boolean(this.page.viewer.scene));
     this.refresh();
@@ -126,7 +127,7 @@ class Studio {
   tell({ state, done, fault, side, isOthers, ...frame }) {
     this.takeTurns(done, side);
     if (fault) this.page.fail(fault);
-    const name = this.split === null || !side ? '' : `${SIDES[this.session.sides.indexOf(side)]}: `;
+    const name = !this.comparing || !side ? '' : `${SIDES[this.session.sides.indexOf(side)]}: `;
     if (isOthers) this.status.textContent = 'Another tab has changed the scene. What you change here counts again.';
     else if (state === 'loading') this.status.textContent = 'Loading the scene …';
     else if (frame.samples) this.status.textContent = name + progressOf(frame);
@@ -144,24 +145,24 @@ class Studio {
     const { viewer } = this.page;
     if (!viewer.scene) return;
     const { sides, active } = this.session;
-    const [left, right] = this.split === null ? [sides[active], null] : [sides[0], sides[1]];
+    const [left, right] = this.comparing ? [sides[0], sides[1]] : [sides[active], null];
     const other = sides[1 - active];
     const has = (side) => (side && this.live.picture(side) ? side : null);
     const first = has(left) ?? has(other) ?? has(sides[active]);
     const name = (side) => SIDES[sides.indexOf(side)];
     if (first && first !== left && first.settings !== left.settings) this.status.textContent = `${name(left)} is being rendered; until then you see ${name(first)}`;
-    viewer.picture = first ? this.live.picture(first, has(right) ?? (right && first), this.split ?? 1) : null;
+    viewer.picture = first ? this.live.picture(first, has(right) ?? (right && first)) : null;
+    this.comparing?.mark(active);
     viewer.redraw();
-    this.placeDivider();
   }
 
   showScene() {
-    const { viewer, fail } = this.page;
+    const { viewer } = this.page;
     viewer.loading?.abort();
     viewer.close();
     viewer.item = -1;
     viewer.scene = this.scene;
-    fail('');
+    this.page.fail('');
     this.refresh();
     viewer.say('loading', null);
     viewer.say('open');
@@ -170,6 +171,7 @@ class Studio {
   // A picture that has been rendered.
   async showItem(item) {
     const { viewer } = this.page;
+    if (this.comparing) this.compare();
     viewer.view.items = (await (await fetch('view.json')).json()).items;
     viewer.open(item);
   }
@@ -199,7 +201,6 @@ class Studio {
 
   async watchLook() {
     this.panel.curve.look(this.page.viewer.state.pitch);
-    this.placeDivider();
     if (this.looking) return;
     this.looking = true;
     for (let look = this.look(); JSON.stringify(look) !== this.looked; look = this.look()) {
@@ -221,11 +222,16 @@ class Studio {
   }
 
   compare() {
-    this.split = this.split === null ? 0.5 : null;
+    if (this.comparing) {
+      this.comparing.end();
+      this.comparing = null;
+      this.update();
+      return 'One picture';
+    }
     const isNew = !this.session.sides[1];
-    if (this.split !== null && isNew) this.session.swap(1);
+    this.comparing = new Compare(this.page, () => this.page.toast(this.compare()));
+    if (isNew) this.session.swap(1);
     this.update();
-    if (this.split === null) return 'One picture';
     return `A left, B right${isNew ? ': B is a copy of A, change it' : ''}`;
   }
 
@@ -234,7 +240,7 @@ class Studio {
   takeTurns(done, side) {
     const { session } = this;
     const [a, b] = session.sides;
-    if (this.split === null || !b || JSON.stringify(a.settings) === JSON.stringify(b.settings)) return;
+    if (!this.comparing || !b || JSON.stringify(a.settings) === JSON.stringify(b.settings)) return;
     const now = performance.now();
     const both = [a.settings, b.settings];
     if (this.turn?.both.some((settings, i) => settings !== both[i]) ?? true) this.turn = { both, since: now, length: TURN, done: new Set() };
@@ -244,23 +250,6 @@ class Studio {
     if (turn.done.has(session.sides[next]) || (!done && now - turn.since < turn.length)) return;
     Object.assign(turn, { since: now, length: next === session.active ? 2 * turn.length : turn.length });
     session.refine(next);
-  }
-
-  placeDivider() {
-    const { viewer } = this.page;
-    this.divider.hidden = this.split === null || !viewer.scene;
-    this.divider.style.setProperty('--x', `${((this.split ?? 0.5) * viewer.canvas.clientWidth) / this.halves()}px`);
-    this.divider.dataset.active = SIDES[this.session.active];
-  }
-
-  dragDivider() {
-    const { divider, page: { viewer } } = this;
-    divider.addEventListener('pointerdown', (event) => divider.setPointerCapture(event.pointerId));
-    divider.addEventListener('pointermove', (event) => {
-      if (!divider.hasPointerCapture(event.pointerId)) return;
-      this.split = Math.min(Math.max((event.clientX / viewer.canvas.clientWidth) * this.halves(), 0.02), 0.98);
-      this.refresh();
-    });
   }
 
   // --- files dropped on the page ---

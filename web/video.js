@@ -23,10 +23,19 @@ function whenLoaded(video, name, signal) {
   });
 }
 
+// From disk, browsers show videos but give no page their pixels, unless the page has the bytes (bundle.js).
+async function fromDisk(url, name) {
+  const answer = await fetch(url);
+  if (!answer.ok) throw new Error(`${name} did not load: ${await answer.text()}`);
+  return URL.createObjectURL(await answer.blob());
+}
+
 export async function openVideo(gl, item, form, url, signal) {
   const video = document.createElement('video');
-  Object.assign(video, { src: url.href, preload: 'auto', playsInline: true });
+  const src = url.protocol === 'file:' ? await fromDisk(url, item.name) : url.href;
+  Object.assign(video, { src, preload: 'auto', playsInline: true });
   const close = () => {
+    URL.revokeObjectURL(src);
     video.pause();
     video.removeAttribute('src');
     video.load();

@@ -20,7 +20,8 @@ export class Viewer extends EventTarget {
   constructor(canvas, view, shader, base) {
     super();
     Object.assign(this, { canvas, view, base, picture: null, item: -1, session: null });
-    this.state = { yaw: 0, pitch: 0, roll: 0, fov: 90, mode: 'left', swap: false, grid: false };
+    this.state = { yaw: 0, pitch: 0, roll: 0, fov: 90, mode: 'left', swap: false, grid: false, planet: false, shift: 0 };
+    this.compare = null; // compare.js
     this.scene = null; // of the studio: what is live instead of an item
     this.choice = {}; // layout, projection, exposure, tone, where they are not the item's own
     this.panorama = new Panorama(canvas, shader);
@@ -71,7 +72,8 @@ export class Viewer extends EventTarget {
     const { state } = this;
     state.yaw = wrapDegrees(state.yaw);
     state.pitch = clamp(state.pitch, -90, 90);
-    state.fov = clamp(state.fov, 5, 150);
+    state.fov = clamp(state.fov, 5, state.planet ? 330 : 150);
+    state.shift = clamp(state.shift, -5, 5);
     this.redraw();
     this.say('change');
   }
@@ -95,7 +97,7 @@ export class Viewer extends EventTarget {
     this.fit(this.pace.how.scale);
     this.picture?.refresh?.();
     this.paint(now, { moves: true, cheap: this.pace.how.cheap });
-    this.picture?.pager?.follow(this.parts(now), now);
+    for (const { pager } of this.pictures()) pager?.follow(this.parts(now), now);
     if (this.picture) this.rest = setTimeout(() => this.settle(), REST);
   }
 
@@ -104,18 +106,26 @@ export class Viewer extends EventTarget {
     const { panorama, picture, canvas } = this;
     if (!rows) panorama.clear();
     if (!picture) return;
+    this.compare?.before(picture);
     for (const options of this.parts(now)) {
       const [x, y, width, height] = options.box;
       panorama.draw(picture, { ...options, ...how, clip: rows ? [x, rows[0], width, rows[1]] : [x, y, width, height] });
     }
+    this.compare?.after(now, how, rows);
+  }
+
+  // What is open, and what is compared with it.
+  pictures() {
+    return [this.picture, this.picture?.beside].filter(Boolean);
   }
 
   // What panorama.draw() is told of each part of the view; all are as high as the canvas.
   parts(now) {
     const { canvas, state } = this;
+    const shift = (state.shift * Math.PI) / 360; // half of it for each eye
     return modeOf(state.mode).parts(now).map(({ at, eye, show }) => {
       const box = boxOf(at, canvas);
-      return { rays: raysOf(state, box[2] / box[3]), box, eye, show, swap: state.swap, grid: state.grid };
+      return { rays: raysOf(state, box[2] / box[3]), box, eye, show, swap: state.swap, grid: state.grid, planet: state.planet, shift };
     }).filter(({ box }) => box[2] > 0 && box[3] > 0);
   }
 
@@ -126,12 +136,12 @@ export class Viewer extends EventTarget {
     const goesOn = () => this.settling === mark && this.picture && !this.session;
     const nextFrame = () => new Promise(requestAnimationFrame);
     if (this.fit()) this.paint(performance.now(), { moves: true });
-    const pager = this.picture?.pager;
-    while (goesOn() && pager?.look(this.parts(0), 2)) {
+    const anyOf = (run) => this.pictures().map(({ pager }) => Boolean(pager && run(pager))).some(Boolean);
+    while (goesOn() && anyOf((pager) => pager.look(this.parts(0), 2))) {
       this.paint(performance.now(), { moves: true });
       await nextFrame();
     }
-    const isReady = () => this.parts(0).every((options) => panorama.isReady(this.picture, options));
+    const isReady = () => this.parts(0).every((options) => this.pictures().every((picture) => panorama.isReady(picture, options)));
     while (goesOn() && !isReady()) await nextFrame();
     for (let y = 0, count = Math.ceil(canvas.height / 8); goesOn() && y < canvas.height;) {
       this.paint(performance.now(), {}, [y, count]);
@@ -141,7 +151,7 @@ export class Viewer extends EventTarget {
       if (took > 50) count = Math.ceil(count / 2);
     }
     let isBetter = false;
-    while (goesOn() && pager?.refine()) {
+    while (goesOn() && anyOf((pager) => pager.refine())) {
       isBetter = true;
       await nextFrame();
     }
@@ -163,7 +173,7 @@ export class Viewer extends EventTarget {
     try {
       const picture = await openPicture(this.panorama, this.view, this.about, {
         base: this.base, choice, signal: loading.signal, progress: (part) => this.say('loading', part),
-        early: (preview) => this.take(preview, loading.signal),
+        early: (preview) => this.take(Object.assign(preview, { isPreview: true }), loading.signal),
       });
       this.take(picture, loading.signal);
     } catch (error) {
@@ -224,6 +234,6 @@ export class Viewer extends EventTarget {
   async screenshot() {
     this.fit();
     this.paint(performance.now(), {});
-    return new Promise((done) => this.canvas.toBlob(done));
+    return new Promise((done) => (this.compare?.shown() ?? this.canvas).toBlob(done));
   }
 }

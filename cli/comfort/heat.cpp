@@ -50,14 +50,20 @@ ods::Image heat_of(const Judged& judged, const ods::ComfortReport& report) {
   return heat;
 }
 
-void save_heat(const std::string& path, const Looked& looked, const std::vector<ods::ComfortReport>& reports) {
+ods::Picture heat_picture(const Looked& looked, const std::vector<ods::ComfortReport>& reports) {
   ods::Picture picture;
   for (size_t i = 0; i < looked.eyes.size(); i++) {
     ods::EyeImage& eye = picture.eyes.emplace_back();
     eye.eye = looked.eyes[i].seen.eye;
     eye.radiance = heat_of(looked.eyes[i], reports[i]);
   }
-  for (const std::string& file : ods::save_picture(picture, looked.camera, {}, path)) announce_file(file);
+  return picture;
+}
+
+void save_heat(const std::string& path, const Looked& looked, const std::vector<ods::ComfortReport>& reports) {
+  for (const std::string& file : ods::save_picture(heat_picture(looked, reports), looked.camera, {}, path)) {
+    announce_file(file);
+  }
 }
 
 std::string heat_png(const ods::ComfortReport& report) {

@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "cli/comfort/judged.h"
+#include "ods/picture/picture.h"
 
 // What is ok in grey; the rest in yellow, orange and red. 3 channels, linear.
 ods::Image heat_of(const Judged& judged, const ods::ComfortReport& report);
 
 // reports: of each of the eyes.
+ods::Picture heat_picture(const Looked& looked, const std::vector<ods::ComfortReport>& reports);
 void save_heat(const std::string& path, const Looked& looked, const std::vector<ods::ComfortReport>& reports);
 
 // To lay over a picture: a PNG, in these colours and transparent where all is ok.

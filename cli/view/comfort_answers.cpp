@@ -18,28 +18,12 @@ ods::SeenDepth depth_of(const ods::LiveSeen& seen, size_t eye) {
   return {seen.camera, image.eye, ods::nearest_of_blocks(image.depth, kMostWidth), {}, {}};
 }
 
-WebAnswer png_answer(const ods::ComfortReport& report) {
-  return {.type = "image/png", .body = heat_png(report)};
-}
-
 }  // namespace
 
 WebAnswer heat_answer(const ods::LiveSeen& seen, int eye) {
   if (!seen.picture) return {.status = 204};
   const size_t index = std::min(static_cast<size_t>(eye), seen.picture->eyes.size() - 1);
-  return png_answer(ods::judge_comfort(depth_of(seen, index)));
-}
-
-WebAnswer heat_answer(const std::string& path, const ods::FormatHint& known, int eye) {
-  ComfortJob job;
-  job.input = ComfortInput::kPicture;
-  job.scene.name = path;
-  job.format = known;
-  const Looked looked = look_at_picture(job);
-  const auto is_it = [&](const Judged& judged) { return judged.seen.eye == eye; };
-  const auto found = std::ranges::find_if(looked.eyes, is_it);
-  const Judged& judged = found != looked.eyes.end() ? *found : looked.eyes[0];
-  return png_answer(ods::judge_comfort(judged.seen));
+  return {.type = "image/png", .body = heat_png(ods::judge_comfort(depth_of(seen, index)))};
 }
 
 ods::Json comfort_json(const ods::LiveSeen& seen) {

@@ -1,20 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the page's server says of comfort: heat to lay over a picture, and what the studio shows.
+// What the studio's server says of comfort. (Of a picture file: comfort_layer.h.)
 #pragma once
 #include <string>
 
 #include "cli/http/http_server.h"
 #include "ods/base/json_reader.h"
-#include "ods/picture/metadata/stereo_format.h"
 #include "ods/studio/live_render.h"
 
 // A PNG of an eye of the studio's picture (heat_png() of cli/comfort/heat.h); 204 while there is none.
 WebAnswer heat_answer(const ods::LiveSeen& seen, int eye);
-
-// The same of a picture file, by its depth or by matching its eyes. Throws ods::Error: neither tells anything.
-WebAnswer heat_answer(const std::string& path, const ods::FormatHint& known, int eye);
 
 // The verdict on the studio's picture, and the merge that its depth allows: 180 shares of the eye distance, from the
 // zenith down. Null while there is none.

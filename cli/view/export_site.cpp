@@ -2,54 +2,91 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/view/export_site.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "cli/console/console.h"
 #include "ods/files/atomic_file.h"
 #include "ods/files/file_input.h"
+#include "ods/view/bundle.h"
 #include "ods/view/page.h"
 
 using ods::ViewItem;
 
-// Needs a server that renders.
-static bool is_of_studio(std::string_view name) {
-  return name.starts_with("studio") || name.starts_with("merge-curve");
-}
+namespace {
 
-static void copy_file(const std::string& from, const std::string& to) {
+constexpr uint64_t kMostFromDisk = uint64_t{256}
+                                   << 20;  // bytes of a file: what browsers keep as one text is not much more
+
+void copy_file(const std::string& from, const std::string& to) {
   const ods::FileInput file(from);
   ods::AtomicFile copy(to);
   file.copy(0, file.size(), copy);
   copy.commit();
 }
 
-static void write_eyes(const ViewItem& item, const std::vector<std::string>& files, const std::string& folder) {
+// The eyes as JPEGs where browsers do not read the file; its light, which joins `files`; and its poster.
+void write_pictures(const ViewItem& item, size_t index, std::vector<std::string>& files, const std::string& folder) {
   ods::OpenOptions options;
   options.format = item.known;
   options.color_only = true;
   const ods::StoredPicture picture = ods::open_picture(item.path, options);
+  const size_t eyes = files.size();
   if (has_light(item)) {
-    const std::string beside = std::filesystem::path(files[0]).parent_path().string();
-    ods::write_file(folder + "/" + beside + "/light.png", light_png(picture));
+    const std::string light = std::filesystem::path(files[0]).replace_filename("light.png").string();
+    ods::write_file(folder + "/" + light, light_png(picture));
+    files.push_back(light);
   }
-  for (size_t i = 0; i < files.size(); i++) {
+  for (size_t i = 0; i < eyes && !item.has_own_file; i++) {
     ods::write_file(folder + "/" + files[i], eye_jpeg(picture, picture.eyes[i].eye, {}));
+  }
+  ods::write_file(folder + "/" + ods::poster_file(index), poster_jpeg(picture));
+}
+
+// For pages from disk.
+void write_script_beside(const std::string& path) {
+  const ods::FileInput file(path);
+  if (file.size() <= kMostFromDisk) {
+    return ods::write_file(path + ".js", ods::script_of_file(path, file.read(0, file.size())));
+  }
+  std::filesystem::remove(path + ".js");
+  note(fmt::format("'{}' is too large for a page from disk: it needs a web server", path));
+}
+
+void write_page(const std::string& folder, const std::string& view) {
+  constexpr std::string_view kModule = R"(<script type="module" src="main.js">)";
+  for (const char* const name :
+       {"index.html", "style.css", "player.css", "example.html", "example.css", "example.js"}) {
+    std::string text(ods::find_page_file(name)->data);
+    const size_t at = text.find(kModule);
+    if (at != std::string::npos) text.replace(at, kModule.size(), R"(<script defer src="main.js">)");
+    ods::write_file(folder + "/" + name, text);
+  }
+  for (const char* const entry : {"main.js", "stereo-360.js"}) {
+    ods::write_file(folder + "/" + entry, ods::bundle(entry, {{"view.json", view}}));
   }
 }
 
+}  // namespace
+
 std::string export_site(const std::vector<ViewItem>& items, const std::string& folder) {
-  for (const ods::PageFile& file : ods::page_files()) {
-    if (is_of_studio(file.name)) continue;
-    ods::write_file(folder + "/" + std::string(file.name), file.data);
-  }
+  const std::string view = view_json(items, false, {});
+  write_page(folder, view);
   for (size_t i = 0; i < items.size(); i++) {
-    const std::vector<std::string> files = item_files(items[i], i);
-    const std::string beside = folder + "/" + std::filesystem::path(files[0]).parent_path().string();
-    if (has_preview(items[i], false)) ods::write_file(beside + "/preview.jpg", preview_jpeg(items[i]));
-    ods::write_file(beside + "/thumbnail.jpg", thumbnail_jpeg(items[i]));
-    items[i].has_own_file ? copy_file(items[i].path, folder + "/" + files[0]) : write_eyes(items[i], files, folder);
+    std::vector<std::string> files = item_files(items[i], i);
+    const std::string beside = std::filesystem::path(files[0]).parent_path().string();
+    if (items[i].has_own_file) copy_file(items[i].path, folder + "/" + files[0]);
+    if (!items[i].is_video) write_pictures(items[i], i, files, folder);
+    ods::write_file(folder + "/" + beside + "/thumbnail.jpg", thumbnail_jpeg(items[i]));
+    if (has_preview(items[i], false)) {
+      files.push_back(beside + "/preview.jpg");
+      ods::write_file(folder + "/" + files.back(), preview_jpeg(items[i]));
+    }
+    for (const std::string& file : files) write_script_beside(folder + "/" + file);
   }
-  const std::string view = folder + "/view.json";
-  ods::write_file(view, view_json(items, false, {}));
-  return view;
+  const std::string path = folder + "/view.json";
+  ods::write_file(path, view);
+  return path;
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -96,6 +97,18 @@ Json ranges_json() {
   return json;
 }
 
+// Numbers that nobody has typed, as short as anybody would: the command has them.
+float rounded(float value, double per_unit) {
+  return static_cast<float>(std::round(value * per_unit) / per_unit);
+}
+
+ods::StereoCamera shortened(ods::StereoCamera camera) {
+  const double per_metre = camera.ipd < 0.01f ? 1e6 : 1e3;  // a small world has small steps
+  for (int i = 0; i < 3; i++) camera.position[i] = rounded(camera.position[i], per_metre);
+  for (float* const angle : {&camera.yaw, &camera.pitch, &camera.roll}) *angle = rounded(*angle, 100.0);
+  return camera;
+}
+
 }  // namespace
 
 WebAnswer json_answer(const Json& json) {
@@ -111,10 +124,10 @@ Studio::Settings Studio::suiting(const SceneSource& source, const ods::Scene& sc
   Settings settings;
   CameraOptions camera;
   if (source.foreign) take_camera(camera, *source.foreign);
-  settings.sidecar.camera = place_camera(camera, scene);
+  settings.sidecar.camera = shortened(place_camera(camera, scene));
   settings.live.camera = settings.sidecar.camera;
   const bool needs_none = ods::find_builtin(source.name) || scene.as_painted;
-  settings.live.exposure = needs_none ? 0.0f : usual_exposure(scene, settings.live.camera);
+  settings.live.exposure = needs_none ? 0.0f : rounded(usual_exposure(scene, settings.live.camera), 100.0);
   if (scene.as_painted) settings.live.tone = ods::ToneCurve::kLinear;
   settings.environment = source.light.environment.empty() ? "auto" : source.light.environment;
   settings.variant = source.variant;

@@ -12,7 +12,6 @@
 #include "cli/console/console.h"
 #include "cli/options/layout_options.h"
 #include "cli/options/projection_options.h"
-#include "cli/view/comfort_answers.h"
 #include "ods/view/page.h"
 
 using ods::ViewItem, ods::StoredPicture;
@@ -126,21 +125,31 @@ WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
     return {.type = std::string(ods::media_type(path)), .body = kept_jpeg(path, item, make)};
   }
   if (item.is_video) return nothing_there();
+  if (path.ends_with("/comfort.json") || path.ends_with("/comfort-left.jpg") || path.ends_with("/comfort-right.jpg")) {
+    return comfort(item, path);
+  }
   if (ods::has_light(item) && path == fmt::format("item/{}/light.png", *number)) {
     const std::lock_guard<std::mutex> lock(one_at_a_time_);
     return {.type = std::string(ods::media_type(path)), .body = light_png(*open(item, request))};
   }
   for (const int eye : {ods::kLeft, ods::kRight, ods::kMono}) {
-    if (path == fmt::format("item/{}/{}.heat.png", *number, ods::eye_name(eye))) {
-      const std::lock_guard<std::mutex> lock(one_at_a_time_);
-      return heat_answer(item.path, item.known, eye);
-    }
     if (path != fmt::format("item/{}/{}.jpg", *number, ods::eye_name(eye))) continue;
     const std::lock_guard<std::mutex> lock(one_at_a_time_);
     return {.type = std::string(ods::media_type(path)),
             .body = eye_jpeg(*open(item, request), eye, read_eye_options(request))};
   }
   return nothing_there();
+}
+
+WebAnswer ViewSite::comfort(const ViewItem& item, const std::string& path) {
+  const std::lock_guard<std::mutex> lock(one_at_a_time_);
+  if (judged_ != item.path) {
+    judged_.clear();
+    comfort_ = comfort_layer(item);
+    judged_ = item.path;
+  }
+  if (path.ends_with(".json")) return {.type = "application/json", .body = comfort_.json};
+  return {.type = "image/jpeg", .body = path.ends_with("left.jpg") ? comfort_.left : comfort_.right};
 }
 
 WebAnswer ViewSite::answer(const WebRequest& request) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cli/http/http_server.h"
+#include "cli/view/comfort_layer.h"
 #include "cli/view/share.h"
 #include "cli/view/studio.h"
 #include "ods/view/view_item.h"
@@ -23,8 +24,9 @@ class ViewSite {
   ViewSite(std::vector<ods::ViewItem> items, const std::optional<SceneSource>& scene);
 
   // Thread-safe. "" is the page; alive says that we are, and how many pages share; item/N/left.jpg takes exposure, tone,
-  // width, and layout and projection where the page's user knows better; item/N/preview.jpg and item/N/thumbnail.jpg.
-  // Throws UsageError for a query that makes no sense.
+  // width, and layout and projection where the page's user knows better; item/N/preview.jpg and item/N/thumbnail.jpg;
+  // item/N/comfort.json, comfort-left.jpg and comfort-right.jpg are a ComfortLayer. Throws UsageError for a query that
+  // makes no sense.
   WebAnswer answer(const WebRequest& request);
 
   // Of the studio, for studio/drop; null if there is none.
@@ -32,6 +34,7 @@ class ViewSite {
 
  private:
   WebAnswer item(const std::string& path, const WebRequest& request);
+  WebAnswer comfort(const ods::ViewItem& item, const std::string& path);
   // A preview or a thumbnail, made when it is first asked for.
   std::string kept_jpeg(const std::string& path, const ods::ViewItem& item, std::string (*make)(const ods::ViewItem&));
   // Of the latest item that was asked for: both eyes are, one after the other.
@@ -52,4 +55,6 @@ class ViewSite {
   std::mutex one_at_a_time_;  // each uses all processors, and a picture's memory
   std::string opened_;
   std::shared_ptr<const ods::StoredPicture> picture_;
+  std::string judged_;  // the path of the picture whose comfort this is
+  ComfortLayer comfort_;
 };

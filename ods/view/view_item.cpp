@@ -17,6 +17,7 @@
 #include "ods/files/file_input.h"
 #include "ods/image/format/file_format.h"
 #include "ods/image/small_rows.h"
+#include "ods/video/container/video_file.h"
 #include "ods/video/video_input.h"
 #include "ods/view/camera_json.h"
 
@@ -30,11 +31,20 @@ static bool browsers_read(const std::string& path, const StoredPicture& picture)
   return picture.eyes.size() == 1 || arrangement_of(picture.layout).is_halves();
 }
 
+// Whether the track of sound that browsers play is ambisonic, with the channels that the page knows
+// (web/ambisonics.js).
+static bool hears_around(const std::string& path) {
+  const std::vector<SoundTrack> sound = read_video_file(path).sound;
+  if (sound.empty() || !sound[0].ambisonics) return false;
+  return sound[0].ambisonics->channels == 4 && !sound[0].ambisonics->has_head_locked;
+}
+
 ViewItem open_view_item(const std::string& path, const FormatHint& known) {
   ViewItem item;
   item.path = path;
   item.known = known;
   item.name = std::filesystem::path(path).filename().string();
+  item.notes = read_notes(path);
   if (!names_eye(path) && is_video(path)) {
     const VideoInput video = open_video(path, known);
     if (!video.prototype.maps.empty()) {
@@ -52,6 +62,8 @@ ViewItem open_view_item(const std::string& path, const FormatHint& known) {
     item.is_video = item.has_own_file = true;
     item.picture = video.prototype;
     item.fps = video.fps;
+    item.is_ambisonic = hears_around(path);
+    item.subtitles = read_subtitles(path);
     return item;
   }
   OpenOptions options;
@@ -149,7 +161,17 @@ static Json item_json(const ViewItem& item, size_t index, bool is_live) {
     json["light_layout"] = is_mono ? "mono" : layout_name(light_layout(item.picture));
   }
   if (item.is_light) json["exposure"] = 0, json["tone"] = tone_curve_name(ToneCurve::kNeutral);
-  if (item.is_video) json["video"] = {{"fps", item.fps}};
+  if (!item.notes.caption.empty()) json["caption"] = item.notes.caption;
+  for (const Hotspot& spot : item.notes.hotspots) {
+    json["hotspots"].push_back({{"yaw", spot.yaw}, {"pitch", spot.pitch}, {"title", spot.title}, {"text", spot.text}});
+  }
+  if (!item.is_video) {
+    if (!is_live) json["poster"] = poster_file(index);
+    return json;
+  }
+  json["video"] = {{"fps", item.fps}};
+  if (item.is_ambisonic) json["video"]["sound"] = "ambix";
+  if (!item.subtitles.empty()) json["video"]["subtitles"] = item.subtitles;
   return json;
 }
 
@@ -183,13 +205,7 @@ static std::string file_of(FileHeader header, Extent size, const RowSource& rows
   });
 }
 
-std::string eye_jpeg(const StoredPicture& picture, int eye, const EyeOptions& options) {
-  ConvertTarget target = same_format(picture);
-  target.eyes = {eye};
-  if (options.most_wide > 0 && target.eye.width > options.most_wide) {
-    target.eye.height = std::max(target.eye.height * options.most_wide / target.eye.width, 1);
-    target.eye.width = options.most_wide;
-  }
+static std::string jpeg_of(const StoredPicture& picture, const ConvertTarget& target, const EyeOptions& options) {
   SaveOptions save;
   save.tone = picture.is_float ? options.tone : ToneCurve::kLinear;
   save.exposure = picture.is_float ? options.exposure : 0.0f;
@@ -289,6 +305,30 @@ std::string thumbnail_jpeg(const ViewItem& item) {
   open.format = item.known;
   open.color_only = true;
   return eye_jpeg(open_picture(item.path, open), item.picture.eyes[0].eye, options);
+}
+
+std::string eye_jpeg(const StoredPicture& picture, int eye, const EyeOptions& options) {
+  ConvertTarget target = same_format(picture);
+  target.eyes = {eye};
+  if (options.most_wide > 0 && target.eye.width > options.most_wide) {
+    target.eye.height = std::max(target.eye.height * options.most_wide / target.eye.width, 1);
+    target.eye.width = options.most_wide;
+  }
+  return jpeg_of(picture, target, options);
+}
+
+std::string poster_file(size_t index) {
+  return fmt::format("item/{}/poster.jpg", index);
+}
+
+std::string poster_jpeg(const StoredPicture& picture) {
+  ConvertTarget target = same_format(picture);
+  target.camera.projection = find_projection("perspective")->setting;
+  target.camera.projection.fov = 90.0f;
+  target.eye = {960, 540};
+  target.eyes = {kMono};
+  if (picture.eyes.size() > 1) target.mono_from = picture.eyes[0].eye;
+  return jpeg_of(picture, target, {});
 }
 
 }  // namespace ods

@@ -12,6 +12,7 @@
 #include "ods/base/json_reader.h"
 #include "ods/image/tone.h"
 #include "ods/picture/stored_picture.h"
+#include "ods/view/beside.h"
 
 namespace ods {
 
@@ -24,6 +25,9 @@ struct ViewItem {
   FormatHint known;           // what the caller knew of it
   StoredPicture picture;      // its header, without pixels
   double fps = 0.0;           // of a video; 0: unknown
+  bool is_ambisonic = false;  // a video's sound: first order, AmbiX
+  Notes notes;
+  std::string subtitles;  // of a video: WebVTT
 };
 
 // Finds out what a file shows, as `ods convert` would read it. Throws Error(kInput) as open_picture() and open_video();
@@ -63,5 +67,9 @@ struct EyeOptions {
 // One eye (kLeft, kRight, kMono) as a JPEG. The picture has its pixels. Throws Error(kOutput) if the temporary folder
 // is not writable.
 std::string eye_jpeg(const StoredPicture& picture, int eye, const EyeOptions& options);
+
+// What one eye sees straight ahead, 960 pixels wide, as a JPEG: for pages until the picture is there.
+std::string poster_jpeg(const StoredPicture& picture);
+std::string poster_file(size_t index);  // its name
 
 }  // namespace ods

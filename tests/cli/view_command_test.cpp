@@ -184,6 +184,25 @@ TEST_F(ViewCommand, DividesLightAsItIsAskedTo) {
   }
 }
 
+// What ods comfort says, by matching the eyes: the card has things from 0.4 m on.
+TEST_F(ViewCommand, JudgesThePicturesComfort) {
+  const std::string near = folder.path("near_360_TB.png"), one_eye = folder.path("one_360.png");
+  ASSERT_EQ(run("testcard -q --width 1024 -o " + near), 0) << err;
+  ASSERT_EQ(run("convert " + near + " -q --mono -o " + one_eye), 0) << err;
+  Served::TearDown();
+  serve({near, one_eye});
+  const std::string said = get("item/0/comfort.json");
+  EXPECT_EQ(status_of(said), 200) << said;
+  EXPECT_NE(said.find("\"level\":"), std::string::npos) << said;
+  EXPECT_NE(said.find("\"projection\":"), std::string::npos) << "the camera of the heat's pictures";
+  const std::string left = get("item/0/comfort-left.jpg"), right = get("item/0/comfort-right.jpg");
+  EXPECT_NE(body_of(left).find("\xff\xd8\xff"), std::string::npos);
+  EXPECT_NE(body_of(left), body_of(right));
+  const std::string none = get("item/1/comfort.json");
+  EXPECT_EQ(status_of(none), 400);
+  EXPECT_NE(none.find("has one eye and no depth"), std::string::npos) << none;
+}
+
 // What was a link when ods view was started is the file behind it.
 TEST_F(ViewCommand, ServesNoFileThatBecomesALink) {
   namespace fs = std::filesystem;
@@ -456,8 +475,10 @@ TEST_F(View, ExportIsAFolderOfItsOwn) {
   ASSERT_EQ(run("convert " + picture + " -q -o " + light), 0) << err;
   EXPECT_EQ(run("view " + picture + " " + light + " --export " + site), 0) << err;
   EXPECT_EQ(out, site + "/view.json\n");
-  for (const char* file : {"index.html", "view.json", "item/0/picture.png", "item/1/left.jpg", "item/1/right.jpg",
-                           "item/0/thumbnail.jpg", "item/1/light.png"}) {
+  for (const char* file :
+       {"index.html", "main.js", "stereo-360.js", "example.html", "view.json", "item/0/picture.png",
+        "item/0/picture.png.js", "item/0/poster.jpg", "item/0/thumbnail.jpg", "item/1/left.jpg", "item/1/right.jpg",
+        "item/1/right.jpg.js", "item/1/poster.jpg", "item/1/light.png", "item/1/light.png.js"}) {
     EXPECT_TRUE(std::filesystem::exists(site + "/" + file)) << file;
   }
 }

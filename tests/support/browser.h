@@ -73,9 +73,12 @@ class Browser {
     execv(arguments[0], arguments.data());
     _exit(127);
   }
+  // Waits for its end.
+  void finish() { waitpid(pid_, nullptr, 0), pid_ = -1; }
   Browser(const Browser&) = delete;
   Browser& operator=(const Browser&) = delete;
   ~Browser() {
+    if (pid_ < 0) return;
     kill(-pid_, SIGKILL);
     waitpid(pid_, nullptr, 0);
   }

@@ -10,7 +10,7 @@
 // The job { item, layers: NAME } sends the equirect layer of a picture, as a headset's browser would be given it.
 // A job with `headset` shows its looks in an emulated headset instead; both eyes are sent, side by side. Its looks may
 // have `press` and `stick`: what a hand does to its controller first. The job { studio: true } runs studio-test.js instead,
-// { panel: NAME } a part of headset-test.js.
+// { page: NAME } a test of page-test.js, { panel: NAME } a part of headset-test.js.
 import { Headset } from './headset.js';
 import { Pace } from './pace.js';
 import { Panorama, loadShader, raysOf } from './panorama.js';
@@ -203,6 +203,7 @@ async function rest(view, shader, { item }) {
 
 async function run() {
   const jobs = await json('jobs.json');
+  if (jobs[0]?.page) return (await import('./page-test.js')).testPage(jobs[0]);
   if (jobs[0]?.panel) return (await import('./headset-test.js')).testHeadset(jobs[0].panel);
   if (jobs[0]?.studio) return (await import('./studio-test.js')).testStudio();
   const [view, shader] = [await json('view.json'), await loadShader(location.href)];

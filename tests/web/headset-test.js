@@ -437,7 +437,7 @@ async function testStudio() {
   const wearer = await Wearer.create();
   const { viewer, headset } = wearer;
   const { startStudio } = await import('./studio.js');
-  const page = { viewer, headset, toast() {}, fail() {} };
+  const page = { viewer, headset, element: document.body, toast() {}, fail() {} };
   startStudio(page);
   const { session } = page.studio;
   await until(() => viewer.picture, 'shows the scene');

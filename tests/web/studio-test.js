@@ -9,7 +9,7 @@ import { progressOf } from './studio.js';
 import { Session, sleep, valueAt } from './studio-session.js';
 
 const merge = { mode: 'cosine', start: 60, end: 90, exponent: 1 };
-const SETTINGS = {
+export const SETTINGS = {
   sidecar: {
     picture: { layout: 'top-bottom' }, projection: { name: 'lat-long' }, position: [0, 1.5, 0], yaw: 0, pitch: 0, roll: 0, ipd: 0.065,
     neck: 0, merge_top: merge, merge_bottom: merge, axis: null, convergence: { mode: 'parallel', distance: 2 }, lens: { radius: 0, focus_distance: 2 },
@@ -17,8 +17,17 @@ const SETTINGS = {
   exposure: 1, tone: 'neutral', env: 'auto', variant: '', time: 0, width: 4096,
 };
 
+const camera = { projection: { center: [0, 0], span: [6.28, 3.14], angle: 3.14, lens_back: [0, 0, 1] } };
+export const PROJECTIONS = [{ name: 'lat-long', camera }, { name: 'mirror-ball', camera }];
+// What view.json says of the studio.
+export const STUDIO = {
+  scene: 'a.glb', settings: SETTINGS, ranges: { ipd: [0, 10] }, merges: ['none', 'cosine'], convergences: ['parallel', 'toe-in'],
+  projections: ['lat-long', 'mirror-ball', 'fisheye-polynomial'], polynomial_lens: { sensor: [36, 24], polynomial: [0, 1, 2, 3, 4] },
+  controls: { 'lat-long': ['range'], 'mirror-ball': ['fov', 'lens'], 'fisheye-polynomial': ['polynomial'] }, tones: ['neutral'], envs: ['auto'], variants: [], duration: 0,
+};
+
 // Plays the server: numbers revisions as ods view does, refuses what ods view refuses, and sends the frames it is given.
-class Server {
+export class Server {
   constructor() {
     Object.assign(this, { sets: [], revision: 0, last: '', frames: [], waiting: [], delay: 0, prompt: false });
     const real = window.fetch;
@@ -60,7 +69,8 @@ class Server {
   }
 
   send(meta) {
-    const camera = { projection: { kind: 0, span: [6.2831854, 3.1415927] }, window: meta.window };
+    const none = { width: 0, height: 0 };
+    const camera = { projection: { kind: 0, span: [6.2831854, 3.1415927] }, merge_map: none, head_tilt_map: none, window: meta.window };
     this.frames.push({ number: this.frames.length + 1, width: 8, height: 4, eyes: 2, samples: 1, part: 'base', camera, ...meta });
     this.waiting.splice(0).forEach((go) => go());
   }
@@ -251,13 +261,7 @@ export async function testStudio() {
   await testOtherTabs(server, session);
   live.least = 6;
   await testSides(server, session, live);
-  const camera = { projection: { center: [0, 0], span: [6.28, 3.14], angle: 3.14, lens_back: [0, 0, 1] } };
-  const studio = {
-    scene: 'a.glb', settings: SETTINGS, ranges: { ipd: [0, 10] }, merges: ['none', 'cosine'], convergences: ['parallel', 'toe-in'],
-    projections: ['lat-long', 'mirror-ball', 'fisheye-polynomial'], polynomial_lens: { sensor: [36, 24], polynomial: [0, 1, 2, 3, 4] },
-    controls: { 'lat-long': ['range'], 'mirror-ball': ['fov', 'lens'], 'fisheye-polynomial': ['polynomial'] }, tones: ['neutral'], envs: ['auto'], variants: [], duration: 0,
-  };
   const element = document.createElement('div');
   document.body.append(element);
-  await testPanel(server, session, new Panel(element, { projections: [{ name: 'lat-long', camera }, { name: 'mirror-ball', camera }], studio }, session));
+  await testPanel(server, session, new Panel(element, { projections: PROJECTIONS, studio: STUDIO }, session));
 }

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/view/comfort_layer.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "cli/comfort/comfort_report.h"
+#include "cli/comfort/heat.h"
+#include "ods/files/file_input.h"
+#include "ods/picture/save.h"
+#include "ods/view/camera_json.h"
+
+static std::string text_of(const ods::ComfortReport& report) {
+  if (report.places.empty()) return "Nothing strains the eyes";
+  const ods::StrainedPlace& worst = report.places[0];
+  return fmt::format("Most: {}, {:.2f} m away, {}", ods::strain_row(worst.strain).title, worst.distance,
+                     direction_text(worst));
+}
+
+ComfortLayer comfort_layer(const ods::ViewItem& item) {
+  ComfortJob job;
+  job.input = ComfortInput::kPicture;
+  job.scene.name = item.path;
+  job.format = item.known;
+  job.heat = "shown";  // so that colours are read, too
+  const Looked looked = look_at_picture(job);
+  std::vector<ods::ComfortReport> reports;
+  for (const Judged& each : looked.eyes) reports.push_back(ods::judge_comfort(each.seen, job.comfort));
+  ComfortLayer layer;
+  const ods::Json json = {{"camera", camera_json(ods::make_camera(looked.camera))},
+                          {"level", comfort_level_name(verdict(job, looked, reports[0]))},
+                          {"text", text_of(reports[0])}};
+  layer.json = json.dump(-1, ' ', false, ods::Json::error_handler_t::replace);
+  // Image libraries want files.
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  const std::string path = (folder / fmt::format("ods-view-{}-heat-%V.jpg", getpid())).string();
+  const std::vector<std::string> files = ods::save_picture(heat_picture(looked, reports), looked.camera, {}, path);
+  const auto bytes_of = [](const std::string& name) {
+    const ods::FileInput file(name);
+    return file.read(0, file.size());
+  };
+  layer.left = bytes_of(files.front());
+  layer.right = bytes_of(files.back());
+  for (const std::string& file : files) std::filesystem::remove(file);
+  return layer;
+}

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/view/beside.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "ods/base/json_reader.h"
+#include "ods/base/text.h"
+#include "ods/files/read_file.h"
+
+namespace ods {
+
+namespace {
+
+// Bytes, but of hotspots their number.
+constexpr size_t kMostNotes = 256 << 10;
+constexpr size_t kMostSubtitles = 2 << 20;
+constexpr size_t kMostHotspots = 200;
+constexpr size_t kMostCaption = 400;
+constexpr size_t kMostTitle = 100;
+constexpr size_t kMostText = 1000;
+
+// The file with another end beside a file, and what is in it; empty if there is none.
+std::string text_beside(const std::string& path, const char* end, size_t most, std::string& name) {
+  name = std::filesystem::path(path).replace_extension(end).native();
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(name, ignored)) return "";
+  const std::vector<unsigned char> bytes = read_file(name, most);
+  return {bytes.begin(), bytes.end()};
+}
+
+std::string text_of(JsonReader& reader, const std::string& key, size_t most, bool is_needed) {
+  const Json* const found = reader.find(key);
+  if (!found && !is_needed) return "";
+  if (!found || !found->is_string() || found->get_ref<const std::string&>().size() > most) {
+    reader.fail(key, fmt::format("must be text of at most {} bytes", most));
+  }
+  return found->get<std::string>();
+}
+
+}  // namespace
+
+Notes read_notes(const std::string& picture) {
+  std::string name;
+  const std::string text = text_beside(picture, ".notes.json", kMostNotes, name);
+  Notes notes;
+  if (text.empty()) return notes;
+  const Json json = parse_json(text, name, "notes");
+  std::vector<std::string> warnings;
+  JsonReader reader(json, name, "notes", "", warnings);
+  notes.caption = text_of(reader, "caption", kMostCaption, false);
+  const Json* const list = reader.find("hotspots");
+  if (!list) return notes;
+  if (!list->is_array() || list->size() > kMostHotspots) {
+    reader.fail("hotspots", fmt::format("must be a list of at most {}", kMostHotspots));
+  }
+  for (const Json& each : *list) {
+    JsonReader entry(each, name, "notes", fmt::format("hotspots.{}", notes.hotspots.size()), warnings);
+    Hotspot& hotspot = notes.hotspots.emplace_back();
+    entry.number("yaw", hotspot.yaw, -360.0f, 360.0f);
+    entry.number("pitch", hotspot.pitch, -90.0f, 90.0f);
+    hotspot.title = text_of(entry, "title", kMostTitle, true);
+    hotspot.text = text_of(entry, "text", kMostText, false);
+  }
+  return notes;
+}
+
+std::string read_subtitles(const std::string& video) {
+  std::string name;
+  const std::string text = valid_utf8(text_beside(video, ".vtt", kMostSubtitles, name));
+  if (text.empty()) return "";
+  const size_t at = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
+  if (text.compare(at, 6, "WEBVTT") != 0) {
+    throw cannot_read(name,
+                      "it is no WebVTT, which begins with WEBVTT: ffmpeg -i subtitles.srt subtitles.vtt makes it");
+  }
+  return text;
+}
+
+}  // namespace ods

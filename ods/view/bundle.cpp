@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/view/bundle.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <vector>
+
+#include "ods/base/base64.h"
+#include "ods/base/json_reader.h"
+#include "ods/view/page.h"
+
+namespace ods {
+
+namespace {
+
+// import { A, B as C } from './x.js';  and  import('./x.js')
+const std::regex kImport(R"(import \{([^}]*)\} from '\./([\w.-]+)';)");
+const std::regex kLazyImport(R"(import\('\./([\w.-]+)'\))");
+const std::regex kExport(R"((^|\n)export ((?:async )?(?:class|function|const|let) )(\w+))");
+const std::regex kComment(R"(\n *//[^\n]*)");
+
+std::vector<std::string> names_in(const std::string& text, const std::regex& pattern, size_t group) {
+  std::vector<std::string> names;
+  for (std::sregex_iterator each(text.begin(), text.end(), pattern), end; each != end; ++each) {
+    names.push_back((*each)[group]);
+  }
+  return names;
+}
+
+// A module as a function that returns what it exports.
+std::string wrapped(const std::string& name, const std::string& module) {
+  std::string text = std::regex_replace("\n" + module, kComment, "");
+  const std::vector<std::string> exported = names_in(text, kExport, 3);
+  text = std::regex_replace(text, kExport, "$1$2$3");
+  std::string whole;
+  auto rest = text.cbegin();
+  for (std::sregex_iterator each(text.begin(), text.end(), kImport), end; each != end; ++each) {
+    const std::string names = std::regex_replace((*each)[1].str(), std::regex(" as "), ": ");
+    whole +=
+        std::string(rest, (*each)[0].first) + fmt::format("const {{{}}} = $modules['{}'];", names, (*each)[2].str());
+    rest = (*each)[0].second;
+  }
+  whole.append(rest, text.cend());
+  whole = std::regex_replace(whole, kLazyImport, "$$load('$1')");
+  whole = std::regex_replace(whole, std::regex("import\\.meta\\.url"), "$$base");
+  return fmt::format("$modules['{}'] = (() => {{{}\nreturn {{ {} }};\n}})();\n", name, whole,
+                     fmt::join(exported, ", "));
+}
+
+// Behind what it imports, at once or later.
+void add(const std::string& name, std::set<std::string>& known, std::string& script) {
+  if (needs_server(name) || !known.insert(name).second) return;
+  const std::string text(find_page_file(name)->data);
+  for (const auto& [pattern, group] : {std::pair{&kImport, size_t{2}}, {&kLazyImport, size_t{1}}}) {
+    for (const std::string& other : names_in(text, *pattern, group)) add(other, known, script);
+  }
+  script += wrapped(name, text);
+}
+
+}  // namespace
+
+bool needs_server(std::string_view name) {
+  return name.starts_with("studio") || name.starts_with("merge-curve") || name == "share.js";
+}
+
+std::string bundle(const std::string& entry, std::map<std::string, std::string> files) {
+  std::set<std::string> known;
+  std::string modules;
+  add(entry, known, modules);
+  for (const char* const name : {"panorama.glsl", "player.css"}) {
+    if (modules.find(name) != std::string::npos) files[name] = find_page_file(name)->data;
+  }
+  const std::string beginning(find_page_file("bundle.js")->data);
+  return fmt::format("// Made by ods view from its modules.\n(() => {{\n'use strict';\nconst $files = {};{}{}}})();\n",
+                     Json(files).dump(-1, ' ', true, Json::error_handler_t::replace),
+                     std::regex_replace("\n" + beginning, kComment, ""), modules);
+}
+
+std::string script_of_file(std::string_view name, std::string_view bytes) {
+  return fmt::format(
+      "var stereo360Files = window.stereo360Files || {{}};\n"
+      "stereo360Files[document.currentScript.src.slice(0, -3)] = 'data:{};base64,{}';\n",
+      media_type(name), encode_base64(bytes));
+}
+
+}  // namespace ods

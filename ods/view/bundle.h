@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The page without ES modules, which browsers load from no disk: a module and all that it imports as one classic
+// script, with the files that they fetch in it (web/bundle.js).
+#pragma once
+#include <map>
+#include <string>
+
+namespace ods {
+
+// entry: a module of the page, main.js. files: by their names, besides those of the page: view.json. What
+// needs_server() is left out.
+std::string bundle(const std::string& entry, std::map<std::string, std::string> files);
+
+// What lies beside a file, as FILE.js, so that a page from disk gets it: its bytes in base64, 4/3 as large.
+std::string script_of_file(std::string_view name, std::string_view bytes);
+
+// Only a server has what these files need.
+bool needs_server(std::string_view name);
+
+}  // namespace ods

@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The viewer's page and its element in Chromium, as visitors, keyboards, scripts and other pages use them
+// (tests/web/page-test.js); exported pages from disk, by their screenshots; how much of it goes over the wire.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <libdeflate.h>
+
+#include <array>
+#include <condition_variable>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "cli/http/http_server.h"
+#include "cli/view/export_site.h"
+#include "ods/convert/convert.h"
+#include "ods/files/file_input.h"
+#include "ods/image/compare.h"
+#include "ods/image/image_file.h"
+#include "ods/video/make_video.h"
+#include "ods/view/bundle.h"
+#include "ods/view/page.h"
+#include "tests/support/browser.h"
+#include "tests/support/made_frames.h"
+#include "tests/support/picture_rows.h"
+#include "tests/support/stored_pictures.h"
+#include "tests/support/temporary_folder.h"
+
+namespace ods::page_browser_test {
+
+constexpr auto kPatience = std::chrono::seconds(200);
+
+class PageBrowser : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    browser_ = chromium(folder_.path("profile"));
+    if (browser_.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+    save_waves();
+  }
+
+  // Broad waves, other ones for each eye: a picture that has no place twice.
+  void save_waves() {
+    StereoCamera stereo;
+    MadePicture made = make_picture(stereo, {1024, 512}, {kLeft, kRight});
+    const Camera camera = make_camera(stereo);
+    add_colour(made, [&camera](int eye, vec2 uv, float* out) {
+      const vec3 d = camera_ray(camera, eye, uv).direction;
+      const float phase = eye == kRight ? 1.2f : 0.0f;
+      out[0] = 0.5f + 0.4f * std::sin(5.0f * d.x + 2.0f * d.y + phase);
+      out[1] = 0.5f + 0.4f * std::sin(7.0f * d.z - 3.0f * d.x * d.y + phase);
+      out[2] = 0.5f + 0.4f * std::cos(6.0f * d.y + d.x + phase);
+    });
+    made.picture.is_float = true;
+    SaveOptions save;
+    save.tone = ToneCurve::kLinear;
+    save_picture(convert(made.picture, same_format(made.picture)).rows, nullptr, save, picture_);
+    folder_.write("waves_360_TB.notes.json",
+                  R"({"caption": "A <b>card</b>",
+                      "hotspots": [{"yaw": 20, "pitch": 10, "title": "Lamp", "text": "<i>On</i>"}]})");
+  }
+
+  std::string site() const { return folder_.path("site"); }
+  void export_waves() { export_site({open_view_item(picture_)}, site()); }
+
+  // What the browser says at the end of a test of page-test.js.
+  std::string run(const nlohmann::json& job, const std::vector<std::string>& more = {}) {
+    export_waves();
+    job_ = nlohmann::json::array({job});
+    WebOptions options;
+    options.secret = "secret";
+    HttpServer server(options, [this](const WebRequest& request) { return serve(request); });
+    std::thread thread([&server] { server.run(); });
+    {
+      std::vector<std::string> words = browser_;
+      words.insert(words.end(), more.begin(), more.end());
+      const Browser running(words, folder_.path("home"),
+                            fmt::format("http://127.0.0.1:{}/secret/harness.html", server.port()));
+      std::unique_lock lock(mutex_);
+      is_done_.wait_for(lock, kPatience, [this] { return !end_.empty(); });
+    }
+    server.stop();
+    thread.join();
+    return end_.empty() ? "the browser did not finish" : end_;
+  }
+
+  // The screenshot of a page from disk, which is given more and more time until it is as it should be: the browser's
+  // clock goes on while pictures are decoded.
+  template <class IsRight>
+  bool comes_to_show(const std::string& path, Extent size, const IsRight& is_right) const {
+    const std::string file = folder_.path("shot.png");
+    for (const int budget : {20'000, 60'000, 180'000}) {
+      std::vector<std::string> words = browser_;
+      words.insert(words.end(), {"--screenshot=" + file, fmt::format("--window-size={},{}", size.width, size.height),
+                                 "--hide-scrollbars", fmt::format("--virtual-time-budget={}", budget)});
+      Browser(words, folder_.path("home"), "file://" + path).finish();
+      if (std::filesystem::exists(file) && is_right(read_image(file))) return true;
+    }
+    return false;
+  }
+
+  TemporaryFolder folder_;
+  std::string picture_ = folder_.path("waves_360_TB.png");
+  std::vector<std::string> browser_;
+
+ private:
+  WebAnswer serve(const WebRequest& request) {
+    WebAnswer answer;
+    std::string name = request.path;
+    if (request.is_post) {
+      const std::lock_guard lock(mutex_);
+      end_ = request.body;
+      is_done_.notify_all();
+      return answer;
+    }
+    answer.type = media_type(name);
+    if (name == "jobs.json") return answer.body = job_.dump(), answer;
+    const char* const modules = std::getenv("ODS_NODE_MODULES");
+    std::vector<std::string> places = {std::string(ODS_SOURCE_DIR "/tests/web/") + name, site() + "/" + name};
+    if (modules && name.starts_with("npm/")) places = {std::string(modules) + name.substr(3)};
+    if (name.starts_with("src/")) places.clear(), name.erase(0, 4);
+    for (const std::string& place : places) {
+      if (std::filesystem::is_regular_file(place)) return answer.file = std::filesystem::canonical(place), answer;
+    }
+    const PageFile* const page = find_page_file(name);
+    if (page) answer.body = page->data;
+    answer.status = page ? 200 : 404;
+    return answer;
+  }
+
+  nlohmann::json job_;
+  std::mutex mutex_;
+  std::condition_variable is_done_;
+  std::string end_;
+};
+
+// Keys, tooltips, hotspots, comparing, little planet, contrast.
+TEST_F(PageBrowser, ThePageInTheDark) {
+  EXPECT_EQ(run({{"page", "page"}}, {"--window-size=600,600", "--blink-settings=preferredColorScheme=0"}), "ok");
+}
+
+TEST_F(PageBrowser, ThePageInTheLight) {
+  EXPECT_EQ(run({{"page", "light"}}, {"--window-size=600,600", "--blink-settings=preferredColorScheme=1"}), "ok");
+}
+
+TEST_F(PageBrowser, ThePageOnAPhone) {
+  EXPECT_EQ(run({{"page", "phone"}}, {"--window-size=500,800"}), "ok");  // Chromium's narrowest
+}
+
+TEST_F(PageBrowser, TheStudio) {
+  EXPECT_EQ(run({{"page", "studio"}}, {"--window-size=1000,800", "--blink-settings=preferredColorScheme=0"}), "ok");
+}
+
+TEST_F(PageBrowser, TheStudioInTheLight) {
+  EXPECT_EQ(run({{"page", "studio"}}, {"--window-size=1000,800", "--blink-settings=preferredColorScheme=1"}), "ok");
+}
+
+TEST_F(PageBrowser, TheElementInOtherPages) {
+  EXPECT_EQ(run({{"page", "element"}}), "ok");
+}
+
+TEST_F(PageBrowser, TheElementBesideAFrame) {
+  if (!std::getenv("ODS_NODE_MODULES")) GTEST_SKIP() << "skipped: ODS_NODE_MODULES has no aframe (npm install aframe)";
+  EXPECT_EQ(run({{"page", "aframe"}}), "ok");
+}
+
+TEST_F(PageBrowser, TheElementInThreeJs) {
+  if (!std::getenv("ODS_NODE_MODULES")) GTEST_SKIP() << "skipped: ODS_NODE_MODULES has no three (npm install three)";
+  EXPECT_EQ(run({{"page", "three"}}), "ok");
+}
+
+TEST_F(PageBrowser, HearsAmbisonicSoundFromWhereItComes) {
+  EXPECT_EQ(run({{"page", "sound"}}), "ok");
+}
+
+TEST_F(PageBrowser, ShowsSubtitlesOfAVideo) {
+  if (!has_encoder("libx264")) GTEST_SKIP() << "skipped: this machine has no libx264";
+  for (int frame = 0; frame < 20; frame++) {
+    Picture picture;
+    picture.eyes.emplace_back().radiance = made::plain({256, 256}, vec3(100.0f));
+    SaveOptions save;
+    save.tone = ToneCurve::kLinear;
+    save_picture(picture, save, folder_.path(fmt::format("frame.{:04}.png", frame)));
+  }
+  const FrameFiles files = find_frames(folder_.path("frame.####.png"));
+  EncodeOptions options;
+  options.encoder = "libx264";
+  options.rate = {10, 1};
+  picture_ = folder_.path("film_360_TB.mp4");
+  make_video(files, plan_video(files, {}, Layout::kTopBottom), {}, options, picture_);
+  folder_.write("film_360_TB.vtt",
+                "WEBVTT\n\n00:00.000 --> 00:01.000\nFirst\n\n00:01.000 --> 00:02.000\n<b>Second</b> line\n");
+  const std::string end = run({{"page", "video"}});
+  if (end.find("has a codec") != std::string::npos) GTEST_SKIP() << "skipped: this chromium plays no H.264";
+  EXPECT_EQ(end, "ok");
+}
+
+// What is in the middle of a window of 512 pixels that looks 90 degrees wide.
+Image middle_of(const StoredPicture& picture, int size, Extent window, float fov) {
+  ConvertTarget target = same_format(picture);
+  target.camera.projection = projection_named("perspective");
+  const float wide = std::tan(glm::radians(0.5f * fov)) * static_cast<float>(size) / static_cast<float>(window.width);
+  target.camera.projection.fov = glm::degrees(2.0f * std::atan(wide));
+  target.eye = {size, size};
+  target.eyes = {kMono};
+  target.mono_from = kLeft;
+  return images_of(convert(picture, target).rows)[0];
+}
+
+Image cut(const Image& image, int x0, int y0, int size) {
+  Image part(size, size, 3);
+  for (int y = 0; y < size; y++) {
+    for (int x = 0; x < size; x++) std::copy_n(image.at(x0 + x, y0 + y), 3, part.at(x, y));
+  }
+  return part;
+}
+
+TEST_F(PageBrowser, OpensFromDisk) {
+  export_waves();
+  const Extent window{512, 512};
+  const Image wanted = middle_of(open_picture(picture_), 128, window, 90.0f);
+  EXPECT_TRUE(comes_to_show(site() + "/index.html", window, [&](const Image& shot) {
+    return compare_eyes({cut(shot, 192, 192, 128)}, {wanted}).whole.psnr >= 38.0;
+  }));
+}
+
+// Its three examples: one is open, one is a poster until it is clicked, one has the page's own buttons.
+TEST_F(PageBrowser, ThreeExamplesOpenFromDisk) {
+  export_waves();
+  folder_.write("site/checked.html", folder_.read("site/example.html") +
+                                         "<script>addEventListener('load', () => setTimeout(() => {\n"
+                                         "const [a, b, c] = document.querySelectorAll('stereo-360');\n"
+                                         "const ok = a.loaded && a.yaw === 20 && !b.loaded && c.loaded &&\n"
+                                         "  b.shadowRoot.getElementById('poster').naturalWidth === 960;\n"
+                                         "document.querySelector('[data-yaw=\"90\"]').click();\n"
+                                         "const said = document.getElementById('where').textContent;\n"
+                                         "document.body.textContent = '';\n"
+                                         "document.documentElement.style.background =\n"
+                                         "  ok && c.yaw === 90 && said.startsWith('yaw 90') ? '#0f0' : '#f00';\n"
+                                         "}, 15000))</script>");
+  EXPECT_TRUE(comes_to_show(site() + "/checked.html", {900, 2400}, [](const Image& shot) {
+    return std::equal(shot.at(20, 20), shot.at(20, 20) + 3, std::array{0.0f, 1.0f, 0.0f}.begin());
+  }));
+}
+
+size_t gzipped(std::string_view text) {
+  libdeflate_compressor* const compressor = libdeflate_alloc_compressor(9);
+  std::string bytes(libdeflate_gzip_compress_bound(compressor, text.size()), '\0');
+  const size_t size = libdeflate_gzip_compress(compressor, text.data(), text.size(), bytes.data(), bytes.size());
+  libdeflate_free_compressor(compressor);
+  return size;
+}
+
+// As web hosts send it: an exported page with everything that it loads later, and the element.
+TEST(Page, IsSmallOnTheWire) {
+  size_t page = gzipped(bundle("main.js", {{"view.json", "{}"}}));
+  for (const char* const name : {"index.html", "style.css", "player.css"}) page += gzipped(find_page_file(name)->data);
+  const size_t element = gzipped(bundle("stereo-360.js", {{"view.json", "{}"}}));
+  RecordProperty("page", static_cast<int>(page));
+  RecordProperty("element", static_cast<int>(element));
+  fmt::print("page {} bytes, element {} bytes, gzipped\n", page, element);
+  EXPECT_LE(page, 60'000u);
+  EXPECT_LE(element, 60'000u);
+}
+
+}  // namespace ods::page_browser_test

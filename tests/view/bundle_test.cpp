@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/view/bundle.h"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "ods/view/page.h"
+
+using namespace ods;
+
+// Browsers run it as a classic script: page_browser_test does. Here, that nothing of modules is left in it.
+TEST(Bundle, IsNoModule) {
+  for (const char* const entry : {"main.js", "stereo-360.js"}) {
+    const std::string script = bundle(entry, {{"view.json", "{\"a\": \"</script>\"}"}});
+    for (const char* const word : {"\nimport ", "\nexport ", "import(", "import.meta"}) {
+      EXPECT_EQ(script.find(word), std::string::npos) << entry << ": " << word;
+    }
+    EXPECT_NE(script.find(R"("view.json":"{\"a\": \"</script>\"}")"), std::string::npos) << entry;
+    EXPECT_EQ(script.find("studio-panel"), std::string::npos) << entry;
+  }
+}
+
+// What a module imports is made before it.
+TEST(Bundle, ModulesComeBehindWhatTheyImport) {
+  const std::string script = bundle("main.js", {});
+  const std::regex use(R"(\$modules\['([\w.-]+)'\];)");
+  size_t count = 0;
+  for (std::sregex_iterator each(script.begin(), script.end(), use), end; each != end; ++each, ++count) {
+    const size_t made = script.find("$modules['" + (*each)[1].str() + "'] = (");
+    EXPECT_LT(made, static_cast<size_t>(each->position())) << (*each)[1];
+  }
+  EXPECT_GT(count, 20u);
+}
+
+TEST(Bundle, AFilesScriptHasItsBytes) {
+  const std::string script = script_of_file("item/0/a.png", "abc");
+  EXPECT_NE(script.find("'data:image/png;base64,YWJj'"), std::string::npos) << script;
+}

@@ -1,0 +1,484 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The page and <stereo-360> in a browser, as visitors and scripts use them. testPage(name) throws what is wrong.
+// src/ has the page's own modules; the rest is an exported site.
+import { listen } from './src/ambisonics.js';
+
+const sleep = (time) => new Promise((done) => setTimeout(done, time));
+
+function expect(is, what) {
+  if (!is) throw new Error(what);
+}
+
+async function until(is, what) {
+  for (let i = 0; i < 1200; i++) {
+    if (is()) return;
+    await sleep(50);
+  }
+  throw new Error(`never ${what}`);
+}
+
+const load = (tag, properties) => new Promise((done, fail) => {
+  const element = Object.assign(document.createElement(tag), properties);
+  element.onload = done;
+  element.onerror = () => fail(new Error(`${properties.src ?? properties.href} did not load`));
+  document.head.append(element);
+});
+
+const press = (key, target = document) => target.dispatchEvent(new KeyboardEvent('keydown', { key, bubbles: true, composed: true, cancelable: true }));
+
+// A pixel of a canvas, 0..1 from its upper left corner.
+function pixelOf(canvas, x, y) {
+  const copy = new OffscreenCanvas(canvas.width, canvas.height);
+  const context = copy.getContext('2d');
+  context.drawImage(canvas, 0, 0);
+  return [...context.getImageData(Math.floor(x * canvas.width), Math.floor(y * canvas.height), 1, 1).data].slice(0, 3);
+}
+
+// --- the page -------------------------------------------------------------------------------------------------------
+
+async function openPage(hash = '') {
+  location.hash = hash;
+  await Promise.all([load('link', { rel: 'stylesheet', href: 'src/style.css' }), load('link', { rel: 'stylesheet', href: 'src/player.css' })]);
+  document.body.insertAdjacentHTML('beforeend', '<div id="player"><canvas id="picture" tabindex="0"></canvas></div>');
+  await import('./src/main.js');
+  await until(() => window.omnistereo?.viewer.picture || !(find('message')?.hidden ?? true), 'opens a picture');
+  expect(window.omnistereo?.viewer.picture, find('message')?.textContent);
+  return window.omnistereo;
+}
+
+const find = (id) => document.getElementById(id);
+const frame = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+
+async function testHint() {
+  expect(!find('hint').hidden && /wheel/.test(find('hint').textContent), 'no hint at the first visit');
+  press('ArrowRight');
+  expect(find('hint').hidden && localStorage.length === 1, 'the hint stays');
+}
+
+function testTips(player) {
+  for (const button of player.element.querySelectorAll('#bar button, #title button')) {
+    expect(button.dataset.tip && (button.ariaLabel || button.textContent.trim()), `${button.outerHTML.slice(0, 60)} says nothing`);
+  }
+  const swap = player.element.querySelector('[data-action="swap"]');
+  press('Tab'); // somebody uses the keyboard
+  swap.focus({ focusVisible: true });
+  return until(() => find('tip').matches(':popover-open') && find('tip').textContent === 'Swap the eyesS', 'shows a tooltip with its key').then(() => {
+    press('Escape', swap);
+    expect(!find('tip').matches(':popover-open'), 'Escape leaves the tooltip');
+  });
+}
+
+async function testDegrees(player) {
+  expect(find('look').hidden, 'degrees that nobody asked for');
+  press('g');
+  expect(!find('look').hidden && find('look').textContent.startsWith('yaw'), 'no degrees with the grid');
+  press('g');
+  await frame();
+  expect(!player.viewer.state.grid, 'the grid stays');
+}
+
+// What stays the same there: what is straight down is the middle of the planet; a drag of the edge goes around it.
+async function testPlanet(player) {
+  const { viewer } = player;
+  const before = viewer.state.fov;
+  press('w');
+  expect(viewer.state.planet && viewer.state.pitch === -90 && viewer.state.fov === 260, 'no little planet');
+  const { directionAt, placeOf, partsOf } = await import('./src/places.js');
+  const { clientWidth: width, clientHeight: height } = viewer.canvas;
+  expect(Math.abs(directionAt(viewer, width / 2, height / 2).pitch + 90) < 0.01, 'the nadir is not in the middle');
+  const at = directionAt(viewer, width * 0.8, height * 0.3);
+  const place = placeOf(viewer, at, partsOf(viewer)[0]);
+  expect(Math.hypot(place[0] - width * 0.8, place[1] - height * 0.3) < 0.01, 'places and directions differ');
+  // At the middle of the right edge one looks half the field of view away from the middle.
+  const edge = directionAt(viewer, width - 0.001, height / 2);
+  expect(Math.abs(90 + edge.pitch - 130) < 0.1, `the edge is ${90 + edge.pitch} degrees away`);
+  press('w');
+  expect(!viewer.state.planet && viewer.state.fov === before, 'one does not come back from the planet');
+}
+
+async function testShift(player) {
+  const { viewer } = player;
+  for (let i = 0; i < 30; i++) press(']');
+  expect(Math.abs(viewer.state.shift - 3) < 1e-6, 'the depth does not move');
+  const { canvas } = viewer;
+  viewer.set({ mode: 'left', yaw: 10, pitch: 5, fov: 60 });
+  viewer.draw(0);
+  const shifted = pixelOf(canvas, 0.6, 0.4);
+  viewer.set({ shift: 0, yaw: 11.5 });
+  viewer.draw(0);
+  const turned = pixelOf(canvas, 0.6, 0.4);
+  expect(shifted.every((value, i) => Math.abs(value - turned[i]) < 12), `3 degrees do not turn the left eye by half of it: ${shifted}, ${turned}`);
+  viewer.set({ yaw: 0, pitch: 0 });
+}
+
+async function testCompare(player) {
+  const { viewer } = player;
+  viewer.set({ mode: 'left', yaw: 0, pitch: 0, fov: 90 });
+  press('x');
+  await until(() => viewer.compare?.pin, 'compares');
+  viewer.choose({ layout: 'bottom-top' });
+  await until(() => viewer.choice.layout === 'bottom-top' && viewer.picture && find('loading').hidden, 'opens with another layout');
+  const divider = find('divider');
+  const draw = () => viewer.draw(performance.now());
+  const at = (x) => pixelOf(viewer.canvas, x, 0.37);
+  const alike = (a, b) => a.every((value, i) => Math.abs(value - b[i]) < 3);
+  viewer.compare.moveTo(1);
+  draw();
+  const left = at(0.3);
+  viewer.compare.moveTo(0);
+  draw();
+  const right = at(0.3);
+  expect(!alike(left, right), 'both are the same');
+  viewer.compare.moveTo(0.5);
+  draw();
+  expect(alike(at(0.3), left), 'left of the line is not the left picture');
+  press('Home', divider);
+  expect(viewer.compare.split === 0 && divider.ariaValueNow === '0', 'Home does not move the line');
+  for (let i = 0; i < 3; i++) press('PageDown', divider);
+  expect(Math.abs(viewer.compare.split - 0.3) < 1e-6, 'keys do not move the line');
+  const way = (name) => document.querySelector(`[data-way="${name}"]`).click();
+  way('difference');
+  draw();
+  const differs = pixelOf(document.querySelector('#compare canvas'), 0.3, 0.37);
+  expect(differs.every((value, i) => Math.abs(value - Math.min(255, 4 * Math.abs(left[i] - right[i]))) < 12), `${differs} is not the difference of ${left} and ${right}`);
+  way('blink');
+  const seen = new Set();
+  await until(() => seen.add(String(viewer.picture.split)).size === 2, 'blinks');
+  way('slider');
+  expect(/beside=0/.test(location.hash) || (await until(() => /beside=0/.test(location.hash), 'says in its address what is compared')) === undefined, '');
+  press('x');
+  expect(!viewer.compare && !find('compare'), 'the comparison does not end');
+  viewer.choose({ layout: undefined });
+  await until(() => viewer.choice.layout === undefined && viewer.picture, 'opens as before');
+}
+
+async function testNotes(player) {
+  const { viewer } = player;
+  await until(() => document.querySelector('.spot:not([hidden])'), 'shows hotspots');
+  expect(find('caption').textContent === 'A <b>card</b>', 'the caption is no text');
+  viewer.set({ yaw: 20, pitch: 10 });
+  const spot = document.querySelector('.spot');
+  const box = spot.getBoundingClientRect();
+  expect(Math.abs(box.left + box.width / 2 - innerWidth / 2) < 1.5, 'the hotspot is not where it belongs');
+  spot.click();
+  expect(!find('card').hidden && find('card').textContent === 'Lamp<i>On</i>' && !find('card').querySelector('i'), 'the card is not the text');
+  press('Escape', spot);
+  expect(find('card').hidden, 'the card stays');
+  viewer.set({ yaw: 200 });
+  expect(spot.hidden, 'a hotspot behind one is seen');
+  viewer.set({ yaw: 0, pitch: 0 });
+}
+
+async function testHelp(player) {
+  press('?');
+  expect(find('help').open && !/frame/i.test(find('keys').textContent), 'the help is not of what is open');
+  expect(find('keys').querySelector('h2').textContent === 'Look around', 'the help does not begin with what matters');
+  find('help').close();
+  expect(find('why').hidden === !find('reason').textContent, 'the reason');
+  press('o');
+  await until(() => find('settings').style.bottom, 'places the settings');
+  const [settings, bar] = [find('settings').getBoundingClientRect(), find('bar').getBoundingClientRect()];
+  expect(settings.bottom <= bar.top && settings.top >= 0 && settings.right <= innerWidth, `the settings are at ${settings.top} to ${settings.bottom}, the bar at ${bar.top}`);
+  press('o');
+}
+
+async function testTurn(player) {
+  const { yaw } = player.viewer.state;
+  press('t');
+  await until(() => player.viewer.state.yaw > yaw + 0.5, 'turns');
+  press('ArrowLeft');
+  expect(!player.turning, 'it turns on against the keys');
+}
+
+// WCAG 2.2: relative luminance and contrast ratio. Where a picture may be behind, it is black and it is white.
+const channel = (value) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
+const luminance = ([r, g, b]) => 0.2126 * channel(r / 255) + 0.7152 * channel(g / 255) + 0.0722 * channel(b / 255);
+
+function colorOf(text) {
+  const [r, g, b, a = 1] = text.match(/[\d.]+/g).map(Number);
+  return [r, g, b, a];
+}
+
+const over = ([r, g, b, a], below) => [r, g, b].map((value, i) => value * a + below[i] * (1 - a));
+
+// The backgrounds that an element's text can have.
+function backgroundsOf(element) {
+  const layers = [];
+  for (let at = element; at; at = at.parentElement ?? at.getRootNode().host) {
+    const color = colorOf(getComputedStyle(at).backgroundColor);
+    if (color[3]) layers.unshift(color);
+    if (color[3] === 1) return [layers.reduce((below, layer) => over(layer, below), [0, 0, 0])];
+    if (at.id === 'player') break;
+  }
+  return [[0, 0, 0], [255, 255, 255]].map((picture) => layers.reduce((below, layer) => over(layer, below), picture));
+}
+
+const contrast = (a, b) => (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+
+// Throws for the first text that is hard to read; returns how many were looked at.
+function testContrast(root) {
+  let count = 0;
+  for (const element of root.querySelectorAll('*')) {
+    const isText = [...element.childNodes].some((node) => node.nodeType === Node.TEXT_NODE && node.data.trim()) || element.matches('svg');
+    if (!isText || !element.checkVisibility() || element.closest('#numbers, option, :disabled')) continue;
+    const color = colorOf(getComputedStyle(element).color);
+    const least = element.matches('svg') ? 3 : 4.5;
+    for (const background of backgroundsOf(element)) {
+      const ratio = contrast(luminance(over(color, background)), luminance(background));
+      expect(ratio >= least, `${element.tagName} ${element.id || element.className} "${element.textContent.trim().slice(0, 30)}" has the contrast ${ratio.toFixed(2)} on ${background.map(Math.round)}`);
+      count++;
+    }
+  }
+  return count;
+}
+
+async function testColors(player) {
+  press('o');
+  press('x');
+  await until(() => player.viewer.compare?.pin, 'compares');
+  find('why').open = true;
+  document.querySelector('.spot')?.click();
+  player.toast('A word');
+  player.fail('A fault');
+  player.viewer.set({ grid: true });
+  await sleep(400);
+  let count = testContrast(document.body);
+  player.fail('');
+  press('o');
+  press('x');
+  press('?');
+  count += testContrast(document.body);
+  find('help').close();
+  expect(count > 60, `only ${count} texts`);
+}
+
+// Fingers need 44 pixels (WCAG 2.5.5). The emulated phone has a coarse pointer only if the browser is told so.
+function testTouch(player) {
+  document.documentElement.style.setProperty('--side', '44px');
+  for (const button of player.element.querySelectorAll('#bar button, #bar select, #title button')) {
+    const { width, height } = button.getBoundingClientRect();
+    expect(!button.checkVisibility() || Math.min(width, height) >= 44, `${button.dataset.action ?? button.id} is ${width} x ${height}`);
+  }
+  find('player').style.width = '360px'; // narrower than windows of a desktop can be
+  for (const each of player.element.querySelectorAll('#bar, #bar button, #bar select')) {
+    const { left, right } = each.getBoundingClientRect();
+    expect(left >= 0 && right <= 360, `${each.id || each.dataset.action} is wider than the phone: ${left} to ${right}`);
+  }
+  document.documentElement.style.removeProperty('--side');
+}
+
+const isScheme = (scheme) => expect(matchMedia(`(prefers-color-scheme: ${scheme})`).matches, `the browser is not ${scheme}`);
+
+async function testThePage() {
+  isScheme('dark');
+  const player = await openPage('#yaw=0&shift=0');
+  await testHint(player);
+  await testTips(player);
+  await testDegrees(player);
+  await testNotes(player);
+  await testPlanet(player);
+  await testShift(player);
+  await testCompare(player);
+  await testHelp(player);
+  await testTurn(player);
+  await testColors(player);
+}
+
+async function testLight() {
+  isScheme('light');
+  await testColors(await openPage());
+}
+
+async function testPhone() {
+  testTouch(await openPage());
+}
+
+// The bar of a video, and its subtitles.
+async function testVideo() {
+  const { viewer } = await openPage();
+  expect(find('film').checkVisibility() && /frame 0/.test(find('time').textContent), 'no bar of the video');
+  await until(() => find('subtitles'), 'reads the subtitles');
+  viewer.picture.seek(0.4);
+  await until(() => find('subtitles').textContent === 'First', 'shows the first subtitle');
+  viewer.picture.seek(1.4);
+  await until(() => find('subtitles').textContent === 'Second line', 'shows the second subtitle, without its HTML');
+  expect(find('subtitles').getBoundingClientRect().bottom <= find('bar').getBoundingClientRect().top, 'subtitles are behind the bar');
+  press('r');
+  expect(find('subtitles').hidden, 'subtitles stay');
+}
+
+// The studio's page against the server that studio-test.js plays.
+async function testStudioPage() {
+  const { STUDIO, Server } = await import('./studio-test.js');
+  const view = { ...(await (await fetch('view.json')).json()), items: [], live: true, studio: STUDIO };
+  const server = new Server();
+  server.prompt = true;
+  const { send } = server;
+  server.send = (meta) => send.call(server, { seconds: 1, ...meta });
+  const played = window.fetch;
+  const found = { distance: 2, disparity: 3, left: [1, 2], right: null, point: [0, 0, -2] };
+  const answers = { 'view.json': view, 'studio/pick': found };
+  window.fetch = (path, options) => (answers[path] ? Promise.resolve(Response.json(answers[path])) : played(path, options));
+  const player = await openPage();
+  await until(() => player.studio && find('studio').checkVisibility() && getComputedStyle(find('studio')).position === 'fixed', 'has its panel');
+  const { viewer, studio } = player;
+  const foot = find('studio').querySelector('footer');
+  const code = foot.querySelector('code');
+  expect(foot.offsetHeight < 64 && !code.checkVisibility(), `the foot is ${foot.offsetHeight} high`);
+  foot.querySelector('.unfold').click();
+  expect(code.checkVisibility() && foot.querySelector('.unfold').ariaExpanded === 'true', 'the foot does not open');
+  await until(() => find('player').querySelector('.status').textContent.startsWith('picture 8 × 4'), 'says what is shown');
+  const undo = find('studio').querySelector('[data-action="undo"]');
+  expect(undo.dataset.tip === 'Undo' && undo.dataset.key === 'Ctrl-Z' && undo.ariaLabel === 'Undo', 'undo has no tooltip');
+  press('Enter');
+  await until(() => find('pick').textContent.includes('2.00 m'), 'picks by the keyboard');
+  expect(find('pick').contains(document.activeElement), 'what can be done with it is not next');
+  press('Escape', document.activeElement);
+  expect(find('pick').hidden && document.activeElement === viewer.canvas, 'Escape does not lead back');
+  press('x');
+  await until(() => viewer.compare && studio.session.sides[1], 'compares A and B');
+  press('Home', find('divider'));
+  viewer.draw(0);
+  expect(viewer.picture.split === 0 && find('divider').querySelector('.now').textContent === 'B', 'the line does not move, or B is not marked');
+  await until(() => viewer.picture.beside, 'has B beside A');
+  expect(testContrast(document.body) > 60, 'few texts');
+  press('x');
+  expect(!viewer.compare && viewer.picture, 'the comparison does not end');
+  press('?');
+  expect(find('keys').querySelector('h2').textContent === 'Studio', 'the help does not begin with the studio');
+  find('help').close();
+}
+
+// --- <stereo-360> ---------------------------------------------------------------------------------------------------
+
+async function makeElement(attributes) {
+  const element = document.createElement('stereo-360');
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.style.width = '320px';
+  document.body.append(element);
+  return element;
+}
+
+async function testElement() {
+  await load('script', { src: 'stereo-360.js' });
+  const heard = [];
+  const element = await makeElement({ item: '0', yaw: '20', mode: 'anaglyph', poster: 'item/0/poster.jpg' });
+  for (const name of ['ready', 'load', 'look', 'progress', 'error']) element.addEventListener(name, ({ detail }) => heard.push([name, detail]));
+  const root = element.shadowRoot;
+  expect(!root.getElementById('poster').hidden, 'no poster');
+  await until(() => element.loaded, 'loads what is in view');
+  expect(root.getElementById('poster').hidden, 'the poster stays');
+  const names = heard.map(([name]) => name);
+  expect(names.includes('ready') && names.includes('load') && names.includes('progress') && !names.includes('error'), `events: ${names}`);
+  expect(element.yaw === 20 && element.mode === 'anaglyph' && element.fov === 90, 'properties do not follow');
+  element.yaw = 50;
+  expect(element.viewer.state.yaw === 50, 'an attribute does not turn it');
+  element.lookAt({ yaw: 70, fov: 60 });
+  expect(element.yaw === 70 && heard.some(([name, detail]) => name === 'look' && detail.yaw === 70), 'lookAt');
+  expect((await element.screenshot()).type === 'image/png', 'no screenshot');
+  expect(root.querySelectorAll('#bar button svg').length >= 4 && root.querySelector('#tools [data-action="swap"]').dataset.key === 'S', 'another bar than the page');
+  press('s', element.viewer.canvas);
+  expect(element.viewer.state.swap, 'its keys do nothing');
+  press('s', document.body);
+  expect(element.viewer.state.swap, 'it takes the keys of the page');
+  const wheel = new WheelEvent('wheel', { deltaY: 100, cancelable: true });
+  element.viewer.canvas.dispatchEvent(wheel);
+  expect(!wheel.defaultPrevented && element.fov === 60, 'it takes the wheel of the page');
+  element.remove();
+  expect(!element.loaded, 'it keeps its picture');
+
+  const far = await makeElement({ item: '0', style: 'margin-top: 5000px' });
+  await sleep(300);
+  expect(!far.viewer, 'it loads what nobody sees');
+  far.scrollIntoView();
+  await until(() => far.loaded, 'loads when it comes into view');
+  far.remove();
+
+  const wrong = await makeElement({ src: 'no-such.jpg', loading: 'eager' });
+  const reason = await new Promise((done) => wrong.addEventListener('error', ({ detail }) => done(detail.message), { once: true }));
+  const words = wrong.shadowRoot.getElementById('message').textContent;
+  expect(/404/.test(reason) && /did not load/.test(words) && !/404|ods|JPEG/.test(words), `visitors read: ${words}; scripts: ${reason}`);
+  wrong.shadowRoot.getElementById('again').click();
+  expect(await new Promise((done) => wrong.addEventListener('error', () => done(true), { once: true })), 'it does not try again');
+  wrong.remove();
+
+  const clicked = await makeElement({ item: '0', reveal: 'click', autorotate: '' });
+  await until(() => clicked.shadowRoot.getElementById('reveal'), 'offers to begin');
+  expect(!clicked.loaded && clicked.shadowRoot.getElementById('poster').src.endsWith('item/0/poster.jpg'), 'no poster of its own');
+  clicked.shadowRoot.getElementById('reveal').click();
+  await until(() => clicked.loaded && clicked.yaw > 0.2, 'turns slowly');
+  clicked.remove();
+}
+
+// In a page of A-Frame: both draw, and neither disturbs the other.
+async function testAframe() {
+  await load('script', { src: 'npm/aframe/dist/aframe-master.min.js' });
+  await load('script', { src: 'stereo-360.js' });
+  document.body.insertAdjacentHTML('beforeend', '<a-scene embedded style="display: block; width: 200px; height: 100px"><a-box position="0 1.6 -2" color="#f00" material="shader: flat"></a-box></a-scene>');
+  const scene = document.querySelector('a-scene');
+  const element = await makeElement({ item: '0' });
+  await until(() => element.loaded && scene.hasLoaded && scene.renderer, 'shows both');
+  scene.renderer.render(scene.object3D, scene.camera);
+  expect(pixelOf(scene.canvas, 0.5, 0.5).join() === '255,0,0', `the box is ${pixelOf(scene.canvas, 0.5, 0.5)}`);
+  element.viewer.draw(0);
+  expect(pixelOf(element.viewer.canvas, 0.5, 0.6).some((value) => value > 40), 'the panorama is dark');
+  press('s', element.viewer.canvas);
+  expect(element.viewer.state.swap, 'keys do not arrive');
+}
+
+// In a page of three.js: its picture on a box is the panorama's canvas.
+async function testThree() {
+  const THREE = await import('./npm/three/build/three.module.js');
+  await load('script', { src: 'stereo-360.js' });
+  const element = await makeElement({ item: '0' });
+  await until(() => element.loaded, 'loads');
+  element.viewer.draw(0);
+  const canvas = document.body.appendChild(Object.assign(document.createElement('canvas'), { width: 64, height: 64 }));
+  const renderer = new THREE.WebGLRenderer({ canvas, preserveDrawingBuffer: true });
+  const scene = new THREE.Scene();
+  const camera = new THREE.OrthographicCamera(-0.5, 0.5, 0.5, -0.5, 0, 2);
+  const texture = new THREE.CanvasTexture(element.viewer.canvas);
+  texture.colorSpace = THREE.SRGBColorSpace;
+  scene.add(new THREE.Mesh(new THREE.PlaneGeometry(1, 1), new THREE.MeshBasicMaterial({ map: texture })));
+  scene.children[0].position.z = -1;
+  renderer.render(scene, camera);
+  const [ours, theirs] = [pixelOf(element.viewer.canvas, 0.25, 0.75), pixelOf(canvas, 0.25, 0.75)];
+  expect(ours.every((value, i) => Math.abs(value - theirs[i]) < 40) && ours.some((value) => value > 20), `${ours} became ${theirs}`);
+}
+
+// --- sound ----------------------------------------------------------------------------------------------------------
+
+// How loud a wave from a direction (unit, AmbiX axes: ahead, left, up) is in each ear of a head that looks along `ahead`.
+async function ears([x, y, z], ahead) {
+  const context = new OfflineAudioContext(2, 24000, 48000);
+  const sound = context.createBuffer(4, 24000, 48000);
+  let seed = 1;
+  for (let i = 0; i < sound.length; i++) {
+    seed = (seed * 16807) % 2147483647;
+    const wave = (seed / 2147483647 - 0.5) * 0.5;
+    [1, y, z, x].forEach((part, channel) => (sound.getChannelData(channel)[i] = wave * part));
+  }
+  const source = new AudioBufferSourceNode(context, { buffer: sound });
+  listen(context, source)(ahead, [0, 1, 0]);
+  source.start();
+  const heard = await context.startRendering();
+  return [0, 1].map((ear) => Math.sqrt(heard.getChannelData(ear).reduce((sum, value) => sum + value * value, 0) / heard.length));
+}
+
+async function testSound() {
+  const [fromLeft, fromRight, fromAhead, turned, behind] = [
+    await ears([0, 1, 0], [0, 0, -1]), await ears([0, -1, 0], [0, 0, -1]), await ears([1, 0, 0], [0, 0, -1]),
+    await ears([0, 1, 0], [-1, 0, 0]), await ears([0, 1, 0], [0, 0, 1])];
+  const balance = ([left, right]) => 20 * Math.log10(left / right);
+  expect(balance(fromLeft) > 4 && balance(fromRight) < -4, `from the left ${balance(fromLeft)} dB, from the right ${balance(fromRight)} dB`);
+  expect(Math.abs(balance(fromAhead)) < 1 && Math.abs(balance(turned)) < 1, `from ahead ${balance(fromAhead)} dB, when one turns to it ${balance(turned)} dB`);
+  expect(balance(behind) < -4, `to who looks back, the left is right: ${balance(behind)} dB`);
+  const power = (pair) => pair[0] ** 2 + pair[1] ** 2;
+  expect(Math.abs(10 * Math.log10(power(fromLeft) / power(fromAhead))) < 4, 'directions differ in loudness');
+}
+
+const TESTS = { page: testThePage, light: testLight, phone: testPhone, video: testVideo, studio: testStudioPage, element: testElement, aframe: testAframe, three: testThree, sound: testSound };
+
+export const testPage = (job) => TESTS[job.page](job);

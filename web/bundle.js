@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The beginning of a bundle (cli/view/bundle.h), which has $files before and the modules behind it. What the modules
+// fetch comes from $files, or from the host; or, as browsers let no page from disk read a file, from the script that lies
+// beside the file as FILE.js.
+const $base = document.currentScript.src;
+const $modules = {};
+const $given = (window.stereo360Files ??= {}); // by address: base64
+const $load = async (name) => $modules[name];
+
+async function fetch(address, options) {
+  const url = new URL(address, document.baseURI);
+  const name = new URL('.', $base).href;
+  const file = url.href.startsWith(name) ? url.pathname.slice(new URL(name).pathname.length) : '';
+  if (Object.hasOwn($files, file)) return new Response($files[file]);
+  if (url.protocol !== 'file:') return window.fetch(address, options);
+  url.search = url.hash = '';
+  if (!$given[url.href]) {
+    const script = Object.assign(document.createElement('script'), { src: `${url.href}.js` });
+    await new Promise((done) => {
+      script.onload = script.onerror = done;
+      document.head.append(script);
+    });
+    script.remove();
+  }
+  if (!$given[url.href]) {
+    const why = 'browsers let no page from disk read it: ods view FILE --export FOLDER makes a copy that they read, or a web server can have it';
+    return new Response(why, { status: 404, headers: { 'content-type': 'text/plain' } });
+  }
+  const answer = await window.fetch($given[url.href]);
+  delete $given[url.href];
+  return answer;
+}

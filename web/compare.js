@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Two pictures at the same look, with a line between them that moves, by turns, or as their difference. The one to the
+// right of the line is `picture.beside` (panorama.js); the studio has its own there, settings B.
+import { icon } from './icons.js';
+import { modeOf } from './modes.js';
+import { openPicture } from './picture.js';
+
+const BLINK = 600; // milliseconds
+const STEP = 0.02; // of the view, by key
+const WAYS = [['slider', 'Slider'], ['blink', 'Blink'], ['difference', 'Difference ×4']];
+
+const clamp = (value) => Math.min(Math.max(value, 0), 1);
+
+export class Compare {
+  // end(): somebody closes it.
+  constructor(player, end) {
+    Object.assign(this, { player, viewer: player.viewer, way: 'slider', split: 0.5, other: null, names: ['A', 'B'], timer: 0, isOther: false });
+    const element = document.createElement('div');
+    element.id = 'compare';
+    element.innerHTML = `<canvas hidden></canvas>
+      <div id="divider" tabindex="0" role="separator" aria-orientation="vertical" aria-valuemin="0" aria-valuemax="100"><span></span><span></span></div>
+      <div id="ways" role="group" aria-label="Compare">${WAYS.map(([way, label]) => `<button type="button" data-way="${way}">${label}</button>`).join('')}
+        <button type="button" aria-label="End the comparison" data-tip="End the comparison" data-key="X">${icon('close')}</button></div>`;
+    Object.assign(this, { element, difference: element.querySelector('canvas'), divider: element.querySelector('#divider') });
+    element.querySelector('#ways').addEventListener('click', ({ target }) => {
+      const button = target.closest('button');
+      if (!button) return;
+      if (button.dataset.way) this.use(button.dataset.way);
+      else end();
+    });
+    this.drag();
+    this.follow = () => this.place();
+    player.viewer.canvas.after(element);
+    for (const event of ['change', 'open']) this.viewer.addEventListener(event, this.follow);
+    this.watcher = new ResizeObserver(this.follow);
+    this.watcher.observe(this.viewer.canvas);
+    this.viewer.compare = this;
+    this.use('slider');
+  }
+
+  end() {
+    clearInterval(this.timer);
+    for (const event of ['change', 'open']) this.viewer.removeEventListener(event, this.follow);
+    this.watcher.disconnect();
+    this.element.remove();
+    const { viewer } = this;
+    viewer.compare = null;
+    if (this.other && viewer.picture) viewer.picture.beside = null;
+    this.other?.free();
+    viewer.redraw();
+    viewer.say('change');
+  }
+
+  use(way) {
+    this.way = way;
+    clearInterval(this.timer);
+    if (way === 'blink') this.timer = setInterval(() => this.blink(), BLINK);
+    for (const button of this.element.querySelectorAll('[data-way]')) button.ariaPressed = String(button.dataset.way === way);
+    this.difference.hidden = way !== 'difference';
+    this.place();
+    this.viewer.redraw();
+  }
+
+  blink() {
+    this.isOther = !this.isOther;
+    this.viewer.redraw();
+  }
+
+  // How much of the view is the left picture's.
+  splitNow() {
+    if (this.way === 'slider') return this.split;
+    if (this.way === 'difference') return this.isSecond ? 0 : 1;
+    return this.isOther ? 0 : 1;
+  }
+
+  // --- for the viewer, around each drawing ---
+
+  before(picture) {
+    if (this.other) picture.beside = this.other;
+    this.other?.refresh?.();
+    picture.split = this.splitNow();
+    if (this.way === 'blink') this.mark(picture.split ? 0 : 1);
+  }
+
+  after(now, how, rows) {
+    if (this.way !== 'difference' || this.isSecond) return;
+    const { viewer: { canvas }, difference } = this;
+    const { width, height } = canvas;
+    if (difference.width !== width || difference.height !== height) Object.assign(difference, { width, height });
+    const context = difference.getContext('2d');
+    const [low, count] = rows ?? [0, height];
+    context.save();
+    context.beginPath();
+    context.rect(0, height - low - count, width, count);
+    context.clip();
+    context.drawImage(canvas, 0, 0);
+    this.isSecond = true;
+    this.viewer.paint(now, how, rows);
+    this.isSecond = false;
+    context.globalCompositeOperation = 'difference';
+    context.drawImage(canvas, 0, 0);
+    context.globalCompositeOperation = 'lighter';
+    for (let i = 0; i < 2; i++) context.drawImage(difference, 0, 0);
+    context.restore();
+  }
+
+  // What is on screen where it is not the viewer's own canvas.
+  shown() {
+    return this.way === 'difference' ? this.difference : null;
+  }
+
+  // --- the line ---
+
+  // Which of the names is to be seen.
+  mark(which) {
+    [...this.divider.children].forEach((label, i) => label.classList.toggle('now', i === which));
+  }
+
+  place() {
+    const { divider, viewer: { canvas, state }, split } = this;
+    const halves = modeOf(state.mode).parts(0).length;
+    const isLine = this.way === 'slider';
+    divider.classList.toggle('still', !isLine);
+    divider.tabIndex = isLine ? 0 : -1;
+    divider.style.setProperty('--x', `${((isLine ? split : 0.5) * canvas.clientWidth) / halves}px`);
+    [...divider.children].forEach((label, i) => (label.textContent = this.names[i]));
+    divider.ariaLabel = `${this.names[0]} to the left, ${this.names[1]} to the right`;
+    divider.ariaValueNow = Math.round(100 * split);
+    if (this.way === 'difference') this.mark(-1);
+  }
+
+  moveTo(split) {
+    this.split = clamp(split);
+    this.place();
+    this.viewer.redraw();
+  }
+
+  drag() {
+    const { divider, viewer: { canvas, state } } = this;
+    divider.addEventListener('pointerdown', (event) => divider.setPointerCapture(event.pointerId));
+    divider.addEventListener('pointermove', (event) => {
+      if (!divider.hasPointerCapture(event.pointerId)) return;
+      const box = canvas.getBoundingClientRect();
+      this.moveTo(((event.clientX - box.left) / box.width) * modeOf(state.mode).parts(0).length);
+    });
+    divider.addEventListener('keydown', (event) => {
+      const by = { ArrowLeft: -STEP, ArrowRight: STEP, PageUp: -5 * STEP, PageDown: 5 * STEP, Home: -1, End: 1 }[event.key];
+      if (!by) return;
+      event.preventDefault();
+      this.moveTo(this.split + by);
+    });
+  }
+}
+
+// Puts a picture beside what is shown, until it is closed. Whatever is chosen from then on changes the left one.
+class Pinned extends Compare {
+  constructor(player, other, name, pin) {
+    super(player, () => player.endCompare());
+    Object.assign(this, { other, name, pin });
+    other.changed = () => this.viewer.redraw();
+    this.place();
+  }
+
+  place() {
+    const { viewer, name } = this;
+    if (name) this.names = [nameOf(viewer, viewer.item, viewer.choice), name];
+    super.place();
+    this.keepTime();
+  }
+
+  // Two videos show the same moment.
+  keepTime() {
+    const [ours, theirs] = [this.viewer.picture?.video, this.other?.video];
+    if (!ours || !theirs) return;
+    if (ours.paused !== theirs.paused) ours.paused ? theirs.pause() : theirs.play().catch(() => {});
+    const apart = Math.abs(ours.currentTime - theirs.currentTime);
+    if (apart > (ours.paused ? 0.01 : 0.2) && !theirs.seeking) this.other.seek(ours.currentTime);
+    theirs.muted = true;
+  }
+}
+
+const nameOf = ({ view }, item, choice) => [view.items[item]?.name, ...Object.values(choice).filter((value) => value !== undefined)].join(', ');
+
+// pin: { item, choice }, an item of view.json and how it is opened; what is shown now, without one.
+export async function startCompare(player, pin) {
+  const { viewer } = player;
+  const { item, choice } = pin ?? viewer;
+  const other = await openPicture(viewer.panorama, viewer.view, viewer.view.items[item], { base: viewer.base, choice });
+  return new Pinned(player, other, nameOf(viewer, item, choice), { item, choice });
+}
+
+// Puts what strains the eyes over the picture: the server's answer to `ods comfort` (cli/view/comfort_layer.h). The line
+// begins at the left edge, and takes it away.
+export async function showComfort(player) {
+  const { viewer } = player;
+  const { about, base } = viewer;
+  const at = new URL(about.image ?? about.left, base);
+  const answer = await fetch(new URL('comfort.json', at));
+  if (!answer.ok) throw new Error((await answer.text()).trim().split('\n')[0]);
+  const { camera, level, text } = await answer.json();
+  const [left, right] = ['left', 'right'].map((eye) => new URL(`comfort-${eye}.jpg`, at).href);
+  const other = await openPicture(viewer.panorama, viewer.view, { name: 'Comfort', kind: 'picture', left, right, layout: 'separate', camera }, { base });
+  const compare = new Pinned(player, other, `Comfort: ${level}`, null);
+  compare.moveTo(0);
+  return text;
+}
