@@ -30,24 +30,6 @@ class ViewCommand : public Served {
   std::string picture;
 };
 
-class ViewDepth : public Served {
- protected:
-  void SetUp() override {
-    const std::string picture = folder.path("deep.exr");
-    ASSERT_EQ(run("render toys -q --width 128 --samples 1 --bounces 0 --indirect path -o " + picture), 0) << err;
-    serve({picture});
-  }
-};
-
-// Where eyes strain, to lay over a picture; of one without depth and detail a line says why there is none.
-TEST_F(ViewDepth, ServesTheHeatOfAPicture) {
-  for (const char* eye : {"left", "right"}) {
-    const std::string heat = get(fmt::format("item/0/{}.heat.png", eye));
-    EXPECT_EQ(status_of(heat), 200) << heat.substr(0, 300);
-    EXPECT_NE(heat.find("\x89PNG"), std::string::npos);
-  }
-}
-
 TEST_F(ViewCommand, ServesThePageAndWhatItShows) {
   const std::string page = get("");
   EXPECT_EQ(status_of(page), 200);
