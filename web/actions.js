@@ -97,7 +97,7 @@ export const ACTIONS = [
     viewer.say('change');
     return on ? 'Subtitles' : 'No subtitles';
   } },
-  { id: 'compare', keys: ['x'], label: 'compare with another picture or setting', group: FOLDER, when: isPicture, run: (player) => player.compare() },
+  { id: 'compare', keys: ['x'], label: 'compare with another picture or setting', group: FOLDER, when: (viewer, player) => isPicture(viewer) && !player.isSingle(), run: (player) => player.compare() },
   { id: 'comfort', keys: ['q'], label: 'what strains the eyes', group: FOLDER, when: (viewer) => isPicture(viewer) && viewer.view.live && !isFilm(viewer), run: (player) => player.comfort() },
   { id: 'link', keys: ['u'], label: 'copy a link to this view', group: PAGE, when: (viewer, player) => player.copyLink, run: (player) => player.copyLink() },
   { id: 'fullscreen', keys: ['f'], label: 'full screen', group: PAGE, run: (player) => player.toggleFullscreen() },

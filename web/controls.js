@@ -179,7 +179,7 @@ export class Controls {
     this.label('fov', `${state.fov.toFixed(0)}°`);
     this.press('swap', state.swap);
     this.press('compare', Boolean(this.viewer.compare));
-    this.button('compare').hidden = !picture || Boolean(this.viewer.scene);
+    this.button('compare').hidden = !picture || Boolean(this.viewer.scene) || player.isSingle();
     find('shift-row').hidden = Boolean(picture?.mono);
     if (picture?.video) this.film(picture);
   }
