@@ -45,7 +45,7 @@ const std::map<std::string, std::set<std::string>> kHidden = {
     {"draco/", {"ods/scene/gltf/draco.cpp"}},
     {"meshoptimizer.h", {"ods/scene/gltf/meshopt.cpp"}},
     {"zip.h", {"ods/files/zip_archive.cpp"}},
-    {"openssl/", {"cli/view/certificate.cpp", "cli/http/web_stream.cpp"}},
+    {"openssl/", {"cli/http/certificate.cpp", "cli/http/web_stream.cpp"}},
     {"qrencode.h", {"cli/view/qr_code.cpp"}},
     {"lcms2", {"ods/image/icc_profile.cpp"}},
     {"libavcodec/", kAvFiles},

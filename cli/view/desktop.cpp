@@ -16,7 +16,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "cli/view/certificate.h"
+#include "cli/http/certificate.h"
 #include "ods/files/atomic_file.h"
 #include "ods/files/file_input.h"
 

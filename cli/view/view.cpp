@@ -8,7 +8,7 @@
 
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
-#include "cli/view/certificate.h"
+#include "cli/http/certificate.h"
 #include "cli/view/desktop.h"
 #include "cli/view/export_site.h"
 #include "cli/view/qr_code.h"

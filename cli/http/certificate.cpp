@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/view/certificate.h"
+#include "cli/http/certificate.h"
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
