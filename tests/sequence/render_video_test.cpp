@@ -87,7 +87,8 @@ TEST(RenderVideo, FramesOfOtherSettingsAreNotMixedIn) {
     FAIL() << "was not refused";
   } catch (const Error& error) {
     EXPECT_TRUE(error.kind() == ErrorKind::kUsage);
-    EXPECT_NE(std::string(error.what()).find("samples was 4, now 8; `restart` renders them again"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("samples was 4, now 8; `restart` renders its frames again"),
+              std::string::npos)
         << error.what();
   }
   film.video.restart = true, film.video.keep_frames = false;
