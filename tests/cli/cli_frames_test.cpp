@@ -168,6 +168,7 @@ TEST_F(SharedFrames, TheFrameOfAProcessThatDiedIsTakenOver) {
   while (!std::filesystem::exists(folder.path(".shot.1.png.claim"))) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));  // the test's own time limit ends this
   }
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // the claim is written; the frame takes longer
   first.kill(SIGSTOP);
   Ods second(job("1"));
   second.wait_for("which is being made by process " + std::to_string(first.process()) + " on '");
