@@ -13,8 +13,8 @@
 
 namespace {
 
-constexpr std::chrono::seconds kPatience{5};  // for the next message
-constexpr std::chrono::seconds kSilence{10};  // then a page has gone: pages speak every two seconds
+constexpr std::chrono::seconds kMessagePatience{5};  // for the next message
+constexpr std::chrono::seconds kSilence{10};          // then a page has gone: pages speak every two seconds
 constexpr size_t kMostBytes = size_t{16} << 10;
 constexpr size_t kMostPages = 8;
 
@@ -70,7 +70,7 @@ WebAnswer Share::wait(const std::string& id, uint64_t after) {
     return !messages.empty();
   };
   forget_the_silent();
-  came_.wait_for(lock, kPatience, gather);
+  came_.wait_for(lock, kMessagePatience, gather);
   return {.type = "application/json",
           .body = fmt::format("{{\"number\":{},\"messages\":{{{}}}}}", number_, messages)};
 }
