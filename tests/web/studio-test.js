@@ -70,7 +70,7 @@ export class Server {
 
   send(meta) {
     const none = { width: 0, height: 0 };
-    const camera = { projection: { kind: 0, span: [6.2831854, 3.1415927] }, merge_map: none, head_tilt_map: none, window: meta.window };
+    const camera = { convergence: 0, projection: { kind: 0, span: [6.2831854, 3.1415927] }, merge_map: none, head_tilt_map: none, window: meta.window };
     this.frames.push({ number: this.frames.length + 1, width: 8, height: 4, eyes: 2, samples: 1, part: 'base', camera, ...meta });
     this.waiting.splice(0).forEach((go) => go());
   }
