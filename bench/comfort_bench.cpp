@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <ctime>
 
+#include "ods/base/angles.h"
 #include "ods/comfort/matched.h"
 #include "ods/convert/reproject.h"
 #include "ods/picture/load_eyes.h"
@@ -23,7 +24,6 @@ namespace {
 
 using namespace ods;
 
-constexpr double kMinute = 3.14159265358979 / 180.0 / 60.0;
 constexpr int kWidth = 2048;
 
 // Degrees are what eyes converge by: of each pixel, minutes of arc; NaN: unknown.
@@ -33,7 +33,7 @@ std::vector<double> vergences(const SeenDepth& seen) {
     const double phi = 3.14159265358979 * (0.5 - (y + 0.5) / seen.depth.height);
     for (int x = 0; x < seen.depth.width; x++) {
       const double depth = double{*seen.depth.at(x, y)}, radius = 0.5 * double{seen.camera.ipd};
-      all.push_back(depth > 0.0 ? vergence(std::atan(radius / (depth * std::cos(phi))), phi) / kMinute : NAN);
+      all.push_back(depth > 0.0 ? vergence(std::atan(radius / (depth * std::cos(phi))), phi) / kArcMinute : NAN);
     }
   }
   return all;

@@ -6,17 +6,14 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <condition_variable>
+#include <atomic>
 #include <map>
-#include <mutex>
-#include <nlohmann/json.hpp>
-#include <thread>
 
 #include "bench/measure.h"
-#include "cli/http/http_server.h"
 #include "cli/view/export_site.h"
 #include "ods/view/page.h"
 #include "tests/support/browser.h"
+#include "tests/support/browser_run.h"
 #include "tests/support/stored_pictures.h"
 #include "tests/support/worlds.h"
 
@@ -98,19 +95,9 @@ class Frames {
     std::vector<ViewItem> items = {open_view_item(path, known)};
     items[0].picture.camera = stereo;
     export_site(items, folder.path("site"));
-    WebOptions options;
-    options.secret = "secret";
-    HttpServer server(options, [&](const WebRequest& request) { return answer(request, folder.path("site/")); });
-    std::thread thread([&server] { server.run(); });
-    {
-      const Browser browser(chromium(folder.path("profile")), folder.path("home"),
-                            fmt::format("http://127.0.0.1:{}/secret/bench.html", server.port()));
-      std::unique_lock lock(mutex_);
-      browser_ = browser.pid();
-      changed_.wait_for(lock, std::chrono::minutes(5), [this] { return !end_.empty(); });
-    }
-    server.stop();
-    thread.join();
+    end_ = run_in_browser({chromium(folder.path("profile")), folder.path("home"), "bench.html",
+                           [&](const WebRequest& request) { return answer(request, folder.path("site/")); },
+                           std::chrono::minutes(5), [this](pid_t browser) { browser_ = browser; }});
     if (end_ != "ok") times_.clear();
     return times_;
   }
@@ -135,16 +122,13 @@ class Frames {
 
   WebAnswer answer(const WebRequest& request, const std::string& site) {
     if (request.is_post) {
-      const std::lock_guard lock(mutex_);
       const double now = cpu_seconds_of(browser_);
       if (request.path == "begin") begin_ = now;
-      if (request.path == "done") end_ = request.body;
       if (request.path.starts_with("end/")) {
         const size_t slash = request.path.rfind('/');
         times_[request.path.substr(4, slash - 4)] =
             1000.0 * (now - begin_) / std::atof(request.path.substr(slash + 1).c_str());
       }
-      changed_.notify_all();
       return {};
     }
     if (request.path == "bench.html") {
@@ -156,9 +140,7 @@ class Frames {
     return {.type = std::string(media_type(request.path)), .file = site + request.path};
   }
 
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  pid_t browser_ = -1;
+  std::atomic<pid_t> browser_ = -1;
   double begin_ = 0.0;
   std::map<std::string, double> times_;
 };
@@ -172,7 +154,7 @@ void frame(benchmark::State& state, const std::string& projection, Extent eye, b
   for (auto _ : state) {
     Frames frames;
     const auto times = frames.measure(stereo, eye);
-    if (times.empty()) return state.SkipWithError(frames.end_.empty() ? "it took too long" : frames.end_.c_str());
+    if (times.empty()) return state.SkipWithError(frames.end_.c_str());
     for (const auto& [name, time] : times) state.counters[name + "_ms"] = time;
     state.counters["ratio"] = times.at("moving") / times.at("plain");
   }

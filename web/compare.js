@@ -3,6 +3,7 @@
 //
 // Two pictures at the same look, with a line between them that moves, by turns, or as their difference. The one to the
 // right of the line is `picture.beside` (panorama.js); the studio has its own there, settings B.
+import { clamp } from './geometry.js';
 import { icon } from './icons.js';
 import { modeOf } from './modes.js';
 import { openPicture } from './picture.js';
@@ -10,8 +11,6 @@ import { openPicture } from './picture.js';
 const BLINK = 600; // milliseconds
 const STEP = 0.02; // of the view, by key
 const WAYS = [['slider', 'Slider'], ['blink', 'Blink'], ['difference', 'Difference ×4']];
-
-const clamp = (value) => Math.min(Math.max(value, 0), 1);
 
 export class Compare {
   // end(): somebody closes it.
@@ -132,7 +131,7 @@ export class Compare {
   }
 
   moveTo(split) {
-    this.split = clamp(split);
+    this.split = clamp(split, 0, 1);
     this.place();
     this.viewer.redraw();
   }

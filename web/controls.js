@@ -3,27 +3,18 @@
 //
 // The bar, the settings and the help: what they show follows the viewer, what they are told goes to it.
 import { ACTIONS, applies, keysOf } from './actions.js';
+import { make } from './elements.js';
 import { hasOtherLayouts } from './form.js';
 import { BUTTONS } from './headset.js';
 import { followDevice, hasDevice } from './look.js';
 import { MODES } from './modes.js';
+import { widest } from './viewer.js';
 
 const GAP = 8; // pixels
 const isTouch = () => matchMedia('(pointer: coarse)').matches;
 
-function make(tag, text, ...children) {
-  const element = document.createElement(tag);
-  if (text !== null) element.textContent = text;
-  element.append(...children);
-  return element;
-}
-
 function fill(select, rows) {
-  select.replaceChildren(...rows.map(([value, label]) => {
-    const option = make('option', label);
-    option.value = value;
-    return option;
-  }));
+  select.replaceChildren(...rows.map(([value, label]) => make('option', { value }, label)));
 }
 
 const signed = (value, digits) => `${value < 0 ? '−' : ''}${Math.abs(value).toFixed(digits)}`;
@@ -169,7 +160,7 @@ export class Controls {
     find('look').hidden = !state.grid;
     find('look').textContent = `yaw ${signed(state.yaw, 1)}°  pitch ${signed(state.pitch, 1)}°  fov ${state.fov.toFixed(0)}°`;
     find('mode').value = state.mode;
-    find('fov').max = state.planet ? 330 : 150;
+    find('fov').max = widest(state);
     find('fov').value = state.fov;
     find('grid').checked = state.grid;
     find('planet').checked = state.planet;
@@ -214,9 +205,9 @@ export class Controls {
     const groups = [...new Set(rows.map(({ group }) => group))];
     const first = viewer.scene ? 'Studio' : viewer.picture?.video ? 'Video' : 'Look around';
     groups.sort((a, b) => (b === first) - (a === first));
-    const list = (pairs) => make('dl', null, ...pairs.map(([what, ...does]) => make('div', null, make('dt', what), make('dd', null, ...does))));
-    const keys = (action) => keysOf(action).flatMap((text) => [make('kbd', text), ' ']);
-    const section = (title, pairs) => make('section', null, make('h2', title), list(pairs));
+    const list = (pairs) => make('dl', {}, ...pairs.map(([what, ...does]) => make('div', {}, make('dt', {}, what), make('dd', {}, ...does))));
+    const keys = (action) => keysOf(action).flatMap((text) => [make('kbd', {}, text), ' ']);
+    const section = (title, pairs) => make('section', {}, make('h2', {}, title), list(pairs));
     find('keys').replaceChildren(...groups.map((group) =>
       section(group, rows.filter((row) => row.group === group).map((action) => [action.label, ...keys(action)]))));
     if (navigator.xr) find('keys').append(section('In the headset', BUTTONS.filter(([what]) => Boolean(viewer.scene) || !/studio/.test(what))));

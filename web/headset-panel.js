@@ -4,18 +4,18 @@
 // The panel in the headset, and what points at it: the rays of controllers and hands, the look of those who pinch what
 // they look at, and where nothing else points, the head, which chooses by staying. While the panel is away, a handle low
 // in front opens it. Neither is fixed to the head: the panel stands in the room until the wearer has turned away from it.
+import { radians } from './geometry.js';
 import { TEXT, WIDE, controlsOf, paint } from './headset-controls.js';
 import { Sheets, facing, headingOf, meet, plus, poseOf, sheetAhead, thread } from './headset-room.js';
 import { directionAt } from './places.js';
 
 export const DISTANCE = 1.2; // metres: a headset focuses at about 1.3, so eyes that converge on the panel see it sharply
 const PIXEL = 0.8 / WIDE; // metres
-const degrees = (angle) => (angle * Math.PI) / 180;
-const BELOW = degrees(20); // of the panel's middle: over the ground, which is farther away there
-const HANDLE_BELOW = degrees(50); // out of sight of those who look ahead
+const BELOW = radians(20); // of the panel's middle: over the ground, which is farther away there
+const HANDLE_BELOW = radians(50); // out of sight of those who look ahead
 const HANDLE = [300, 104]; // pixels
-const LOW = degrees(-28); // of a head that looks for the handle
-const LOST = degrees(45); // from the panel, or
+const LOW = radians(-28); // of a head that looks for the handle
+const LOST = radians(45); // from the panel, or
 const LEFT = 0.5; // metres from where it was opened
 const PATIENCE = 1000; // milliseconds until the panel comes after
 const DWELL = 1200; // milliseconds that a look stays to choose
@@ -210,7 +210,7 @@ export class HeadsetPanel {
     const { marker, turn } = this.headset;
     if (marker && index === (marker.eye === 'right' ? 1 : 0)) this.mark = eye;
     if (marker && this.mark) {
-      const spot = sheetAhead(this.mark, degrees(marker.yaw) - turn, -degrees(marker.pitch), MARK, [1, 1]);
+      const spot = sheetAhead(this.mark, radians(marker.yaw) - turn, -radians(marker.pitch), MARK, [1, 1]);
       things.push({ ...facing(spot.at, eye, 0.07), color: [...ACCENT, 0.9], ring: [0.8, 1] });
     }
     return things;

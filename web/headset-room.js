@@ -3,7 +3,8 @@
 //
 // Flat things in the room around the wearer, drawn over the picture. Each eye sees them from where it is, so they are as
 // far away as they are. Metres; a sheet has its middle `at` and its half axes u (right) and v (up).
-export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+import { dot } from './geometry.js';
+
 export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 export const plus = (a, b, times = 1) => a.map((x, i) => x + times * b[i]);
 export const scaled = (a, to) => a.map((x) => (x * to) / Math.hypot(...a)); // to a length

@@ -4,7 +4,8 @@
 // The picture in a headset, by WebXR. Only the orientation of each eye's view counts: every direction shows exactly the
 // line of sight that the picture has there, wherever the head is. The panel (headset-panel.js) comes with the session. The
 // page's canvas shows what the left eye sees.
-import { boxOf, modeOf, wornEye } from './modes.js';
+import { degrees } from './geometry.js';
+import { wornEye } from './modes.js';
 import { raysOf } from './panorama.js';
 import { Pace } from './pace.js';
 
@@ -32,8 +33,6 @@ const MARKED = 4000; // milliseconds that a mark of the desk stays
 export async function hasHeadset() {
   return (await navigator.xr?.isSessionSupported('immersive-vr').catch(() => false)) ?? false;
 }
-
-const degrees = (radians) => (radians * 180) / Math.PI;
 
 // Directions turned to the right about the vertical axis.
 function turned([x, y, z], angle) {
@@ -180,14 +179,15 @@ export class Headset {
   }
 
   drawMirror(now) {
-    const { viewer: { canvas, picture, panorama, state } } = this;
+    const { viewer, viewer: { picture, panorama, state } } = this;
     const { x, y, z } = this.pose.views[0].transform.position;
     panorama.clear();
-    for (const { at, eye, show } of modeOf(state.mode).parts(now)) {
-      const box = boxOf(at, canvas);
-      const rays = (turn) => raysOf({ ...state, yaw: state.yaw - degrees(turn) }, box[2] / box[3]);
-      if (picture) panorama.draw(picture, { rays: rays(0), box, eye, show, swap: state.swap, grid: state.grid, planet: state.planet, moves: true });
-      if (!state.planet) this.panel?.draw({ rays: rays(this.turn), eye: [x, y, z], index: 0, box, target: null });
+    for (const options of viewer.parts(now)) {
+      const { box } = options;
+      if (picture) panorama.draw(picture, { ...options, shift: 0, moves: true });
+      if (state.planet) continue;
+      const rays = raysOf({ ...state, yaw: state.yaw - degrees(this.turn) }, box[2] / box[3]);
+      this.panel?.draw({ rays, eye: [x, y, z], index: 0, box, target: null });
     }
   }
 

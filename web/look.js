@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Mouse, touch, wheel and the device's own orientation turn the viewer's look.
+import { degrees, radians } from './geometry.js';
 import { fovOf, halfWidth } from './panorama.js';
 
-const radians = (angle) => (angle * Math.PI) / 180;
-const degrees = (angle) => (angle * 180) / Math.PI;
 
 // Dragging takes the picture along: what is in the middle of the view follows the pointer exactly.
 // hasWheel(): whether the wheel is the picture's now, and not the page's around it.

@@ -3,6 +3,7 @@
 //
 // The merge as a curve: how much of the eye distance is left from straight down to straight up. Its ends can be dragged.
 // The formula is the kernel's, run on the GPU by merge-curve.frag.
+import { radians } from './geometry.js';
 import { compile } from './panorama.js';
 
 // The kernel's numbers of the merges (ods/kernel/camera/merge.h), in order.
@@ -14,7 +15,6 @@ const SVG = 'http://www.w3.org/2000/svg';
 
 const xOf = (elevation) => BOX[0] + ((elevation + 90) / 180) * (BOX[1] - BOX[0]);
 const yOf = (left) => BOX[3] - left * (BOX[3] - BOX[2]);
-const radians = (angle) => (angle * Math.PI) / 180;
 
 // Fractions for -90 .. 90 degrees, of two merges of a sidecar.
 class Formula {

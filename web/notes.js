@@ -3,13 +3,8 @@
 //
 // What somebody says of a picture: its caption, and hotspots, each a button where a direction is, with a card of text.
 // view.json has them as { caption, hotspots: [{ yaw, pitch, title, text }] } (docs/view.md). They are text, never HTML.
+import { make } from './elements.js';
 import { partsOf, placeOf } from './places.js';
-
-function make(tag, properties, ...children) {
-  const element = Object.assign(document.createElement(tag), properties);
-  element.append(...children);
-  return element;
-}
 
 export function showNotes(viewer) {
   const caption = make('p', { id: 'caption' });

@@ -3,6 +3,8 @@
 //
 // Draws stereo panoramas with WebGL 2. panorama.glsl finds the texels with the formulas of the renderer itself; this
 // file makes a program of it for each projection, sets its uniforms and knows no formula.
+import { radians } from './geometry.js';
+
 const TOE_IN = 1; // of the kernel's convergences: the only one whose lines of sight are not linear across the view
 const CELLS = 32; // of the mesh for those, each way
 const VERTICES = `#version 300 es
@@ -53,7 +55,7 @@ export const compile = (gl, fragment) => finish(gl, begin(gl, fragment, VERTICES
 // The columns of a matrix that turns a place on the screen (-1..1) into a direction. yaw to the right, pitch up, roll
 // clockwise, in degrees; fov: the horizontal angle of view; aspect: width over height. planet: the view is stereographic.
 export function raysOf({ yaw = 0, pitch = 0, roll = 0, fov = 90, planet = false }, aspect) {
-  const [y, p, r] = [yaw, pitch, roll].map((angle) => (angle * Math.PI) / 180);
+  const [y, p, r] = [yaw, pitch, roll].map(radians);
   const [sy, cy, sp, cp, sr, cr] = [Math.sin(y), Math.cos(y), Math.sin(p), Math.cos(p), Math.sin(r), Math.cos(r)];
   const right = [cy, 0, sy];
   const up = [-sy * sp, cp, cy * sp];

@@ -3,11 +3,10 @@
 //
 // Where on the page a direction is, and which direction a place of the page shows. Places are CSS pixels from the
 // canvas's upper left corner, directions have yaw and pitch in degrees.
+import { degrees, dot } from './geometry.js';
 import { boxOf, modeOf } from './modes.js';
 import { bendOf, raysOf } from './panorama.js';
 
-const degrees = (radians) => (radians * 180) / Math.PI;
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const columns = (rays) => [rays.slice(0, 3), rays.slice(3, 6), rays.slice(6, 9)];
 
 // The parts of the view, each with its eye and its box: left, top, width, height.

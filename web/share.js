@@ -4,6 +4,7 @@
 // What the pages of one server have in common while somebody wears a headset: what is shown and how. The desk sees what
 // the wearer sees, the wearer where the desk points. Each page tells the others all it knows, and of each thing the latest
 // change counts, whoever made it; so no message is missed for long.
+import { wrapDegrees } from './geometry.js';
 import { directionAt } from './places.js';
 
 const TICK = 100; // milliseconds
@@ -168,7 +169,7 @@ export class Share {
   // Smoothly, as looks come ten times a second.
   move() {
     const { viewer, wanted } = this;
-    const by = (name) => ((wanted[name] - viewer.state[name] + 540) % 360) - 180;
+    const by = (name) => wrapDegrees(wanted[name] - viewer.state[name]);
     const rest = ['yaw', 'pitch', 'roll'].map((name) => [name, by(name)]);
     this.moving = this.follows && !viewer.session && rest.some(([, angle]) => Math.abs(angle) > 0.02);
     if (!this.moving) return;

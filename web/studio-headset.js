@@ -3,6 +3,7 @@
 //
 // The studio in the headset: the stick moves where the merge starts and ends, the trigger swaps A and B, and a line of
 // text in view says so. headset.js calls it.
+import { dot, wrapDegrees } from './geometry.js';
 import { EyeTexture } from './tiles.js';
 
 const DEAD = 0.25; // of the stick's way
@@ -13,7 +14,6 @@ const WIDE = 0.5; // radians
 const BELOW = -0.26;
 
 const halves = (degrees) => Math.round(degrees * 2) / 2;
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const axes = (m) => [m.slice(0, 3), m.slice(4, 7), m.slice(8, 11)];
 
 export class VrSteering {
@@ -84,7 +84,7 @@ export class VrSteering {
 
   // Where the head looks, for what is refined first.
   head({ yaw, pitch }) {
-    this.studio.headLook = { yaw: ((yaw + 540) % 360) - 180, pitch, fov: 100, aspect: 1 };
+    this.studio.headLook = { yaw: wrapDegrees(yaw), pitch, fov: 100, aspect: 1 };
     this.studio.watchLook();
   }
 

@@ -3,19 +3,10 @@
 //
 // Controls of the studio's panel, each a row with its label, its value and a button back to the default. A number is
 // typed, dragged at its label, or moved with the arrow keys (Shift: finely, Ctrl: coarsely).
+import { make } from './elements.js';
+import { clamp } from './geometry.js';
 import { icon } from './icons.js';
 
-export function make(tag, properties = {}, ...children) {
-  const element = document.createElement(tag);
-  for (const [name, value] of Object.entries(properties)) {
-    if (name.includes('-') || name === 'for' || name === 'role') element.setAttribute(name, value);
-    else element[name] = value;
-  }
-  element.append(...children);
-  return element;
-}
-
-const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
 const pace = (event) => (event.shiftKey ? 0.1 : event.ctrlKey || event.metaKey ? 10 : 1);
 let count = 0;
 

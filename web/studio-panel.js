@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The studio's panel: the rows of studio-fields.js, which follow the session and change it, and the merge's curve.
+import { make } from './elements.js';
 import { icon } from './icons.js';
 import { MergeCurve } from './merge-curve.js';
 import { groupsOf, limitsOf, readValue } from './studio-fields.js';
-import { choiceRow, make, numberRow } from './studio-number.js';
+import { choiceRow, numberRow } from './studio-number.js';
 import { ask } from './studio-session.js';
 
 const LENGTHS = { longitude: 2, latitude: 2, sensor: 2, polynomial: 5, axis: 3 };

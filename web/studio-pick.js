@@ -4,7 +4,7 @@
 // A click on the picture says what is there: its distance, its disparity and where each eye's picture has it.
 import { icon } from './icons.js';
 import { directionAt, partsOf, placeOf } from './places.js';
-import { make } from './studio-number.js';
+import { make } from './elements.js';
 import { ask } from './studio-session.js';
 
 const NEAR = 5; // pixels that a click may move

@@ -4,7 +4,7 @@
 // The foot of the studio's panel: the command that makes this picture, rendering it, and keeping the camera.
 import { copyText } from './copy.js';
 import { icon } from './icons.js';
-import { make } from './studio-number.js';
+import { make } from './elements.js';
 import { ENDED, ask, sleep } from './studio-session.js';
 
 const POLL = 300; // milliseconds

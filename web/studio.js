@@ -10,7 +10,7 @@ import { icon } from './icons.js';
 import { modeOf } from './modes.js';
 import { VrSteering } from './studio-headset.js';
 import { Live } from './studio-live.js';
-import { make } from './studio-number.js';
+import { make } from './elements.js';
 import { Panel } from './studio-panel.js';
 import { pickWithClicks } from './studio-pick.js';
 import { RenderFoot } from './studio-render.js';

@@ -4,6 +4,7 @@
 // A canvas that shows an item of view.json: what is open, where the viewer looks, what is drawn and when. Knows no
 // controls. Events: `change` (the state, or the video's), `loading` (detail: 0..1, null at the end), `open`, `failed`
 // (detail: one line for people).
+import { clamp, radians, wrapDegrees } from './geometry.js';
 import { boxOf, modeOf } from './modes.js';
 import { Pace } from './pace.js';
 import { Panorama, raysOf } from './panorama.js';
@@ -12,8 +13,8 @@ import { openPicture } from './picture.js';
 const REST = 150; // milliseconds without movement until the view is drawn exactly
 const KEEP = 64e6; // texels: a smaller picture stays on screen until the next one is there
 
-export const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
-export const wrapDegrees = (angle) => angle - 360 * Math.floor((angle + 180) / 360);
+// The widest field of view.
+export const widest = ({ planet }) => (planet ? 330 : 150);
 
 export class Viewer extends EventTarget {
   // base: the address that view.json's addresses are relative to.
@@ -72,7 +73,7 @@ export class Viewer extends EventTarget {
     const { state } = this;
     state.yaw = wrapDegrees(state.yaw);
     state.pitch = clamp(state.pitch, -90, 90);
-    state.fov = clamp(state.fov, 5, state.planet ? 330 : 150);
+    state.fov = clamp(state.fov, 5, widest(state));
     state.shift = clamp(state.shift, -5, 5);
     this.redraw();
     this.say('change');
@@ -122,7 +123,7 @@ export class Viewer extends EventTarget {
   // What panorama.draw() is told of each part of the view; all are as high as the canvas.
   parts(now) {
     const { canvas, state } = this;
-    const shift = (state.shift * Math.PI) / 360; // half of it for each eye
+    const shift = radians(state.shift) / 2; // for each eye
     return modeOf(state.mode).parts(now).map(({ at, eye, show }) => {
       const box = boxOf(at, canvas);
       return { rays: raysOf(state, box[2] / box[3]), box, eye, show, swap: state.swap, grid: state.grid, planet: state.planet, shift };

@@ -9,7 +9,6 @@
 
 #include "ods/base/base64.h"
 #include "ods/base/quote.h"
-#include "ods/files/file_input.h"
 #include "ods/image/image_file.h"
 #include "ods/image/tone.h"
 
@@ -54,22 +53,19 @@ table { border-collapse: collapse; } td { padding: .15rem 1rem .15rem 0; vertica
 
 // As a JPEG that exists only for a moment, beside the page.
 std::string data_uri(const ods::Image& light, const std::string& path) {
-  ods::AtomicFile file(path);
   ods::FileHeader header;
   header.format = ods::FileFormat::kJpeg;
   header.width = light.width, header.height = light.height;
   header.channels = {{"R"}, {"G"}, {"B"}};
   header.quality = 85;
-  ods::write_image(file, header, [&](int y, std::span<float> row) {
+  const std::string bytes = ods::image_bytes(path, header, [&](int y, std::span<float> row) {
     for (int x = 0; x < light.width; x++) {
       const float* pixel = light.at(x, y);
       const ods::vec3 shown = ods::tone_map(ods::vec3(pixel[0], pixel[1], pixel[2]), 0.0f, ods::ToneCurve::kNeutral);
       for (int c = 0; c < 3; c++) row[static_cast<size_t>(3 * x + c)] = ods::srgb_encode(shown[c]);
     }
   });
-  file.finish();
-  const ods::FileInput bytes(file.temporary());
-  return "data:image/jpeg;base64," + ods::encode_base64(bytes.read(0, bytes.size()));
+  return "data:image/jpeg;base64," + ods::encode_base64(bytes);
 }
 
 std::string picture_html(const ods::Image& light, const std::string& words, const std::string& path) {

@@ -8,8 +8,6 @@
 
 #include "cli/console/console.h"
 #include "ods/base/median.h"
-#include "ods/files/atomic_file.h"
-#include "ods/files/file_input.h"
 #include "ods/files/private_folder.h"
 #include "ods/image/image_file.h"
 #include "ods/image/tone.h"
@@ -68,11 +66,10 @@ void save_heat(const std::string& path, const Looked& looked, const std::vector<
 
 std::string heat_png(const ods::ComfortReport& report) {
   const ods::PrivateFolder folder((std::filesystem::temp_directory_path() / "ods-heat-").native());
-  ods::AtomicFile file(folder.path() + "/heat.png");  // image libraries want a file
   ods::FileHeader header;
   header.width = report.level.width, header.height = report.level.height;
   header.channels = {{"R"}, {"G"}, {"B"}, {"A"}};
-  ods::write_image(file, header, [&](int y, std::span<float> row) {
+  return ods::image_bytes(folder.path() + "/heat.png", header, [&](int y, std::span<float> row) {
     for (int x = 0; x < report.level.width; x++) {
       const auto level = static_cast<size_t>(*report.level.at(x, y));
       float* pixel = &row[static_cast<size_t>(4 * x)];
@@ -80,7 +77,4 @@ std::string heat_png(const ods::ComfortReport& report) {
       pixel[3] = level == 0 ? 0.0f : kHot;
     }
   });
-  file.finish();
-  const ods::FileInput bytes(file.temporary());
-  return bytes.read(0, bytes.size());
 }

@@ -150,7 +150,7 @@ void check_depth(const ods::SeenDepth& seen, const std::string& name) {
   bool has_any = false, has_surface = false;
   for (float& depth : nearness.pixels) {
     has_any = has_any || depth > 0.0f, has_surface = has_surface || ods::is_surface(depth);
-    depth = ods::is_surface(depth) ? 1.0f / depth : 0.0f;
+    depth = ods::inverse_depth(depth);
   }
   if (!has_any) {
     throw ods::Error(

@@ -35,14 +35,14 @@ void write_pictures(const ViewItem& item, size_t index, std::vector<std::string>
   const ods::StoredPicture picture = ods::open_picture(item.path, options);
   const size_t eyes = files.size();
   if (has_light(item)) {
-    const std::string light = std::filesystem::path(files[0]).replace_filename("light.png").string();
+    const std::string light = ods::item_file(index, ods::kLightFile);
     ods::write_file(folder + "/" + light, light_png(picture));
     files.push_back(light);
   }
   for (size_t i = 0; i < eyes && !item.has_own_file; i++) {
     ods::write_file(folder + "/" + files[i], eye_jpeg(picture, picture.eyes[i].eye, {}));
   }
-  ods::write_file(folder + "/" + ods::poster_file(index), poster_jpeg(picture));
+  ods::write_file(folder + "/" + ods::item_file(index, ods::kPosterFile), poster_jpeg(picture));
 }
 
 // For pages from disk.
@@ -76,12 +76,11 @@ std::string export_site(const std::vector<ViewItem>& items, const std::string& f
   write_page(folder, view);
   for (size_t i = 0; i < items.size(); i++) {
     std::vector<std::string> files = item_files(items[i], i);
-    const std::string beside = std::filesystem::path(files[0]).parent_path().string();
     if (items[i].has_own_file) copy_file(items[i].path, folder + "/" + files[0]);
     if (!items[i].is_video) write_pictures(items[i], i, files, folder);
-    ods::write_file(folder + "/" + beside + "/thumbnail.jpg", thumbnail_jpeg(items[i]));
+    ods::write_file(folder + "/" + ods::item_file(i, ods::kThumbnailFile), thumbnail_jpeg(items[i]));
     if (has_preview(items[i], false)) {
-      files.push_back(beside + "/preview.jpg");
+      files.push_back(ods::item_file(i, ods::kPreviewFile));
       ods::write_file(folder + "/" + files.back(), preview_jpeg(items[i]));
     }
     for (const std::string& file : files) write_script_beside(folder + "/" + file);

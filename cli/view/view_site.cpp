@@ -118,22 +118,22 @@ WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
   if (item.has_own_file && path == item_files(item, *number)[0]) {
     return {.type = std::string(ods::media_type(path)), .file = item.path};
   }
-  for (const auto make : {ods::preview_jpeg, ods::thumbnail_jpeg}) {
-    const bool is_preview = make == ods::preview_jpeg;
-    if (path != fmt::format("item/{}/{}.jpg", *number, is_preview ? "preview" : "thumbnail")) continue;
-    if (is_preview && !ods::has_preview(item, true)) return nothing_there();
-    return {.type = std::string(ods::media_type(path)), .body = kept_jpeg(path, item, make)};
+  if (path == ods::item_file(*number, ods::kPreviewFile) && has_preview(item, true)) {
+    return {.type = std::string(ods::media_type(path)), .body = kept_jpeg(path, item, ods::preview_jpeg)};
+  }
+  if (path == ods::item_file(*number, ods::kThumbnailFile)) {
+    return {.type = std::string(ods::media_type(path)), .body = kept_jpeg(path, item, ods::thumbnail_jpeg)};
   }
   if (item.is_video) return nothing_there();
   if (path.ends_with("/comfort.json") || path.ends_with("/comfort-left.jpg") || path.ends_with("/comfort-right.jpg")) {
     return comfort(item, path);
   }
-  if (ods::has_light(item) && path == fmt::format("item/{}/light.png", *number)) {
+  if (ods::has_light(item) && path == ods::item_file(*number, ods::kLightFile)) {
     const std::lock_guard<std::mutex> lock(one_at_a_time_);
     return {.type = std::string(ods::media_type(path)), .body = light_png(*open(item, request))};
   }
   for (const int eye : {ods::kLeft, ods::kRight, ods::kMono}) {
-    if (path != fmt::format("item/{}/{}.jpg", *number, ods::eye_name(eye))) continue;
+    if (path != ods::item_file(*number, fmt::format("{}.jpg", ods::eye_name(eye)))) continue;
     const std::lock_guard<std::mutex> lock(one_at_a_time_);
     return {.type = std::string(ods::media_type(path)),
             .body = eye_jpeg(*open(item, request), eye, read_eye_options(request))};

@@ -23,14 +23,9 @@ static float depth_at(const LayerPixels& layer, int x, int y) {
   return depth;
 }
 
-// Depths are compared as 1/metres: nearly linear over the picture of a plane, and 0 where the ray hit nothing.
-static float nearness_of(float depth) {
-  return is_surface(depth) ? 1.0f / depth : 0.0f;
-}
-
 static float nearness_at(const Reprojection& reprojection, const Texel& texel) {
   const StoredEye& eye = reprojection.source->picture->eyes[static_cast<size_t>(texel.source_eye)];
-  return nearness_of(depth_at(eye.layers[reprojection.layer], texel.x, texel.y));
+  return inverse_depth(depth_at(eye.layers[reprojection.layer], texel.x, texel.y));
 }
 
 std::optional<size_t> depth_layer(const StoredPicture& picture) {
@@ -63,7 +58,7 @@ void read_nearness(const Reprojection& reprojection, int source_eye, int y, floa
   } else {
     for (int x = 0; x < picture.size.width; x++) out[x] = depth_at(layer, x, y);
   }
-  for (int x = 0; x < picture.size.width; x++) out[x] = nearness_of(out[x]);
+  for (int x = 0; x < picture.size.width; x++) out[x] = inverse_depth(out[x]);
 }
 
 Reprojection make_reprojection(const Source& source) {
@@ -81,7 +76,7 @@ Reprojection make_reprojection(const Source& source) {
       int64_t invalid = 0;
       for (int x = 0; x < picture.size.width; x++) {
         const float depth = depth_at(layer, x, y);
-        nearest = std::max(nearest, nearness_of(depth));
+        nearest = std::max(nearest, inverse_depth(depth));
         invalid += !(depth > 0.0f);
       }
       most[static_cast<size_t>(y)] = nearest;

@@ -19,9 +19,10 @@ namespace ods {
 namespace {
 
 constexpr double kHighest = 78.0 * kDegree;
-constexpr double kOutwards = 2.0 * kDegree, kInwards = 20.0 * kDegree;  // how far is searched
-constexpr int kAcross = 4, kDown = 3;                                   // of the transform's window, to either side
-constexpr int kUnseen = 24;                                             // the cost of what one eye does not show, of 62
+// How far is searched.
+constexpr double kOutwards = 2.0 * kDegree, kInwards = 20.0 * kDegree;
+constexpr int kAcross = 4, kDown = 3;  // of the transform's window, to either side
+constexpr int kUnseen = 24;            // the cost of what one eye does not show, of 62
 constexpr int kSlope = 8;              // the cost of a step of one pixel to a neighbour
 constexpr int kJump = 90, kEdge = 30;  // the cost of a larger one; where the picture has an edge
 constexpr float kDetail = 0.03f;       // the least difference in a row of the window, of 0..1

@@ -97,7 +97,7 @@ static void set_fov(std::vector<FisheyeLens>& lenses, float fov) {
   for (FisheyeLens& lens : lenses) lens.fov = fov;
 }
 
-// One number after the other, in ever reduced steps.
+// One number after the other, in ever smaller steps.
 static float refine(const Halves& halves, std::vector<FisheyeLens>& lenses) {
   float best = alikeness(halves, lenses);
   using Change = void (*)(std::vector<FisheyeLens>&, float);

@@ -105,4 +105,8 @@ using RowSource = std::function<void(int y, std::span<float> row)>;
 void write_image(AtomicFile& file, const FileHeader& header, const RowSource& rows,
                  const std::function<void()>& band_done = {});
 
+// The bytes of such a file. Image libraries want a file: there is one beside `path` for a moment, and none of that
+// name. Throws as write_image().
+std::string image_bytes(const std::string& path, const FileHeader& header, const RowSource& rows);
+
 }  // namespace ods

@@ -26,21 +26,29 @@ class ColorReader {
   // Passes each pixel of a row to `put`.
   template <class Put>
   void read(int y, Put put) const {
-    const size_t step = bytes_of(layer_.sample);
-    const std::byte* in = layer_.first + y * layer_.row_stride;
-    for (int x = 0; x < width_; x++, in += layer_.pixel_stride) {
-      vec3 rgb;
-      for (int c = 0; c < 3; c++) {
-        const std::byte* at = in + static_cast<size_t>(c) * step;
-        uint16_t code = 0;
-        if (!is_float_) std::memcpy(&code, at, step);
-        rgb[c] = is_float_ ? sample_value(layer_.sample, at) : light_[code];
-      }
-      put(x, rgb);
+    if (is_float_) {
+      read_samples(y, put, [&](const std::byte* at) { return sample_value(layer_.sample, at); });
+    } else if (layer_.sample == SampleType::kUint8) {
+      read_samples(y, put, [&](const std::byte* at) { return light_[std::to_integer<uint8_t>(*at)]; });
+    } else {
+      read_samples(y, put, [&](const std::byte* at) {
+        uint16_t code;
+        std::memcpy(&code, at, sizeof code);
+        return light_[code];
+      });
     }
   }
 
  private:
+  template <class Put, class Light>
+  void read_samples(int y, Put put, Light light) const {
+    const size_t step = bytes_of(layer_.sample);
+    const std::byte* in = layer_.first + y * layer_.row_stride;
+    for (int x = 0; x < width_; x++, in += layer_.pixel_stride) {
+      put(x, vec3(light(in), light(in + step), light(in + 2 * step)));
+    }
+  }
+
   const LayerPixels& layer_;
   int width_;
   bool is_float_;

@@ -26,6 +26,11 @@ inline bool is_surface(float depth) {
   return depth > 0.0f && depth < 0.1f * kFarDepth;
 }
 
+// 1 / metres: nearly linear over the picture of a plane, and 0 where there is no surface.
+inline float inverse_depth(float depth) {
+  return is_surface(depth) ? 1.0f / depth : 0.0f;
+}
+
 // Whether neighbours are on one surface, not on a thing and its background. Both as 1 / metres, 0 where there is none.
 inline bool is_one_surface(float a, float b) {
   return std::abs(a - b) <= 0.1f * std::max(a, b);

@@ -21,7 +21,6 @@ namespace {
 const std::regex kImport(R"(import \{([^}]*)\} from '\./([\w.-]+)';)");
 const std::regex kLazyImport(R"(import\('\./([\w.-]+)'\))");
 const std::regex kExport(R"((^|\n)export ((?:async )?(?:class|function|const|let) )(\w+))");
-const std::regex kComment(R"(\n *//[^\n]*)");
 
 std::vector<std::string> names_in(const std::string& text, const std::regex& pattern, size_t group) {
   std::vector<std::string> names;
@@ -33,9 +32,8 @@ std::vector<std::string> names_in(const std::string& text, const std::regex& pat
 
 // A module as a function that returns what it exports.
 std::string wrapped(const std::string& name, const std::string& module) {
-  std::string text = std::regex_replace("\n" + module, kComment, "");
-  const std::vector<std::string> exported = names_in(text, kExport, 3);
-  text = std::regex_replace(text, kExport, "$1$2$3");
+  const std::vector<std::string> exported = names_in(module, kExport, 3);
+  const std::string text = std::regex_replace("\n" + module, kExport, "$1$2$3");
   std::string whole;
   auto rest = text.cbegin();
   for (std::sregex_iterator each(text.begin(), text.end(), kImport), end; each != end; ++each) {
@@ -74,10 +72,9 @@ std::string bundle(const std::string& entry, std::map<std::string, std::string> 
   for (const char* const name : {"panorama.glsl", "player.css"}) {
     if (modules.find(name) != std::string::npos) files[name] = find_page_file(name)->data;
   }
-  const std::string beginning(find_page_file("bundle.js")->data);
   return fmt::format("// Made by ods view from its modules.\n(() => {{\n'use strict';\nconst $files = {};{}{}}})();\n",
                      Json(files).dump(-1, ' ', true, Json::error_handler_t::replace),
-                     std::regex_replace("\n" + beginning, kComment, ""), modules);
+                     "\n" + std::string(find_page_file("bundle.js")->data), modules);
 }
 
 std::string script_of_file(std::string_view name, std::string_view bytes) {

@@ -13,7 +13,8 @@ namespace ods {
 // needs_server() is left out.
 std::string bundle(const std::string& entry, std::map<std::string, std::string> files);
 
-// What lies beside a file, as FILE.js, so that a page from disk gets it: its bytes in base64, 4/3 as large.
+// The script FILE.js that an export writes beside FILE: it holds the file's bytes in base64, 4/3 of their size. A page
+// that is opened from disk loads it, because browsers let such a page read no file.
 std::string script_of_file(std::string_view name, std::string_view bytes);
 
 // Only a server has what these files need.

@@ -9,7 +9,6 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "ods/base/error.h"
@@ -75,13 +74,17 @@ ViewItem open_view_item(const std::string& path, const FormatHint& known) {
   return item;
 }
 
+std::string item_file(size_t index, std::string_view name) {
+  return fmt::format("item/{}/{}", index, name);
+}
+
 std::vector<std::string> item_files(const ViewItem& item, size_t index) {
   if (item.has_own_file) {
-    return {fmt::format("item/{}/picture{}", index, std::filesystem::path(item.path).extension().string())};
+    return {item_file(index, "picture" + std::filesystem::path(item.path).extension().string())};
   }
   std::vector<std::string> files;
   for (const StoredEye& eye : item.picture.eyes) {
-    files.push_back(fmt::format("item/{}/{}.jpg", index, eye_name(eye.eye)));
+    files.push_back(item_file(index, fmt::format("{}.jpg", eye_name(eye.eye))));
   }
   return files;
 }
@@ -147,8 +150,8 @@ static Json item_json(const ViewItem& item, size_t index, bool is_live) {
     json["left"] = files.front();
     json["right"] = files.back();
   }
-  json["thumbnail"] = fmt::format("item/{}/thumbnail.jpg", index);
-  if (has_preview(item, is_live)) json["preview"] = fmt::format("item/{}/preview.jpg", index);
+  json["thumbnail"] = item_file(index, kThumbnailFile);
+  if (has_preview(item, is_live)) json["preview"] = item_file(index, kPreviewFile);
   json["layout"] = is_mono ? "mono" : layout_name(item.picture.layout);
   json["layout_reason"] = item.picture.layout_reason;
   json["projection"] = projection_name(item.picture.camera.projection);
@@ -157,7 +160,7 @@ static Json item_json(const ViewItem& item, size_t index, bool is_live) {
   json["notes"] = item.picture.guesses;
   json["live"] = item.is_light;
   if (has_light(item)) {
-    json["light"] = fmt::format("item/{}/light.png", index);
+    json["light"] = item_file(index, kLightFile);
     json["light_layout"] = is_mono ? "mono" : layout_name(light_layout(item.picture));
   }
   if (item.is_light) json["exposure"] = 0, json["tone"] = tone_curve_name(ToneCurve::kNeutral);
@@ -166,7 +169,7 @@ static Json item_json(const ViewItem& item, size_t index, bool is_live) {
     json["hotspots"].push_back({{"yaw", spot.yaw}, {"pitch", spot.pitch}, {"title", spot.title}, {"text", spot.text}});
   }
   if (!item.is_video) {
-    if (!is_live) json["poster"] = poster_file(index);
+    if (!is_live) json["poster"] = item_file(index, kPosterFile);
     return json;
   }
   json["video"] = {{"fps", item.fps}};
@@ -183,26 +186,18 @@ std::string view_json(std::span<const ViewItem> items, bool is_live, const Json&
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-// What `write` writes. Image libraries want a file. It is removed at once, by us or by whoever ends the process.
-static std::string bytes_of(const std::string& extension, const std::function<void(const std::string& path)>& write) {
+// For a file that exists for a moment, because image libraries want one. It is removed at once, by us or by whoever
+// ends the process.
+static std::string momentary_path(const char* extension) {
   static std::atomic<int> made{0};
-  const std::filesystem::path folder = std::filesystem::temp_directory_path();
-  const std::string path = (folder / fmt::format("ods-view-{}-{}{}", getpid(), made++, extension)).string();
-  write(path);
-  const FileInput file(path);
-  std::string bytes = file.read(0, file.size());
-  std::filesystem::remove(path);
-  return bytes;
+  return (std::filesystem::temp_directory_path() / fmt::format("ods-view-{}-{}{}", getpid(), made++, extension))
+      .string();
 }
 
 static std::string file_of(FileHeader header, Extent size, const RowSource& rows) {
   header.width = size.width, header.height = size.height;
   header.channels = {{"R"}, {"G"}, {"B"}};
-  return bytes_of(header.format == FileFormat::kPng ? ".png" : ".jpg", [&](const std::string& path) {
-    AtomicFile file(path);
-    write_image(file, header, rows);
-    file.commit();
-  });
+  return image_bytes(momentary_path(header.format == FileFormat::kPng ? ".png" : ".jpg"), header, rows);
 }
 
 static std::string jpeg_of(const StoredPicture& picture, const ConvertTarget& target, const EyeOptions& options) {
@@ -210,7 +205,12 @@ static std::string jpeg_of(const StoredPicture& picture, const ConvertTarget& ta
   save.tone = picture.is_float ? options.tone : ToneCurve::kLinear;
   save.exposure = picture.is_float ? options.exposure : 0.0f;
   const Conversion conversion = convert(picture, target);
-  return bytes_of(".jpg", [&](const std::string& path) { save_picture(conversion.rows, nullptr, save, path); });
+  const std::string path = momentary_path(".jpg");
+  save_picture(conversion.rows, nullptr, save, path);
+  const FileInput file(path);
+  std::string bytes = file.read(0, file.size());
+  std::filesystem::remove(path);
+  return bytes;
 }
 
 // Means of the file's code values over whole pixels; `part`: 0..1 of the file, x, y, width, height.
@@ -315,10 +315,6 @@ std::string eye_jpeg(const StoredPicture& picture, int eye, const EyeOptions& op
     target.eye.width = options.most_wide;
   }
   return jpeg_of(picture, target, options);
-}
-
-std::string poster_file(size_t index) {
-  return fmt::format("item/{}/poster.jpg", index);
 }
 
 std::string poster_jpeg(const StoredPicture& picture) {

@@ -38,8 +38,12 @@ ViewItem open_view_item(const std::string& path, const FormatHint& known = {});
 // is_live: eyes are sent by a server, which can develop them again. studio: of the studio, or null.
 std::string view_json(std::span<const ViewItem> items, bool is_live, const Json& studio);
 
-// The names under which view.json refers to an item's files, relative to itself: item/0/picture.png, or item/0/left.jpg
-// and item/0/right.jpg.
+// The name under which view.json refers to a file of an item, relative to itself: item/0/NAME.
+std::string item_file(size_t index, std::string_view name);
+inline constexpr std::string_view kPreviewFile = "preview.jpg", kThumbnailFile = "thumbnail.jpg",
+                                  kLightFile = "light.png", kPosterFile = "poster.jpg";
+
+// Likewise the names of what an item shows: item/0/picture.png, or item/0/left.jpg and item/0/right.jpg.
 std::vector<std::string> item_files(const ViewItem& item, size_t index);
 
 constexpr int kPreviewWidth = 1024, kThumbnailWidth = 256;  // pixels of an eye, up to twice as many
@@ -70,6 +74,5 @@ std::string eye_jpeg(const StoredPicture& picture, int eye, const EyeOptions& op
 
 // What one eye sees straight ahead, 960 pixels wide, as a JPEG: for pages until the picture is there.
 std::string poster_jpeg(const StoredPicture& picture);
-std::string poster_file(size_t index);  // its name
 
 }  // namespace ods

@@ -6,18 +6,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <condition_variable>
-#include <mutex>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "cli/view/view_site.h"
 #include "ods/base/error.h"
 #include "ods/comfort/strain.h"
-#include "ods/files/file_input.h"
-#include "ods/image/compare.h"
 #include "ods/view/page.h"
 #include "tests/support/browser.h"
+#include "tests/support/browser_run.h"
 #include "tests/support/cli_runner.h"
 #include "tests/support/picture_rows.h"
 
@@ -48,70 +44,17 @@ class HeadsetBrowser : public Cli {
   // Lets the browser run a part of the test; returns what it said at the end.
   std::string run_part(const std::string& part, const std::optional<SceneSource>& scene = {}) {
     ViewSite site(items, scene);
-    WebOptions options;
-    options.secret = "secret";
-    options.most_body = size_t{16} << 20;
-    HttpServer server(options, [&](const WebRequest& request) { return serve(site, part, request); });
-    std::thread thread([&server] { server.run(); });
-    {
-      const Browser running(chromium(folder.path("profile")), folder.path("home"),
-                            fmt::format("http://127.0.0.1:{}/secret/harness.html", server.port()));
-      std::unique_lock lock(mutex_);
-      is_done_.wait_for(lock, kPatience, [this] { return !end_.empty(); });
-    }
-    server.stop();
-    thread.join();
-    return end_.empty() ? "the browser did not finish" : end_;
+    return run_harness({chromium(folder.path("profile")), folder.path(""), fmt::format("[{{\"panel\":\"{}\"}}]", part),
+                        [&](const WebRequest& request) { return site.answer(request); }, kPatience});
   }
 
   // A part of what was sent.
   Image seen(const std::string& name, int column, Extent size = kEye) const {
-    OpenOptions options;
-    options.format.one_eye = true;
-    const StoredPicture picture = open_picture(folder.path(name), options);
-    Image image(size.width, size.height, 3);
-    for (int y = 0; y < size.height; y++) {
-      for (int x = 0; x < size.width; x++) {
-        for (int c = 0; c < 3; c++) {
-          image.at(x, y)[c] = value_at(picture.eyes[0].layers[0], x + column, y, static_cast<size_t>(c));
-        }
-      }
-    }
-    return image;
+    return part_of_sent(folder.path(name), column, size);
   }
 
   std::vector<ViewItem> items;
-
- private:
-  WebAnswer serve(ViewSite& site, const std::string& part, const WebRequest& request) {
-    const std::string& name = request.path;
-    WebAnswer answer;
-    if (request.is_post && (name == "done" || name.starts_with("result/"))) {
-      const std::lock_guard lock(mutex_);
-      if (name == "done")
-        end_ = request.body;
-      else
-        folder.write(name.substr(name.find('/') + 1), request.body);
-      is_done_.notify_all();
-      return answer;
-    }
-    answer.type = media_type(name);
-    if (name == "jobs.json") {
-      answer.body = fmt::format("[{{\"panel\":\"{}\"}}]", part);
-      return answer;
-    }
-    answer.file = name == "iwer.module.js" ? std::getenv("ODS_IWER") : std::string(ODS_SOURCE_DIR "/tests/web/") + name;
-    return !name.empty() && std::filesystem::is_regular_file(answer.file) ? answer : site.answer(request);
-  }
-
-  std::mutex mutex_;
-  std::condition_variable is_done_;
-  std::string end_;
 };
-
-double likeness(const Image& a, const Image& b) {
-  return compare_eyes({a}, {b}).whole.psnr;
-}
 
 // By how many pixels a part of the left eye's picture is farther to the right than in the right eye's, to a tenth.
 double disparity(const Image& left, const Image& right, int x0, int y0, int x1, int y1) {

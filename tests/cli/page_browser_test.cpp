@@ -8,21 +8,17 @@
 #include <libdeflate.h>
 
 #include <array>
-#include <condition_variable>
-#include <mutex>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "cli/http/http_server.h"
 #include "cli/view/export_site.h"
 #include "ods/convert/convert.h"
-#include "ods/files/file_input.h"
-#include "ods/image/compare.h"
 #include "ods/image/image_file.h"
 #include "ods/video/make_video.h"
 #include "ods/view/bundle.h"
 #include "ods/view/page.h"
 #include "tests/support/browser.h"
+#include "tests/support/browser_run.h"
 #include "tests/support/made_frames.h"
 #include "tests/support/picture_rows.h"
 #include "tests/support/stored_pictures.h"
@@ -67,22 +63,10 @@ class PageBrowser : public ::testing::Test {
   // What the browser says at the end of a test of page-test.js.
   std::string run(const nlohmann::json& job, const std::vector<std::string>& more = {}) {
     export_waves();
-    job_ = nlohmann::json::array({job});
-    WebOptions options;
-    options.secret = "secret";
-    HttpServer server(options, [this](const WebRequest& request) { return serve(request); });
-    std::thread thread([&server] { server.run(); });
-    {
-      std::vector<std::string> words = browser_;
-      words.insert(words.end(), more.begin(), more.end());
-      const Browser running(words, folder_.path("home"),
-                            fmt::format("http://127.0.0.1:{}/secret/harness.html", server.port()));
-      std::unique_lock lock(mutex_);
-      is_done_.wait_for(lock, kPatience, [this] { return !end_.empty(); });
-    }
-    server.stop();
-    thread.join();
-    return end_.empty() ? "the browser did not finish" : end_;
+    std::vector<std::string> words = browser_;
+    words.insert(words.end(), more.begin(), more.end());
+    const auto site = [this](const WebRequest& request) { return serve(request); };
+    return run_harness({words, folder_.path(""), nlohmann::json::array({job}).dump(), site, kPatience});
   }
 
   // The screenshot of a page from disk, which is given more and more time until it is as it should be: the browser's
@@ -105,34 +89,15 @@ class PageBrowser : public ::testing::Test {
   std::vector<std::string> browser_;
 
  private:
-  WebAnswer serve(const WebRequest& request) {
-    WebAnswer answer;
-    std::string name = request.path;
-    if (request.is_post) {
-      const std::lock_guard lock(mutex_);
-      end_ = request.body;
-      is_done_.notify_all();
-      return answer;
-    }
-    answer.type = media_type(name);
-    if (name == "jobs.json") return answer.body = job_.dump(), answer;
+  WebAnswer serve(const WebRequest& request) const {
+    std::string name = request.path, type(media_type(name)), place = site() + "/" + name;
     const char* const modules = std::getenv("ODS_NODE_MODULES");
-    std::vector<std::string> places = {std::string(ODS_SOURCE_DIR "/tests/web/") + name, site() + "/" + name};
-    if (modules && name.starts_with("npm/")) places = {std::string(modules) + name.substr(3)};
-    if (name.starts_with("src/")) places.clear(), name.erase(0, 4);
-    for (const std::string& place : places) {
-      if (std::filesystem::is_regular_file(place)) return answer.file = std::filesystem::canonical(place), answer;
-    }
+    if (modules && name.starts_with("npm/")) place = modules + name.substr(3);
+    if (name.starts_with("src/")) place.clear(), name.erase(0, 4);
+    if (std::filesystem::is_regular_file(place)) return {.type = type, .file = std::filesystem::canonical(place)};
     const PageFile* const page = find_page_file(name);
-    if (page) answer.body = page->data;
-    answer.status = page ? 200 : 404;
-    return answer;
+    return page ? WebAnswer{.type = type, .body = std::string(page->data)} : nothing_there();
   }
-
-  nlohmann::json job_;
-  std::mutex mutex_;
-  std::condition_variable is_done_;
-  std::string end_;
 };
 
 // Keys, tooltips, hotspots, comparing, little planet, contrast.
@@ -221,9 +186,8 @@ TEST_F(PageBrowser, OpensFromDisk) {
   export_waves();
   const Extent window{512, 512};
   const Image wanted = middle_of(open_picture(picture_), 128, window, 90.0f);
-  EXPECT_TRUE(comes_to_show(site() + "/index.html", window, [&](const Image& shot) {
-    return compare_eyes({cut(shot, 192, 192, 128)}, {wanted}).whole.psnr >= 34.0;
-  }));
+  EXPECT_TRUE(comes_to_show(site() + "/index.html", window,
+                            [&](const Image& shot) { return likeness(cut(shot, 192, 192, 128), wanted) >= 34.0; }));
 }
 
 // Its three examples: one is open, one is a poster until it is clicked, one has the page's own buttons.

@@ -7,20 +7,16 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <condition_variable>
-#include <mutex>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "cli/http/http_server.h"
 #include "cli/view/export_site.h"
 #include "ods/base/error.h"
-#include "ods/files/file_input.h"
-#include "ods/image/compare.h"
 #include "ods/image/tone.h"
 #include "ods/video/make_video.h"
 #include "ods/view/page.h"
 #include "tests/support/browser.h"
+#include "tests/support/browser_run.h"
 #include "tests/support/made_frames.h"
 #include "tests/support/picture_rows.h"
 #include "tests/support/stored_pictures.h"
@@ -115,24 +111,8 @@ Image converted(const StoredPicture& picture, int eye, const Look& look) {
   return shown(converted_light(picture, eye, look), picture.is_float ? ToneCurve::kNeutral : ToneCurve::kLinear);
 }
 
-// A part of a browser's PNG, from the column on.
 Image drawn(const std::string& path, int column = 0, Extent size = {kWindow, kWindow}) {
-  OpenOptions options;
-  options.format.one_eye = true;
-  const StoredPicture picture = open_picture(path, options);
-  Image image(size.width, size.height, 3);
-  for (int y = 0; y < size.height; y++) {
-    for (int x = 0; x < size.width; x++) {
-      for (int c = 0; c < 3; c++) {
-        image.at(x, y)[c] = value_at(picture.eyes[0].layers[0], x + column, y, static_cast<size_t>(c));
-      }
-    }
-  }
-  return image;
-}
-
-double likeness(const Image& a, const Image& b) {
-  return compare_eyes({a}, {b}).whole.psnr;
+  return part_of_sent(path, column, size);
 }
 
 // --- the harness ----------------------------------------------------------------------------------------------------
@@ -178,21 +158,8 @@ class ViewBrowser : public ::testing::Test {
   // Lets a browser do the jobs; returns what it said at the end.
   std::string run(const std::vector<std::string>& browser) {
     export_site(items_, folder_.path("site"));
-    const auto answer = [this](const WebRequest& request) { return serve(request); };
-    WebOptions options;
-    options.secret = "secret";
-    options.most_body = size_t{16} << 20;
-    HttpServer server(options, answer);
-    std::thread thread([&server] { server.run(); });
-    {
-      const Browser running(browser, folder_.path("home"),
-                            fmt::format("http://127.0.0.1:{}/secret/harness.html", server.port()));
-      std::unique_lock lock(mutex_);
-      is_done_.wait_for(lock, kPatience, [this] { return !end_.empty(); });
-    }
-    server.stop();
-    thread.join();
-    return end_.empty() ? "the browser did not finish" : end_;
+    const auto site = [this](const WebRequest& request) { return serve(request); };
+    return run_harness({browser, folder_.path(""), jobs_.dump(), site, kPatience});
   }
 
   // Both eyes of every look are what ods convert makes, and not the other eye's, at rest and moving.
@@ -218,38 +185,12 @@ class ViewBrowser : public ::testing::Test {
   Json jobs_ = Json::array();
 
  private:
-  WebAnswer serve(const WebRequest& request) {
-    WebAnswer answer;
-    const std::string name = request.path;
-    if (request.is_post) {
-      const std::lock_guard lock(mutex_);
-      if (name == "done")
-        end_ = request.body;
-      else
-        write_file(folder_.path(name.substr(name.find('/') + 1)), request.body);
-      is_done_.notify_all();
-      return answer;
-    }
-    answer.type = media_type(name);
-    if (name == "jobs.json") {
-      answer.body = jobs_.dump();
-    } else if (name == "iwer.module.js") {
-      answer.file = std::getenv("ODS_IWER");
-    } else {
-      const std::string harness = std::string(ODS_SOURCE_DIR "/tests/web/") + name;
-      answer.file = std::filesystem::exists(harness) ? harness : folder_.path("site/" + name);
-      if (std::filesystem::exists(answer.file)) return answer;
-      answer.file.clear();
-      const PageFile* const page = find_page_file(name);  // of the studio, which is not exported
-      if (page) answer.body = page->data;
-      answer.status = page ? 200 : 404;
-    }
-    return answer;
+  WebAnswer serve(const WebRequest& request) const {
+    const std::string file = folder_.path("site/" + request.path), type(media_type(request.path));
+    if (std::filesystem::exists(file)) return {.type = type, .file = file};
+    const PageFile* const page = find_page_file(request.path);  // of the studio, which is not exported
+    return page ? WebAnswer{.type = type, .body = std::string(page->data)} : nothing_there();
   }
-
-  std::mutex mutex_;
-  std::condition_variable is_done_;
-  std::string end_;
 };
 
 StereoCamera camera_of(const ProjectionSetting& projection) {

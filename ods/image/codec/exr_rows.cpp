@@ -5,6 +5,7 @@
 #include <OpenEXR/openexr.h>
 #include <fmt/format.h>
 #include <libdeflate.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -83,13 +84,21 @@ void say_nothing(exr_const_context_t, exr_result_t, const char*) {}
 constexpr int64_t kWidest = int64_t{1} << 20;
 constexpr uint64_t kLargestChunk = uint64_t{1} << 28;  // bytes, unpacked
 
+// Its buffers go from one chunk to the next: new ones for each cost as much as unpacking, in page faults.
 struct Pipeline {
   exr_decode_pipeline_t decode{};  // all zeros, as EXR_DECODE_PIPELINE_INITIALIZER
   exr_const_context_t file;
+  bool is_started = false;
   explicit Pipeline(exr_const_context_t of) : file(of) {}
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
   ~Pipeline() { exr_decoding_destroy(file, &decode); }
+
+  exr_result_t start(const exr_chunk_info_t& chunk) {
+    if (is_started) return exr_decoding_update(file, 0, &chunk, &decode);
+    is_started = true;
+    return exr_decoding_initialize(file, 0, &chunk, &decode);
+  }
 };
 
 }  // namespace
@@ -107,7 +116,7 @@ struct ExrRows::State {
     if (file) exr_finish(&file);
   }
   bool find_channels(const std::vector<std::string>& wanted);
-  void read_chunk(int row, int begin, int end, size_t channels, std::byte* to) const;
+  void read_chunk(Pipeline& pipeline, int row, int begin, int end, size_t channels, std::byte* to) const;
 };
 
 bool ExrRows::State::find_channels(const std::vector<std::string>& wanted) {
@@ -162,15 +171,14 @@ ExrRows::ExrRows(std::unique_ptr<State> state) : state_(std::move(state)) {}
 ExrRows::~ExrRows() = default;
 
 // The chunk that starts at a row; what of it is wanted, if not all, by way of rows of our own.
-void ExrRows::State::read_chunk(int row, int begin, int end, size_t wanted, std::byte* to) const {
+void ExrRows::State::read_chunk(Pipeline& pipeline, int row, int begin, int end, size_t wanted, std::byte* to) const {
   const size_t stride = offsets[wanted], row_size = stride * static_cast<size_t>(width);
   const auto failed = [&] {
     throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': its rows from {} on are damaged", path, row));
   };
-  Pipeline pipeline(file);
   exr_chunk_info_t chunk;
   if (exr_read_scanline_chunk_info(file, 0, top + row, &chunk) != EXR_ERR_SUCCESS || chunk.start_y != top + row ||
-      exr_decoding_initialize(file, 0, &chunk, &pipeline.decode) != EXR_ERR_SUCCESS ||
+      pipeline.start(chunk) != EXR_ERR_SUCCESS ||
       static_cast<size_t>(pipeline.decode.channel_count) != channels.size()) {
     failed();
   }
@@ -199,8 +207,9 @@ void ExrRows::State::read_chunk(int row, int begin, int end, size_t wanted, std:
 
 void ExrRows::read(int begin, int end, size_t channels, std::byte* to) const {
   const int rows = state_->chunk_rows;
+  tbb::enumerable_thread_specific<Pipeline> pipelines([&] { return Pipeline(state_->file); });
   tbb::parallel_for(begin / rows, (end + rows - 1) / rows,
-                    [&](int chunk) { state_->read_chunk(chunk * rows, begin, end, channels, to); });
+                    [&](int chunk) { state_->read_chunk(pipelines.local(), chunk * rows, begin, end, channels, to); });
 }
 
 }  // namespace ods

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ods/base/text.h"
+#include "ods/files/file_input.h"
 #include "ods/image/codec/encoder.h"
 #include "ods/image/image_file.h"
 
@@ -79,6 +80,14 @@ void write_image(AtomicFile& file, const FileHeader& header, const RowSource& ro
     next.wait();
   }
   encoder->finish();
+}
+
+std::string image_bytes(const std::string& path, const FileHeader& header, const RowSource& rows) {
+  AtomicFile file(path);
+  write_image(file, header, rows);
+  file.finish();
+  const FileInput bytes(file.temporary());
+  return bytes.read(0, bytes.size());
 }
 
 }  // namespace ods

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "ods/image/format/exr_header.h"
 #include "ods/image/format/image_limits.h"
 
 namespace ods {
@@ -17,7 +18,6 @@ namespace {
 
 constexpr size_t kLongestName = 255;
 constexpr int64_t kMaxRowsOfAChunk = 256;  // DWAB's
-constexpr size_t kOffsetSize = 8;          // bytes
 
 // OpenEXR reads the values of these types as long as they should be, whatever size the file states.
 struct TypeSize {
@@ -83,7 +83,7 @@ class HeaderReader {
     return true;
   }
 
-  bool has_room(int64_t offsets) const { return offsets <= static_cast<int64_t>(size_ / kOffsetSize); }
+  bool has_room(int64_t offsets) const { return offsets <= static_cast<int64_t>(size_ / kExrOffsetSize); }
 
  private:
   size_t size_;

@@ -135,23 +135,23 @@ static std::vector<uint64_t> read_offsets(const FileInput& file, uint64_t at) {
   const Error damaged = unusable(file, "the EXR's offsets are damaged, as if it was never finished");
   std::vector<uint64_t> offsets;
   uint64_t first = file.size();
-  for (; at + sizeof(uint64_t) * offsets.size() < first;) {
-    const uint64_t from = at + sizeof(uint64_t) * offsets.size();
-    const std::string bytes = file.read(from, std::min(kPiece, (first - from) / sizeof(uint64_t)) * sizeof(uint64_t));
+  for (; at + kExrOffsetSize * offsets.size() < first;) {
+    const uint64_t from = at + kExrOffsetSize * offsets.size();
+    const std::string bytes = file.read(from, std::min(kPiece, (first - from) / kExrOffsetSize) * kExrOffsetSize);
     if (bytes.empty()) throw damaged;
-    for (size_t i = 0; i < bytes.size() && at + sizeof(uint64_t) * offsets.size() < first; i += sizeof(uint64_t)) {
+    for (size_t i = 0; i < bytes.size() && at + kExrOffsetSize * offsets.size() < first; i += kExrOffsetSize) {
       offsets.push_back(number_at<uint64_t>(bytes, i));
-      if (offsets.back() < at + sizeof(uint64_t) * offsets.size() || offsets.back() >= file.size()) throw damaged;
+      if (offsets.back() < at + kExrOffsetSize * offsets.size() || offsets.back() >= file.size()) throw damaged;
       first = std::min(first, offsets.back());
     }
   }
-  if (offsets.empty() || at + sizeof(uint64_t) * offsets.size() != first) throw damaged;
+  if (offsets.empty() || at + kExrOffsetSize * offsets.size() != first) throw damaged;
   return offsets;
 }
 
 void write_exr_header(const FileInput& file, AtomicFile& to, const ExrHeader& header) {
   std::vector<uint64_t> offsets = read_offsets(file, header.end);
-  const uint64_t chunks = header.end + sizeof(uint64_t) * offsets.size();
+  const uint64_t chunks = header.end + kExrOffsetSize * offsets.size();
   std::string bytes = file.read(0, kStart);
   for (const ExrAttribute& each : header.attributes) {
     bytes += each.name + '\0' + each.type + '\0' + sized(each.value);

@@ -26,6 +26,8 @@ struct ExrHeader {
   uint64_t end = 0;  // just past the terminating zero, where the chunk offset table starts
 };
 
+inline constexpr size_t kExrOffsetSize = 8;  // bytes of each of those offsets
+
 // Throws Error(kInput): not an EXR, truncated, damaged, or multi-part.
 ExrHeader read_exr_header(const FileInput& file);
 

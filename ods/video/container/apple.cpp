@@ -147,8 +147,6 @@ std::optional<SphericalMetadata> parse_vexu(const Box& sample_entry) {
 std::optional<EyeLayers> parse_layers(const Box& sample_entry) {
   if (find_child(sample_entry, box_type("lhvC")) == nullptr) return std::nullopt;
   EyeLayers layers;
-  layers.beside.stereo = VideoStereo::kSideBySide;
-  layers.beside.projection = VideoProjection::kFlat;
   if (const Box* wide = find_child(sample_entry, box_type("hfov"))) {
     const float fov = static_cast<float>(get_number(wide->body, 0, 4)) / 1000.0f;
     if (fov > 0.0f && fov < 180.0f) layers.fov = fov;

@@ -34,7 +34,8 @@ std::optional<SphericalMetadata> parse_vexu(const Box& sample_entry);
 
 // The eyes of a stream that has each as a layer (MV-HEVC).
 struct EyeLayers {
-  SphericalMetadata beside;  // of frames that have these eyes side by side
+  // Of frames that have these eyes side by side.
+  SphericalMetadata beside = {.stereo = VideoStereo::kSideBySide, .projection = VideoProjection::kFlat};
   bool right_first = false;  // the first layer, which every decoder shows, is the right eye
   std::optional<float> fov;  // of a flat picture, in degrees across
 };

@@ -131,9 +131,7 @@ static std::optional<EyeLayers> read_layers(const Box& entry) {
   try {
     return parse_layers(entry);
   } catch (const MalformedFile&) {
-    EyeLayers silent;
-    silent.beside.stereo = VideoStereo::kSideBySide, silent.beside.projection = VideoProjection::kFlat;
-    return silent;
+    return EyeLayers();
   }
 }
 

@@ -79,7 +79,7 @@ struct SphericalMetadata {
   double yaw = 0.0, pitch = 0.0, roll = 0.0;
   double ipd = 0.0;        // metres between the eyes; 0: unspecified. Only vexu stores it
   bool for_apple = false;  // also write vexu; see apple.h for the drawback
-  std::string source;      // the program that wrote it
+  std::string source{};    // the program that wrote it
 
   bool is_partial() const { return bounds != std::array<uint32_t, 4>{}; }
   bool operator==(const SphericalMetadata&) const = default;
