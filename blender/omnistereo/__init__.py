@@ -4,7 +4,7 @@
 import os
 
 import bpy
-from bpy.props import EnumProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, IntProperty, PointerProperty, StringProperty
 
 from . import job
 
@@ -35,6 +35,7 @@ class OmnistereoSettings(bpy.types.PropertyGroup):
     width: IntProperty(name="Width", description="Of one eye, in pixels", default=2048, min=64, max=16384, step=64)
     bake: IntProperty(name="Bake", default=0, min=0, max=8192,
                       description="Pixels of the pictures that are made of materials computed by nodes; 0: none")
+    restart: BoolProperty(name="Restart", description="Discard what an interrupted render has left, and start over")
     output: StringProperty(name="Output", default="//", subtype="DIR_PATH", description="Folder of what is rendered")
 
 
@@ -68,6 +69,7 @@ def words_of(kind, settings, path):
         return words
     words += ["--blender", bpy.app.binary_path, "--quality", settings.quality, "--width", str(settings.width),
               "--progress", "json", "-o", output_of(settings, ".mp4" if kind == "video" else ".png")]
+    words += ["--restart"] if settings.restart else []
     return words + (["--bake", str(settings.bake)] if settings.bake else [])
 
 
@@ -153,7 +155,7 @@ class OmnistereoPanel(bpy.types.Panel):
     def draw(self, context):
         layout, settings = self.layout, context.scene.omnistereo
         layout.use_property_split = True
-        for name in ("quality", "width", "bake", "output"):
+        for name in ("quality", "width", "bake", "output", "restart"):
             layout.prop(settings, name)
         row = layout.row(align=True)
         for kind, icon in (("render", "RENDER_STILL"), ("view", "HIDE_OFF"), ("video", "RENDER_ANIMATION")):

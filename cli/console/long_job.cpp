@@ -28,6 +28,10 @@ void add_progress_options(Options& options, ProgressMode& mode) {
   add_console_options(options);
 }
 
+void add_restart_option(Options& options, bool& restart) {
+  options.flag("--restart", restart, "discard what an interrupted run of this command has left, and start over");
+}
+
 static ProgressMode resolved(ProgressMode mode) {
   if (mode != ProgressMode::kAuto) return mode;
   if (console.quiet) return ProgressMode::kNone;

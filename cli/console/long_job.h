@@ -14,6 +14,9 @@ double seconds_since(std::chrono::steady_clock::time_point start);
 // Adds --progress, --quiet and --no-color to the current group.
 void add_progress_options(Options& options, ProgressMode& mode);
 
+// Adds --restart to the current group: an interrupted command otherwise goes on where it stopped.
+void add_restart_option(Options& options, bool& restart);
+
 // Runs the work with this many threads (0: all) until it is done, fails or is interrupted. A failure is reported to the
 // farm and rethrown.
 void run_long_job(ProgressMode mode, int threads, const std::function<void(ProgressLines& lines)>& work);

@@ -170,6 +170,7 @@ void add_video(Options& options, ConvertJob& job) {
       "--fps", "X|N/M", "30", [&](const std::string& text) { job.video.rate = parse_rate(text); },
       "frames per second, if the input is frames");
   add_packing_options(options, job.video);
+  add_restart_option(options, job.restart);
 }
 
 // A mono picture is one of the existing eyes, wherever the eyes are to move.
@@ -241,6 +242,7 @@ void check_kinds(const Options& options, const ConvertJob& job) {
     throw UsageError("--frames is for frames; --trim chooses a part of a video");
   }
   if (options.given("--fps") && from_video) throw UsageError("--fps is for frames: a video keeps its own times");
+  if (job.restart && !to_video) throw UsageError("--restart is for videos; frames continue with --skip-existing");
   if (job.has_packing && !to_video)
     throw UsageError(fmt::format("--codec and similar options need video output, and '{}' is not a video", job.output));
 }

@@ -38,6 +38,7 @@ struct ConvertJob {
 
   // Frames and videos.
   FrameShare share;
+  bool restart = false;  // a video does not go on from what an interrupted run has kept
   ods::TimeSpan trim;
   std::vector<ods::TurnKey> turns;
   VideoWishes video;

@@ -108,7 +108,7 @@ void check_job(const ConvertJob& job) {
 
 int convert_footage(ConvertJob& job, const ods::VideoPlan& plan, const ods::EncodeOptions& options,
                     const ods::Progress& progress) {
-  const ods::Resume resume{resume_settings(job), [](const std::string& words) { note(words); }};
+  const ods::Resume resume{resume_settings(job), [](const std::string& words) { note(words); }, job.restart};
   ods::DepthFootage* depth = job.depth_frames ? &*job.depth_frames : nullptr;
   ods::MergeOfPicture merge;
   if (job.merges) merge = [&job](int picture) { return job.merges->at(picture); };

@@ -24,8 +24,10 @@ void add_file(const std::string& path, ods::Settings& settings) {
 }  // namespace
 
 ods::Settings resume_settings(const ConvertJob& job) {
+  std::vector<std::string> arguments = job.arguments;
+  std::erase(arguments, "--restart");
   ods::Settings settings = {{"version of ods", ODS_VERSION, ""},
-                            {"arguments", ods::one_line(fmt::format("{}", fmt::join(job.arguments, " "))), ""}};
+                            {"arguments", ods::one_line(fmt::format("{}", fmt::join(arguments, " "))), ""}};
   std::set<std::string> files(job.arguments.begin(), job.arguments.end());
   for (size_t i = 0; i < job.files.frames.size(); i++) {
     for (const int eye : {ods::kLeft, ods::kRight}) files.insert(ods::path_for_eye(job.files.path(i), eye));

@@ -170,6 +170,13 @@ Split split_video(const Words& words) {
 // Options that decide what becomes of the samples: the merge has them.
 const Words kOfMerge = {"--layout", "--sidecar", "--statistics", "--denoise", "--tone"};
 
+void remove_parts(const ods::FrameNames& names, const std::vector<int>& parts) {
+  std::error_code ignored;
+  if (!fs::is_directory(fs::path(names.before).parent_path(), ignored)) return;
+  for (const int number : ods::frames_on_disk(names)) fs::remove(names.path(number), ignored);
+  for (const int number : parts) fs::remove(names.path(number) + ".unfinished", ignored);
+}
+
 // Parts of another picture would be taken for finished, and refused by the merge.
 void check_parts(const RenderJob& first, const ods::FrameNames& names) {
   const fs::path folder = fs::path(names.before).parent_path();
@@ -179,8 +186,7 @@ void check_parts(const RenderJob& first, const ods::FrameNames& names) {
     const ods::Settings then = ods::read_part_header(names.path(number)).settings;
     ods::Settings now = sample_settings(first);
     now.back().value = fmt::format("{}/{}", number, first.part->count);
-    expect_same_settings(names.path(number), then, now,
-                         fmt::format("remove '{}', or choose another -o", folder.native()));
+    expect_same_settings(names.path(number), then, now, "`restart` discards the parts and starts over");
   }
 }
 
@@ -200,16 +206,22 @@ void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const
   std::iota(parts.begin(), parts.end(), 1);
   count(split, "part", parts);
   const std::string pattern = split.output + ".parts/part_####.exr";
-  std::vector<GivenWord> of_part = without(
-      without(given, kByFarm), {"-o", "--parts", "--resume", "--layout", "--denoise", "--sidecar", "--keep-parts"});
+  std::vector<GivenWord> of_part =
+      without(without(given, kByFarm), {"-o", "--parts", "--layout", "--denoise", "--sidecar", "--keep-parts"});
   of_part.push_back({"-o", pattern});
-  const Words render = command_words("render", of_part, {"--skip-existing", "--resume"});
+  const Words render = command_words("render", of_part, {"--skip-existing"});
   RenderJob checked;
   Words first = render;
   first.insert(first.end(), {"--part", fmt::format("1/{}", job.parts)});
   Arguments arguments(first);
   read_render_job(checked, arguments.count(), arguments.words());  // throws what the tasks would
-  check_parts(checked, *ods::frame_names(pattern));
+  const ods::FrameNames names = *ods::frame_names(pattern);
+  split.restart = job.restart;
+  if (job.restart) {
+    split.prepare = [names, parts] { remove_parts(names, parts); };
+  } else {
+    check_parts(checked, names);
+  }
   std::vector<GivenWord> of_merge = {{"", pattern}, {"-o", split.output}};
   std::ranges::copy(only(given, kOfMerge), std::back_inserter(of_merge));
   if (job.exposure) of_merge.push_back({"--exposure", fmt::format("{}", *job.exposure)});

@@ -62,8 +62,7 @@ void read_part(const std::string& word, RenderJob& job) {
 
 void add_long_options(Options& options, RenderJob& job) {
   options.group("Long renders of one picture");
-  options.flag("--resume", job.resume,
-               "continue where an interrupted run stopped, with what it left in PICTURE.unfinished");
+  add_restart_option(options, job.restart);
   options.flag("--save-unfinished", job.save_unfinished, "when interrupted (Ctrl-C, kill), save the picture as it is");
   options.custom(
       "--part", "I/N", "", [&](const std::string& word) { read_part(word, job); },
@@ -75,7 +74,7 @@ void add_long_options(Options& options, RenderJob& job) {
 // Parts are exact shares of a fixed number of samples.
 void check_long_job(const Options& options, const RenderJob& job) {
   const bool is_part = job.part.has_value();
-  for (const char* own : {"--resume", "--save-unfinished", "--part", "--parts"}) {
+  for (const char* own : {"--restart", "--save-unfinished", "--part", "--parts"}) {
     if (!options.given(own)) continue;
     if (asks_for_video(job.time)) {
       throw UsageError(fmt::format("{} is for one picture; frames continue with --skip-existing", own));

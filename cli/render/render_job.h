@@ -35,7 +35,7 @@ struct RenderJob {
   bool raw = false;               // render a video's frames for the denoiser, which another process runs
   bool force = false;             // render a video's frames although the disk cannot hold them
   std::vector<GivenWord> given;   // the command line
-  bool resume = false;            // a still picture goes on from what an interrupted run has kept
+  bool restart = false;           // a still picture does not go on from what an interrupted run has kept
   bool save_unfinished = false;   // an interrupted one is saved as it is
   ProgressMode progress = ProgressMode::kAuto;
 };

@@ -55,7 +55,7 @@ ods::Rendered finish(const RenderJob& job, const ods::StereoCamera& camera, cons
                             const UnfinishedPicture& unfinished, const GentleStop& stop) {
   if (unfinished.is_kept()) {
     const std::string& path = unfinished.path();
-    note(fmt::format("what is rendered is kept in '{}': the same command with --resume goes on{}", path,
+    note(fmt::format("what is rendered is kept in '{}': the same command goes on{}, --restart starts over", path,
                      job.save_unfinished ? "" : fmt::format(", ods merge '{}' -o FILE saves it as it is", path)));
   }
   if (job.save_unfinished) {

@@ -27,22 +27,16 @@ const ods::SampledPicture& UnfinishedPicture::about() {
 
 ods::PictureSamples UnfinishedPicture::begin() {
   std::error_code ignored;
-  const bool exists = std::filesystem::exists(path_, ignored);
-  if (!job_.resume) {
-    if (exists) warn(fmt::format("'{}' has a picture that is not finished; --resume would go on with it", path_));
-    return ods::no_samples(options_);
-  }
-  if (!exists) {
-    note(fmt::format("there is no '{}': rendering starts from the beginning", path_));
-    return ods::no_samples(options_);
-  }
+  if (job_.restart) std::filesystem::remove(path_, ignored);
+  if (!std::filesystem::exists(path_, ignored)) return ods::no_samples(options_);
   ods::PictureSamples samples;
   const ods::SampledPicture then = ods::read_unfinished(path_, samples);
-  constexpr std::string_view kCure = "give the same ones, or leave --resume out";
-  expect_same_settings(path_, then.settings, about().settings, kCure);
+  expect_same_settings(path_, then.settings, about().settings);
   if (!ods::fit(samples, options_)) {
-    throw UsageError(fmt::format("'{}' was made with other options: its layers differ; {}", path_, kCure));
+    throw UsageError(fmt::format("'{}' was made with other options: its layers differ; {}", path_, ods::kRestartCure));
   }
+  note(fmt::format("goes on with what '{}' has", path_));
+  kept_ = true;
   return samples;
 }
 
@@ -60,5 +54,5 @@ void UnfinishedPicture::keep(const ods::PictureSamples& samples) {
 
 void UnfinishedPicture::remove() const {
   std::error_code ignored;
-  if (kept_ || job_.resume) std::filesystem::remove(path_, ignored);
+  if (kept_) std::filesystem::remove(path_, ignored);
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a still picture has so far, in a file beside it: PICTURE.unfinished. After an interruption --resume goes on.
+// What a still picture has so far, in a file beside it: PICTURE.unfinished. After an interruption the same command goes
+// on.
 #pragma once
 #include <optional>
 #include <string>
@@ -14,8 +15,8 @@ class UnfinishedPicture {
   // options, camera: with which the picture is rendered. The job must outlive this object.
   UnfinishedPicture(const RenderJob& job, const ods::RenderOptions& options, const ods::StereoCamera& camera);
 
-  // What an earlier run has kept, with --resume; else no samples. Throws UsageError if that run had other options;
-  // ods::Error(kInput) if the file is damaged.
+  // What an earlier run has kept, if there is any, without --restart. Throws ods::Error(kUsage) if that run had other
+  // options; Error(kInput) if the file is damaged.
   ods::PictureSamples begin();
 
   // Replaces the file. Warns once if it cannot be written, and is then of no further use.

@@ -34,7 +34,7 @@ bool read_video_job(VideoJob& job, int argc, char** argv) {
   options.text("--rig", ValueKind::input_file(), job.rig,
                "stitch the views of this rig (made by ods rig); SCENE is then the views' file names");
   options.flag("--keep-frames", job.keep_frames, "keep VIDEO.frames, which ods encode can read");
-  options.flag("--restart", job.restart, "discard frames rendered with other options and start over");
+  add_restart_option(options, job.restart);
   options.flag("--raw", render.raw,
                "with --only: only render the frames, and keep them noisy beside the final ones; the same command "
                "without --raw denoises them");

@@ -24,7 +24,10 @@ Settings parse_settings(const std::string& text);
 // three. Empty if there are none.
 std::string settings_difference(const Settings& then, const Settings& now);
 
+inline constexpr std::string_view kRestartCure = "`restart` discards it and starts over";
+
 // Throws Error(kUsage) if there are any: "'PATH' was made with other options: samples was 64, now 128; CURE".
-void expect_same_settings(const std::string& path, const Settings& then, const Settings& now, std::string_view cure);
+void expect_same_settings(const std::string& path, const Settings& then, const Settings& now,
+                          std::string_view cure = kRestartCure);
 
 }  // namespace ods

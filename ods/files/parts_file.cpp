@@ -37,11 +37,11 @@ static uint64_t place_in(std::FILE* stream) {
   return static_cast<uint64_t>(ftello(stream));
 }
 
-PartsFile::PartsFile(const std::string& path, const Settings& settings)
+PartsFile::PartsFile(const std::string& path, const Settings& settings, bool restart)
     : claim_(claim(path)), path_(path + ".unfinished") {
   const std::string text = settings_text(settings);
   head_ = std::string(kHead) + number(text.size(), 4) + text;
-  if (std::filesystem::exists(std::filesystem::symlink_status(path_))) open_old(settings);
+  if (std::filesystem::exists(std::filesystem::symlink_status(path_))) open_old(settings, restart);
 }
 
 PartsFile::~PartsFile() {
@@ -60,7 +60,7 @@ void PartsFile::check(bool is_well) const {
               fmt::format("cannot keep parts in '{}': {}", path_, why == 0 ? "it is damaged" : std::strerror(why)));
 }
 
-void PartsFile::open_old(const Settings& settings) {
+void PartsFile::open_old(const Settings& settings, bool restart) {
   if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path_))) {
     throw Error(ErrorKind::kOutput, fmt::format("'{}' is no file of parts: remove it, or choose another name", path_));
   }
@@ -72,10 +72,16 @@ void PartsFile::open_old(const Settings& settings) {
     throw Error(ErrorKind::kOutput,
                 fmt::format("'{}' was not written by this version of ods: remove it, or choose another name", path_));
   }
-  removed_ = settings_difference(parse_settings(read_bytes(stream_, get_number(length, 0, 4))), settings);
-  begin_ = end_ = head_.size();
-  if (removed_.empty()) find_end();
-  if (count_ == 0) remove();
+  const Settings then = parse_settings(read_bytes(stream_, get_number(length, 0, 4)));
+  begin_ = end_ = place_in(stream_);
+  find_end();
+  if (restart || count_ == 0) return remove();
+  try {
+    expect_same_settings(path_, then, settings);
+  } catch (const Error&) {
+    std::fclose(std::exchange(stream_, nullptr));
+    throw;
+  }
 }
 
 void PartsFile::find_end() {

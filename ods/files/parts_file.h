@@ -25,9 +25,10 @@ namespace ods {
 
 class PartsFile {
  public:
-  // Opens the parts of the file at `path`. settings: all that they depend on; parts that were made with
-  // others are removed. Throws Error(kOutput): another process makes that file, or FILE.unfinished is none of ours.
-  PartsFile(const std::string& path, const Settings& settings);
+  // Opens the parts of the file at `path`. settings: all that they depend on. `restart` removes existing parts. Throws
+  // Error(kUsage) if there are parts that were made with other settings; Error(kOutput): another process makes that
+  // file, or FILE.unfinished is none of ours.
+  PartsFile(const std::string& path, const Settings& settings, bool restart = false);
   PartsFile(const PartsFile&) = delete;
   PartsFile& operator=(const PartsFile&) = delete;
   // Without a part nothing stays on the disk.
@@ -35,8 +36,6 @@ class PartsFile {
 
   const std::string& path() const { return path_; }
   int count() const { return count_; }  // finished parts
-  // What differs in the settings; empty if no parts were removed.
-  const std::string& removed() const { return removed_; }
 
   // Calls `take` with the records of all finished parts, in order. Throws Error(kOutput).
   void read(const std::function<void(std::string_view record)>& take);
@@ -48,12 +47,12 @@ class PartsFile {
   void remove();
 
  private:
-  void open_old(const Settings& settings);
+  void open_old(const Settings& settings, bool restart);
   void find_end();
   void check(bool is_well) const;
 
   std::unique_ptr<Claim> claim_;
-  std::string path_, head_, removed_;
+  std::string path_, head_;
   std::FILE* stream_ = nullptr;
   uint64_t begin_ = 0, end_ = 0;  // of the finished parts
   int count_ = 0;

@@ -88,7 +88,7 @@ void VideoJournal::begin(bool restart) {
     remove();
     frames_.clear();
   } else {
-    expect_same_settings(folder_, then, settings_, "`restart` renders its frames again");
+    expect_same_settings(folder_, then, settings_);
   }
 }
 

@@ -62,12 +62,9 @@ class Parts {
     frames_ = (kPartFrames + interval - 1) / interval * interval;
     settings.push_back({"parts", fmt::format("{}", frames_), ""});
     settings.push_back({"header", md5(encoder.header()), ""});
-    file_.emplace(path, settings);
+    file_.emplace(path, settings, video.resume.restart);
     if (video.resume.tell && finished() > 0) {
       video.resume.tell(fmt::format("goes on after {} frames, which '{}' has", finished(), file_->path()));
-    }
-    if (video.resume.tell && !file_->removed().empty()) {
-      video.resume.tell(fmt::format("begins anew: '{}' was of another job ({})", file_->path(), file_->removed()));
     }
     file_->read([&](std::string_view record) { encoder_.add(picture_of(record)); });
     encoder_.keep([this](const EncodedPicture& picture) { file_->add(record_of(picture)); });

@@ -19,7 +19,8 @@ namespace ods {
 // parts.
 struct Resume {
   Settings settings;                                   // all that the frames depend on; empty: no parts
-  std::function<void(const std::string& words)> tell;  // says that it goes on, or why not. May be empty
+  std::function<void(const std::string& words)> tell;  // says that it goes on. May be empty
+  bool restart = false;                                // discards what is kept
 };
 inline constexpr int kPartFrames = 240;
 

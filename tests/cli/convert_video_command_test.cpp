@@ -202,28 +202,30 @@ TEST_F(KilledConversion, GoesOnAndGivesTheSameBytes) {
   }
 }
 
-TEST_F(KilledConversion, BeginsAnewWhereAnythingDiffers) {
+TEST_F(KilledConversion, IsRefusedWhereAnythingDiffers) {
   const std::string film = make_long("film_360_TB.mp4"), to = "new_180_LR.mp4";
   ASSERT_NO_FATAL_FAILURE(kill_in_the_middle({film, "--to", "vr180", "-o", path(to)}, to));
-  const std::string parts = folder.read(to + ".unfinished");
+  const std::string parts = folder.read(to + ".unfinished"), words = "convert " + film + " --to vr180 -o " + path(to);
 
-  ASSERT_EQ(run("convert " + film + " --to vr180 --crf 30 -o " + path(to)), 0) << err;
-  EXPECT_NE(err.find("begins anew: "), std::string::npos) << err;
+  EXPECT_EQ(run(words + " --crf 30"), 2);
+  EXPECT_NE(err.find(".unfinished' was made with other options: arguments was "), std::string::npos) << err;
+  EXPECT_TRUE(folder.read(to + ".unfinished") == parts);
+  ASSERT_EQ(run(words + " --crf 30 --restart"), 0) << err;
   const std::string coarse = folder.read(to);
-  ASSERT_EQ(run("convert " + film + " --to vr180 --crf 30 -o " + path(to)), 0) << err;
-  EXPECT_EQ(err.find("begins anew: "), std::string::npos) << err;
+  ASSERT_EQ(run(words + " --crf 30"), 0) << err;
   EXPECT_TRUE(folder.read(to) == coarse);
 
   folder.write(to + ".unfinished", parts);
   make_long("film_360_TB.mp4", 40);
-  ASSERT_EQ(run("convert " + film + " --to vr180 -o " + path(to)), 0) << err;
-  EXPECT_NE(err.find("begins anew: "), std::string::npos) << err;
+  EXPECT_EQ(run(words), 2);
+  EXPECT_NE(err.find("film_360_TB.mp4' was "), std::string::npos) << err;
+  ASSERT_EQ(run(words + " --restart"), 0) << err;
   const std::string other = folder.read(to);
-  ASSERT_EQ(run("convert " + film + " --to vr180 -o " + path(to)), 0) << err;
+  ASSERT_EQ(run(words), 0) << err;
   EXPECT_TRUE(folder.read(to) == other);
 
   folder.write(to + ".unfinished", "somebody's");
-  EXPECT_EQ(run("convert " + film + " --to vr180 -o " + path(to)), 4) << err;
+  EXPECT_EQ(run(words), 4) << err;
   EXPECT_NE(err.find(".unfinished' was not written by this version of ods"), std::string::npos) << err;
   EXPECT_EQ(folder.read(to + ".unfinished"), "somebody's");
 }
@@ -249,8 +251,8 @@ TEST_F(KilledConversion, OfFramesGoesOnUnlessAFrameIsAnother) {
 
   folder.write(to + ".unfinished", parts);
   write(10, 25);
-  ASSERT_EQ(run(words), 0) << err;
-  EXPECT_NE(err.find("begins anew: "), std::string::npos) << err;
+  EXPECT_EQ(run(words), 2) << err;
+  ASSERT_EQ(run(words + " --restart"), 0) << err;
   EXPECT_FALSE(folder.read(to) == whole);
 }
 

@@ -46,7 +46,6 @@ TEST_F(PartsFiles, FinishedPartsAreReadAndOthersFollow) {
   {
     PartsFile parts(path, kSet);
     EXPECT_EQ(parts.count(), 2);
-    EXPECT_EQ(parts.removed(), "");
     EXPECT_EQ(records_of(parts), (std::vector<std::string>{"one", "two", ""}));
     parts.add("four"), parts.end_part();
   }
@@ -70,11 +69,21 @@ TEST_F(PartsFiles, EveryTruncationGivesWholeParts) {
   }
 }
 
-TEST_F(PartsFiles, OtherSettingsRemoveThem) {
-  folder.write("film.mp4.unfinished", bytes_of_two_parts());
-  PartsFile parts(path, {{"layout", "otherwise", ""}});
+TEST_F(PartsFiles, OfOtherSettingsTheyStayUnlessItStartsOver) {
+  const Settings other = {{"layout", "otherwise", ""}};
+  const std::string bytes = bytes_of_two_parts();
+  folder.write("film.mp4.unfinished", bytes);
+  try {
+    const PartsFile parts(path, other);
+    ADD_FAILURE() << "parts of other settings are continued";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()), "'" + path +
+                                             ".unfinished' was made with other options: layout was as set, now "
+                                             "otherwise; `restart` discards it and starts over");
+  }
+  EXPECT_EQ(folder.read("film.mp4.unfinished"), bytes);
+  const PartsFile parts(path, other, true);
   EXPECT_EQ(parts.count(), 0);
-  EXPECT_EQ(parts.removed(), "layout was as set, now otherwise");
   EXPECT_FALSE(std::filesystem::exists(path + ".unfinished"));
 }
 

@@ -87,7 +87,7 @@ TEST(RenderVideo, FramesOfOtherSettingsAreNotMixedIn) {
     FAIL() << "was not refused";
   } catch (const Error& error) {
     EXPECT_TRUE(error.kind() == ErrorKind::kUsage);
-    EXPECT_NE(std::string(error.what()).find("samples was 4, now 8; `restart` renders its frames again"),
+    EXPECT_NE(std::string(error.what()).find("samples was 4, now 8; `restart` discards it and starts over"),
               std::string::npos)
         << error.what();
   }
