@@ -20,16 +20,10 @@ CameraExport export_camera(const Sidecar& file, CameraTarget target) {
       return to_blender(file);
     case CameraTarget::kOsl:
       return to_osl(file);
-    case CameraTarget::kOspray:
-      return to_ospray(file);
     case CameraTarget::kArnold:
       return to_arnold(file);
     case CameraTarget::kMtoa:
       return to_mtoa(file);
-    case CameraTarget::kUnity:
-      return to_unity(file);
-    case CameraTarget::kUnreal:
-      return to_unreal(file);
     case CameraTarget::kGlsl:
       return to_glsl(file);
     case CameraTarget::kHlsl:

@@ -18,11 +18,8 @@ enum class CameraTarget {
   kPovrayFork,  // Clodo76/povray: spherical with ods keywords
   kBlender,     // Python for 3.4 to 5.x
   kOsl,         // a camera shader for Cycles 5
-  kOspray,      // JSON with the parameters of OSPRay and ANARI
   kArnold,      // an .ass node
   kMtoa,        // setAttr lines for Maya
-  kUnity,       // C#
-  kUnreal,      // console variables
   kGlsl,
   kHlsl,
   kPython,
@@ -34,11 +31,10 @@ enum class CameraTarget {
 inline constexpr NameRow<CameraTarget> kCameraTargetTable[] = {
     {CameraTarget::kPovray, "povray"},   {CameraTarget::kPovrayFork, "povray-fork"},
     {CameraTarget::kBlender, "blender"}, {CameraTarget::kOsl, "osl"},
-    {CameraTarget::kOspray, "ospray"},   {CameraTarget::kArnold, "arnold"},
-    {CameraTarget::kMtoa, "mtoa"},       {CameraTarget::kUnity, "unity"},
-    {CameraTarget::kUnreal, "unreal"},   {CameraTarget::kGlsl, "glsl"},
-    {CameraTarget::kHlsl, "hlsl"},       {CameraTarget::kPython, "python"},
-    {CameraTarget::kJson, "json"},       {CameraTarget::kNumbers, "numbers"},
+    {CameraTarget::kArnold, "arnold"},   {CameraTarget::kMtoa, "mtoa"},
+    {CameraTarget::kGlsl, "glsl"},       {CameraTarget::kHlsl, "hlsl"},
+    {CameraTarget::kPython, "python"},   {CameraTarget::kJson, "json"},
+    {CameraTarget::kNumbers, "numbers"},
 };
 static_assert(has_every_member(kCameraTargetTable));
 inline constexpr auto kCameraTargets = members_of(kCameraTargetTable);

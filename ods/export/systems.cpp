@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The targets with their own stereo 360 camera, described by parameters: the POV-Ray fork, OSPRay and ANARI, Arnold,
-// Unity, Unreal. docs/camera-export.md gives the source of each name.
+// The targets with their own stereo 360 camera, described by parameters: the POV-Ray fork, Arnold.
+// docs/camera-export.md gives the source of each name.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -30,17 +30,6 @@ std::string_view mode_name(const Sidecar& file, const ModeNames& names) {
 
 std::string no_layout(const Sidecar& file, std::string_view system) {
   return fmt::format("{} has no layout {}", system, layout_name(file.layout));
-}
-
-std::string json_numbers(glm::dvec3 v) {
-  return fmt::format("[{:.8g}, {:.8g}, {:.8g}]", v.x, v.y, v.z);
-}
-
-// Text for JSON, which has no comments.
-std::string json_strings(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", word);
-  return fmt::format("[{}]", text);
 }
 
 void warn_of_projection(const Sidecar& file, std::string_view system, std::vector<std::string>& warnings) {
@@ -80,43 +69,6 @@ CameraExport to_povray_fork(const Sidecar& file) {
       mode, mono ? 0.0f : stereo.ipd, stereo.mirrored ? -stereo.yaw : stereo.yaw, merged ? stereo.top.exponent : 0.0f,
       stereo.mirrored ? 1 : -1, stereo.position.x, stereo.position.y,
       stereo.position.z == 0.0f ? 0.0f : -stereo.position.z);
-  return result;
-}
-
-CameraExport to_ospray(const Sidecar& file) {
-  const StereoCamera& stereo = file.camera;
-  CameraExport result;
-  std::vector<std::string>& warnings = result.warnings;
-  warnings = lacking(file, {.system = "OSPRay", .tilt = true, .partial = true});
-  std::string_view mode = mode_name(file, {"none", "left", "right", "sideBySide", "topBottom"});
-  if (mode.empty()) {
-    warnings.push_back(no_layout(file, "OSPRay") + "; using topBottom instead");
-    mode = "topBottom";
-  }
-  warn_of_projection(file, "OSPRay", warnings);
-  const bool cosine = is_plain_cosine(stereo.top) && stereo.top.start == 0.0f && same_merge(stereo.top, stereo.bottom);
-  if (mode != "none" && !cosine) {
-    warnings.push_back(fmt::format("its merge is always the cosine of the elevation, not {}", merge_text(stereo)));
-  }
-  const std::array<glm::dvec3, 4> place = placement(stereo);
-  const auto parameters = [&] {
-    std::string text = fmt::format(
-        "    \"position\": {},\n    \"direction\": {},\n    \"up\": {},\n    \"stereoMode\": \"{}\",\n"
-        "    \"interpupillaryDistance\": {}",
-        json_numbers(place[3]), json_numbers(-place[2] + 0.0), json_numbers(place[1]), mode, stereo.ipd);
-    const vec2 lon = stereo.projection.longitude, lat = stereo.projection.latitude;
-    if (stereo.projection.kind != kLatLong || is_full_lat_long(stereo.projection)) return text;
-    return text + fmt::format(",\n    \"imageStart\": [{:.8g}, {:.8g}],\n    \"imageEnd\": [{:.8g}, {:.8g}]",
-                              lon.x / 360.0f + 0.5f, lat.x / 180.0f + 0.5f, lon.y / 360.0f + 0.5f,
-                              lat.y / 180.0f + 0.5f);
-  }();
-  std::vector<std::string> comments{"lengths are metres, +Y is up: " + camera_title(file)};
-  for (const std::string& warning : warnings) comments.push_back("not as asked: " + warning);
-  result.text = fmt::format(
-      "{{\n  \"comments\": {},\n  \"ospray\": {{\n    \"type\": \"panoramic\",\n{}\n  }},\n"
-      "  \"anari\": {{\n    \"type\": \"omnidirectional\",\n    \"extensions\": [\"KHR_CAMERA_OMNIDIRECTIONAL\", "
-      "\"KHR_CAMERA_STEREO\"],\n{}\n  }}\n}}\n",
-      json_strings(comments), parameters, parameters);
   return result;
 }
 
@@ -224,69 +176,6 @@ CameraExport to_mtoa(const Sidecar& file) {
   row("aiTopMergeAngle", camera.top_angle, "");
   row("aiBottomMergeMode", place(camera.bottom_mode, {"none", "cosine", "shader"}), camera.bottom_mode);
   row("aiBottomMergeAngle", camera.bottom_angle, "");
-  return result;
-}
-
-CameraExport to_unity(const Sidecar& file) {
-  const StereoCamera& stereo = file.camera;
-  CameraExport result;
-  std::vector<std::string>& warnings = result.warnings;
-  warnings = lacking(file, {.system = "Unity"});
-  warn_of_projection(file, "Unity", warnings);
-  if (stereo.top.mode != kMergeNone || stereo.bottom.mode != kMergeNone) {
-    warnings.push_back(fmt::format("Unity has no merge ({})", merge_text(stereo)));
-  }
-  if (file.eyes.size() == 2 && file.layout != Layout::kTopBottom) {
-    warnings.push_back(no_layout(file, "ConvertToEquirect") + "; the left eye is the top half");
-  }
-  const Extent size = file.eye.width > 0 ? file.eye : Extent{4096, 2048};
-  std::string& text = result.text;
-  text = comment_block("//", "Unity, built-in pipeline (not HDRP or URP): " + camera_title(file) + ".", warnings);
-  text +=
-      "// Its eyes stand on a circle that tilts with the elevation: close to the model, not equal. World up is fixed.\n"
-      "// Metres; Unity's z points ahead, ours is turned round.\n";
-  text += fmt::format(
-      "camera.transform.SetPositionAndRotation(new Vector3({}f, {}f, {}f), Quaternion.Euler(0f, {}f, 0f));\n"
-      "camera.stereoSeparation = {}f;\n",
-      stereo.position.x, stereo.position.y, 0.0f - stereo.position.z, stereo.yaw, stereo.ipd);
-  const bool mono = file.eyes.size() == 1 && file.eyes[0] == kMono;
-  text += fmt::format("var picture = new RenderTexture({}, {}, 24);\n", size.width,
-                      size.height * static_cast<int>(file.eyes.size()));
-  for (const int eye : file.eyes) {
-    const std::string_view name = mono ? "Mono" : eye == kLeft ? "Left" : "Right";
-    text += fmt::format(
-        "camera.RenderToCubemap(cubemap, 63, Camera.MonoOrStereoscopicEye.{});\n"
-        "cubemap.ConvertToEquirect(picture, Camera.MonoOrStereoscopicEye.{});\n",
-        name, file.eyes.size() == 1 ? "Mono" : name);
-  }
-  return result;
-}
-
-CameraExport to_unreal(const Sidecar& file) {
-  const StereoCamera& stereo = file.camera;
-  CameraExport result;
-  std::vector<std::string>& warnings = result.warnings;
-  warnings = lacking(file, {.system = "Unreal", .tilt = true});
-  warn_of_projection(file, "Unreal", warnings);
-  if (stereo.top.mode != kMergeNone || stereo.bottom.mode != kMergeNone) {
-    warnings.push_back(fmt::format("Unreal has no merge towards the poles ({})", merge_text(stereo)));
-  }
-  if (file.eyes.size() == 1 && file.eyes[0] != kMono) warnings.push_back("Unreal renders both eyes or mono");
-  if (file.eyes.size() == 2 && file.layout != Layout::kTopBottom) warnings.push_back(no_layout(file, "Unreal"));
-  std::string& text = result.text;
-  text = comment_block("//", "Unreal's panoramic capture, console: " + camera_title(file) + ". Centimetres.", warnings);
-  text +=
-      "// It captures slits of one eye point each: one degree of heading at a time by default.\n"
-      "// Untested in the editor: the names are those that the plug-in's source registers.\n";
-  text += fmt::format("// Camera: X={:.6g} Y={:.6g} Z={:.6g}, Pitch={} Yaw={} Roll={}\n",
-                      -100.0f * stereo.position.z + 0.0f, 100.0f * stereo.position.x, 100.0f * stereo.position.y,
-                      stereo.pitch, stereo.yaw, stereo.roll);
-  text += fmt::format("SP.EyeSeparation {}\n", 100.0f * stereo.ipd);
-  text += fmt::format("SP.StepCaptureWidth {}\n", file.eye.width > 0 ? file.eye.width : 4096);
-  text += "SP.HorizontalAngularIncrement 1\n";
-  text += fmt::format("SP.MonoscopicMode {}\n", file.eyes.size() == 1 && file.eyes[0] == kMono ? 1 : 0);
-  text += "SP.FadeStereoToZeroAtSides 0\n";
-  text += "SP.UseCameraRotation 7\n";
   return result;
 }
 

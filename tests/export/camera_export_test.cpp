@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
@@ -91,12 +90,10 @@ TEST(CameraExport, NothingIsDroppedSilently) {
   odd[4].camera.projection = find_projection("fisheye-equisolid")->setting;
   odd[5].camera.head_tilt_map = std::make_shared<Image>(2, 1, 1);
   for (const CameraTarget target :
-       {CameraTarget::kPovrayFork, CameraTarget::kBlender, CameraTarget::kOspray, CameraTarget::kArnold,
-        CameraTarget::kMtoa, CameraTarget::kUnity, CameraTarget::kUnreal}) {
+       {CameraTarget::kPovrayFork, CameraTarget::kBlender, CameraTarget::kArnold, CameraTarget::kMtoa}) {
     for (size_t i = 0; i < odd.size(); i++) {
       const CameraExport plain = export_camera(Sidecar(), target), result = export_camera(odd[i], target);
-      EXPECT_TRUE(!result.refusal.empty() || result.warnings.size() > plain.warnings.size() ||
-                  (i == 3 && target == CameraTarget::kOspray))
+      EXPECT_TRUE(!result.refusal.empty() || result.warnings.size() > plain.warnings.size())
           << camera_target_name(target) << ' ' << i;
     }
   }
@@ -117,24 +114,6 @@ TEST(CameraExport, TheForkHasItsKeywords) {
   file.camera.pitch = 10.0f, file.camera.neck = 0.1f;
   const std::string refusal = export_camera(file, CameraTarget::kPovrayFork).refusal;
   EXPECT_TRUE(has(refusal, "pitch") && has(refusal, "eye-to-neck")) << refusal;
-}
-
-TEST(CameraExport, OsprayIsJson) {
-  Sidecar file;
-  file.camera.yaw = 90.0f;
-  file.camera.top = file.camera.bottom = cosine(0.0f, 90.0f, 1.0f);
-  CameraExport result = export_camera(file, CameraTarget::kOspray);
-  EXPECT_TRUE(result.warnings.empty());
-  const auto json = nlohmann::json::parse(result.text);
-  EXPECT_EQ(json["ospray"]["type"], "panoramic");
-  EXPECT_EQ(json["ospray"]["stereoMode"], "topBottom");
-  EXPECT_EQ(json["anari"]["direction"], (nlohmann::json{1.0, 0.0, 0.0}));
-  for (const Sidecar& each : many_cameras()) {
-    EXPECT_TRUE(nlohmann::json::accept(export_camera(each, CameraTarget::kOspray).text));
-  }
-  file.camera.projection = find_projection("vr180")->setting;
-  const auto part = nlohmann::json::parse(export_camera(file, CameraTarget::kOspray).text);
-  EXPECT_EQ(part["ospray"]["imageStart"], (nlohmann::json{0.25, 0.0}));
 }
 
 TEST(CameraExport, ArnoldsAnglesStartAtThePole) {

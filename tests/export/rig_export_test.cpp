@@ -265,6 +265,79 @@ TEST(RigExport, JavaScriptTakesTheModule) {
   EXPECT_TRUE(runs("node " + folder.path("check.mjs")));
 }
 
+// What the script uses of Unity, with the types of its scripting reference.
+constexpr const char* kUnity = R"(
+using System;
+namespace UnityEngine {
+  public struct Vector3 { public Vector3(float x, float y, float z) {} }
+  public struct Quaternion { public static Quaternion LookRotation(Vector3 ahead, Vector3 up) { return new Quaternion(); } }
+  public struct Rect { public Rect(float x, float y, float width, float height) {} }
+  public class Object { public static void DestroyImmediate(Object each) {} }
+  public class Transform : Object { public void SetPositionAndRotation(Vector3 place, Quaternion turn) {} }
+  public class GameObject : Object {
+    public GameObject(string name) {}
+    public Transform transform { get { return null; } }
+    public T AddComponent<T>() where T : Object { return null; }
+  }
+  public class Camera : Object {
+    public static Camera main { get { return null; } }
+    public void CopyFrom(Camera other) {}
+    public void Render() {}
+    public bool enabled { get; set; }
+    public bool orthographic { get; set; }
+    public float nearClipPlane { get; set; }
+    public float aspect { get; set; }
+    public float fieldOfView { get; set; }
+    public Rect rect { get; set; }
+    public RenderTexture targetTexture { get; set; }
+  }
+  public enum ColorSpace { Gamma, Linear }
+  public class QualitySettings { public static ColorSpace activeColorSpace { get { return ColorSpace.Linear; } } }
+  public enum RenderTextureFormat { ARGBHalf }
+  public enum RenderTextureReadWrite { Linear }
+  public class Texture : Object {}
+  public class RenderTexture : Texture {
+    public RenderTexture(int width, int height, int depth, RenderTextureFormat format, RenderTextureReadWrite light) {}
+    public int antiAliasing { get; set; }
+    public static RenderTexture active { get; set; }
+  }
+  public enum TextureFormat { RGBAHalf }
+  public class Texture2D : Texture {
+    [Flags] public enum EXRFlags { CompressZIP = 2 }
+    public Texture2D(int width, int height, TextureFormat format, bool mips, bool linear) {}
+    public void ReadPixels(Rect from, int x, int y) {}
+  }
+  public static class ImageConversion {
+    public static byte[] EncodeToEXR(this Texture2D texture, Texture2D.EXRFlags flags) { return null; }
+    public static byte[] EncodeToPNG(this Texture2D texture) { return null; }
+  }
+  public class Debug { public static void LogError(object text) {} }
+  public class Random { public static void InitState(int seed) {} }
+}
+namespace UnityEditor {
+  public class MenuItem : Attribute { public MenuItem(string name) {} }
+  public class EditorUtility {
+    public static bool DisplayCancelableProgressBar(string title, string text, float done) { return false; }
+    public static void ClearProgressBar() {}
+  }
+}
+)";
+
+TEST(RigExport, CSharpTakesTheScript) {
+  if (!runs("mcs --version")) GTEST_SKIP() << "skipped: mcs is not installed";
+  const TemporaryFolder folder;
+  folder.write("unity.cs", kUnity);
+  const auto compiles = [&](const std::string& script) {
+    folder.write("rig.cs", script);
+    return runs("mcs -target:library " + folder.path("unity.cs") + " " + folder.path("rig.cs"));
+  };
+  const std::string script = text_of(make_rig(), RigTarget::kUnity);
+  EXPECT_TRUE(compiles(script));
+  std::string wrong = script;
+  wrong.replace(wrong.find("camera.aspect"), 13, "camera.aspekt");
+  EXPECT_FALSE(compiles(wrong)) << "it takes anything";
+}
+
 // --- marks -----------------------------------------------------------------------------------------------------------
 
 SlitRig other_rig() {
