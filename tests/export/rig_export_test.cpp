@@ -312,7 +312,6 @@ namespace UnityEngine {
     public static byte[] EncodeToPNG(this Texture2D texture) { return null; }
   }
   public class Debug { public static void LogError(object text) {} }
-  public class Random { public static void InitState(int seed) {} }
 }
 namespace UnityEditor {
   public class MenuItem : Attribute { public MenuItem(string name) {} }
