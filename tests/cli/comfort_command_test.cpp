@@ -132,7 +132,7 @@ TEST_F(ComfortCommand, AMergeMapIsNotForgotten) {
       << err;
   const Json found = judged(near);
   EXPECT_TRUE(found.contains("matched")) << out;
-  EXPECT_NEAR(found["nearest"], 0.84, 0.15) << out;  // with eyes so close, what is at 0.42 m looks so far
+  EXPECT_LT(found["share"]["error"], 0.15) << out;  // by its depth, as if it had no merge: 0.25
   run("comfort " + near);
   EXPECT_NE(out.find("Its merge map is missing"), std::string::npos) << out;
 }
