@@ -59,7 +59,7 @@ std::vector<std::string> hidden_in_circle(const ods::CpuRenderer& renderer, cons
 // An eye's colours, the nearest pixels of it.
 ods::Image colors_of(const ods::StoredPicture& picture, size_t eye, int width, int height) {
   ods::Image light(width, height, 3);
-  const auto [eye_width, eye_height] = picture.size;
+  const int eye_width = picture.size.width, eye_height = picture.size.height;
   ods::read_colors(picture, eye, [&](int from, const std::vector<float>& row) {
     const int y = static_cast<int>(int64_t{from} * height / eye_height);
     for (int x = 0; x < width; x++) {
