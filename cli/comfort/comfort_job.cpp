@@ -80,7 +80,7 @@ void parse_rules(const std::string& word, ods::ComfortOptions& comfort) {
 void refuse_camera(const Options& options, const ComfortJob& job) {
   const std::vector<std::string> own = {"",       "--rules", "--focus",    "--viewer-ipd", "--gaze",
                                         "--heat", "--html",  "--json",     "--layout",     "--projection",
-                                        "-q",     "--quiet", "--no-color", "--progress"};
+                                        "-q",     "--quiet", "--no-color", "--progress",   "--head-roll"};
   for (const GivenWord& word : options.given_words()) {
     if (std::ranges::find(own, word.name) != own.end()) continue;
     throw UsageError(fmt::format("{} is for scenes, and '{}' is a {}", word.name, job.scene.name,
@@ -110,6 +110,8 @@ bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
       "--viewer-ipd", "METRES", "0.065", [&](const std::string& word) { viewer.ipd = parse_viewer_ipd(word); },
       "distance between the viewer's pupils: 0.05, or 50mm, of a child to 0.075 of a man");
   options.number("--gaze", viewer.gaze_degrees, 1.0f, 45.0f, "degrees that the eyes turn before the head does");
+  options.number("--head-roll", viewer.roll_degrees, 0.0f, 45.0f,
+                 "degrees that the line through the ears may be out of level");
   options.custom(
       "--rules", "RULES", "strain", [&](const std::string& word) { parse_rules(word, job.comfort); },
       "strain: each strain by its own limits; google: 0.6 m at the horizon to 3.5 m at the poles; safe-sphere:METRES: "

@@ -98,6 +98,7 @@ std::vector<std::string> cure_lines(const ComfortJob& job, const Looked& looked,
 void print_text(const ComfortJob& job, const Looked& looked, const ComfortReport& report) {
   fmt::print("{}: {}; eyes {:.3g} m apart, nearest {:.2f} m\n", job.scene.name,
              comfort_level_name(verdict(job, looked, report)), looked.camera.ipd, report.nearest);
+  if (!looked.why_matched.empty()) fmt::print("{}: judged by matching them\n", looked.why_matched);
   if (looked.match) {
     fmt::print("by matching: +-{:.0f} minutes of arc; {:.0f} % of the picture could be matched\n",
                looked.match->precision, 100.0 * looked.match->share);
@@ -108,25 +109,29 @@ void print_text(const ComfortJob& job, const Looked& looked, const ComfortReport
   }
   fmt::print("{} of the picture, by solid angle; where people look: {}\n", shares_text(report.share),
              shares_text(report.looked));
+  if (report.head_roll > 0.0 && report.head_roll < 89.0) {
+    fmt::print("a head may tilt sideways by {:.2g} degrees before the eyes must turn apart vertically too far\n",
+               report.head_roll);
+  }
   for (const StrainedPlace& place : report.places) print_place(place);
   for (const std::string& cure : cure_lines(job, looked, report)) fmt::print("cure: {}\n", cure);
 }
 
 void print_json(const ComfortJob& job, const Looked& looked, const ComfortReport& report) {
   const ods::Viewer& viewer = job.comfort.viewer;
-  Json json = {{"path", job.scene.name},
-               {"level", comfort_level_name(verdict(job, looked, report))},
-               {"ipd", looked.camera.ipd},
-               {"viewer_ipd", viewer.ipd},
-               {"gaze", viewer.gaze_degrees}};
+  Json json = {{"path", job.scene.name},      {"level", comfort_level_name(verdict(job, looked, report))},
+               {"ipd", looked.camera.ipd},    {"viewer_ipd", viewer.ipd},
+               {"gaze", viewer.gaze_degrees}, {"roll", viewer.roll_degrees}};
   json["focus"] = std::isfinite(viewer.focus) ? Json(viewer.focus) : Json("infinity");
   json["nearest"] = std::isfinite(report.nearest) ? Json(report.nearest) : Json();
   json["unknown"] = report.unknown;
   if (looked.match) {
     json["matched"] = {
         {"share", looked.match->share}, {"precision", looked.match->precision}, {"apart", looked.match->apart}};
+    if (!looked.why_matched.empty()) json["matched"]["why"] = looked.why_matched;
   }
   json["largest_ipd"] = report.largest_ipd;
+  json["head_roll"] = report.head_roll;
   json["share"] = shares_json(report.share), json["looked"] = shares_json(report.looked);
   for (const ods::StrainRow& strain : ods::kStrainTable) {
     const bool is_rule = strain.member == Strain::kRule;

@@ -22,6 +22,7 @@
 #include "ods/image/tone.h"
 #include "ods/picture/cryptomatte.h"
 #include "ods/picture/load_eyes.h"
+#include "ods/picture/metadata/metadata.h"
 #include "ods/picture/stored_picture.h"
 #include "ods/render/cpu/render.h"
 #include "ods/render/render_target.h"
@@ -58,7 +59,7 @@ std::vector<std::string> hidden_in_circle(const ods::CpuRenderer& renderer, cons
 // An eye's colours, the nearest pixels of it.
 ods::Image colors_of(const ods::StoredPicture& picture, size_t eye, int width, int height) {
   ods::Image light(width, height, 3);
-  const auto [eye_width, eye_height] = picture.size;
+  const int eye_width = picture.size.width, eye_height = picture.size.height;
   ods::read_colors(picture, eye, [&](int from, const std::vector<float>& row) {
     const int y = static_cast<int>(int64_t{from} * height / eye_height);
     for (int x = 0; x < width; x++) {
@@ -68,8 +69,8 @@ ods::Image colors_of(const ods::StoredPicture& picture, size_t eye, int width, i
   return light;
 }
 
-std::optional<ods::Cryptomatte> matte_of(const std::string& path) {
-  return ods::find_cryptomatte(ods::read_info(ods::names_eye(path) ? ods::path_for_eye(path, ods::kLeft) : path));
+ods::FileInfo info_of(const std::string& path) {
+  return ods::read_info(ods::names_eye(path) ? ods::path_for_eye(path, ods::kLeft) : path);
 }
 
 // numbers: of what each pixel shows; chosen: the pixels that are judged.
@@ -98,7 +99,7 @@ Looked match_picture(const ods::StoredPicture& picture, const std::string& name)
   ods::check_matchable(picture.camera.projection, picture.size.width, name);
   if (!picture.has_ipd) note("no word says how far apart its eyes are: distances are for 65 mm");
   ods::MatchedEyes matched = ods::match_eyes_for_depth(ods::grey_eyes(picture), picture.camera, picture.is_float);
-  Looked looked{matched.seen[0].camera, {}, MatchQuality{matched.share, matched.precision, matched.apart}, {}};
+  Looked looked{matched.seen[0].camera, {}, MatchQuality{matched.share, matched.precision, matched.apart}, {}, {}};
   if (matched.share < ods::kLeastMatched) {
     throw ods::Error(ods::ErrorKind::kInput,
                      fmt::format("'{}' has no depth, and only {:.1f} % of its eyes could be matched: see what ods lint "
@@ -113,7 +114,8 @@ Looked match_picture(const ods::StoredPicture& picture, const std::string& name)
 struct Opened {
   ods::StoredPicture picture;
   std::optional<ods::Cryptomatte> matte;
-  bool shows = false;  // its colours are there
+  bool shows = false;      // its colours are there
+  bool lacks_map = false;  // without which depth does not tell what its eyes show
 };
 
 Opened open_to_judge(const ComfortJob& job) {
@@ -125,8 +127,12 @@ Opened open_to_judge(const ComfortJob& job) {
   ods::PictureReader reader(name, open);
   const ods::StoredPicture& header = reader.header();
   const std::optional<size_t> layer = ods::depth_layer(header);
-  if (layer) opened.matte = matte_of(name);
-  opened.shows = !layer || !job.heat.empty() || !job.html.empty();
+  if (layer) {
+    const ods::FileInfo info = info_of(name);
+    opened.matte = ods::find_cryptomatte(info);
+    opened.lacks_map = header.eyes.size() == 2 && ods::lacks_merge_map(info, header.camera);
+  }
+  opened.shows = !layer || opened.lacks_map || !job.heat.empty() || !job.html.empty();
   const std::string depth = layer ? header.eyes[0].layers[*layer].channels[0] : "";
   const std::string matte = opened.matte ? ods::matte_channel(header, *opened.matte) : "";
   const std::vector<std::string> colors = header.eyes[0].layers[0].channels;
@@ -180,7 +186,7 @@ Looked look_at_scene(const ComfortJob& job) {
     ods::use_merge_map(camera, ods::merge_map_of(ods::shares_seen(renderer, camera, *job.camera.merge_limit)));
   }
   const Things things = things_of(scene);
-  Looked looked{camera, {}, {}, hidden_in_circle(renderer, camera, options, things)};
+  Looked looked{camera, {}, {}, {}, hidden_in_circle(renderer, camera, options, things)};
   for (ods::SeenDepth& seen : look_from(renderer, things, camera, options)) {
     ods::Image light(options.width, options.height, 3);
     for (size_t k = 0; k < seen.depth.pixels.size(); k++) {
@@ -197,7 +203,17 @@ Looked look_at_picture(const ComfortJob& job) {
   const Opened opened = open_to_judge(job);
   const ods::StoredPicture& picture = opened.picture;
   if (!ods::depth_layer(picture)) return match_picture(picture, name);
-  Looked looked{picture.camera, {}, {}, {}};
+  if (opened.lacks_map) {
+    try {
+      Looked looked = match_picture(picture, name);
+      looked.why_matched = "Its merge map is missing, so its depth does not tell what the eyes see";
+      return looked;
+    } catch (const ods::Error&) {
+      warn(fmt::format("'{}': its merge map is missing, and its eyes cannot be matched: judged as if it had no merge",
+                       name));
+    }
+  }
+  Looked looked{picture.camera, {}, {}, {}, {}};
   for (size_t i = 0; i < picture.eyes.size(); i++) {
     Judged& judged = looked.eyes.emplace_back();
     std::vector<size_t> chosen;

@@ -24,6 +24,7 @@ struct Looked {
   ods::StereoCamera camera;  // of the scene or picture
   std::vector<Judged> eyes;
   std::optional<MatchQuality> match;  // of a picture without depth
+  std::string why_matched;            // instead of judged by the depth that it has; may be empty
   std::vector<std::string> hidden;    // of a scene: what stands within the viewing circle, where no ray begins
 };
 

@@ -306,7 +306,18 @@ void open_input(ConvertJob& job) {
   }
 }
 
+std::optional<int> first_of_all(const ConvertJob& job) {
+  if (job.kind != FootageKind::kFrames || job.every_frame.empty()) return std::nullopt;
+  return job.every_frame.front();
+}
+
 void open_depth(ConvertJob& job) {
   if (job.depth.path.empty()) return;
-  job.depth_frames.emplace(job.depth.path, job.picture, job.depth.options, job.trim);
+  const bool is_part = job.files.frames != job.every_frame || job.share.skip_existing;
+  if (is_part && ods::footage_kind(job.depth.path) == FootageKind::kVideo) {
+    throw UsageError(fmt::format(
+        "--only and --skip-existing need the depth as frames (depth.####.png), which have numbers: '{}' is a video",
+        job.depth.path));
+  }
+  job.depth_frames.emplace(job.depth.path, job.picture, job.depth.options, job.trim, first_of_all(job));
 }

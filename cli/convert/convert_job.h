@@ -55,8 +55,11 @@ bool read_convert_job(ConvertJob& job, int argc, char** argv);
 // Reads the input's pixels, if it is one picture. Throws UsageError and ods::Error.
 void open_input(ConvertJob& job);
 
-// Opens the depth of frames and videos, if they have any beside them. Throws ods::Error.
+// Opens the depth of frames and videos, if they have any beside them. Throws UsageError and ods::Error.
 void open_depth(ConvertJob& job);
+
+// The number of the first frame, whichever process converts it; none of a video.
+std::optional<int> first_of_all(const ConvertJob& job);
 
 // The merges of --merge auto, of frames and videos. Throws UsageError and ods::Error.
 void find_merges(ConvertJob& job);

@@ -30,7 +30,7 @@ class Looks {
     if (job.depth.path.empty()) return;
     ods::DepthOptions options = job.depth.options;
     options.edges = ods::DepthEdges::kSoft;
-    depth_.emplace(job.depth.path, job.picture, options, job.trim);
+    depth_.emplace(job.depth.path, job.picture, options, job.trim, first_of_all(job));
   }
 
   // The next look: every step-th picture, and the last one.

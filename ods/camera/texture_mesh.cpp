@@ -114,7 +114,7 @@ class MeshMap final : public DirectionMap {
     glm::dvec2 uv[3];
   };
 
-  int column_of(double x) const { return std::clamp(static_cast<int>((0.5 * x + 0.5) * side_), 0, side_ - 1); }
+  int column_of(double x) const { return static_cast<int>(std::clamp((0.5 * x + 0.5) * side_, 0.0, side_ - 1.0)); }
   size_t cell_at(int face, int x, int y) const {
     return (static_cast<size_t>(face) * static_cast<size_t>(side_) + static_cast<size_t>(y)) *
                static_cast<size_t>(side_) +

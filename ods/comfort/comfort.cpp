@@ -82,7 +82,8 @@ class Judge {
         is_even_(has_even_rows(camera_, seen.eye)),
         width_(seen.depth.width),
         height_(seen.depth.height),
-        steradians_(steradians_of_pixel()) {
+        steradians_(steradians_of_pixel()),
+        reach_(reach_of(options.viewer)) {
     for (const Strain strain : kStrains) limits_[static_cast<size_t>(strain)] = strain_limits(strain, options.viewer);
   }
 
@@ -120,6 +121,7 @@ class Judge {
   double circle_for(size_t pixel) const;
   double circle_by_steps(const Point& point) const;
   double circle_for_row(int y) const;
+  double roll_for_row(int y) const;
   StrainedPlace describe(size_t pixel, double share) const;
   std::vector<int> things_or_areas() const;
   void list_places(ComfortReport& report, double all) const;
@@ -128,7 +130,6 @@ class Judge {
   size_t pixel(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
   }
-  double gaze() const { return double{options_.viewer.gaze_degrees} * kDegree; }
   double limit(Strain strain) const { return limits_[static_cast<size_t>(strain)].warning; }
   ViewDirection look_at(int x, int y) const {
     const vec2 uv = pixel_middle(x, y, seen_.depth);
@@ -141,6 +142,7 @@ class Judge {
   const bool is_even_;
   const int width_, height_;
   const double steradians_;  // of relative_solid_angle()
+  const HeadReach reach_;
   std::array<StrainLimits, std::size(kStrains)> limits_{};
   std::vector<Point> points_;
 };
@@ -209,7 +211,7 @@ void Judge::judge_pixel(int x, int y, View& view) {
   }
   set(Strain::kNear, vergence_dioptres(converged, options_.viewer));
   if (place.half_parallax <= view.harmless) return;  // vertical disparity grows with it
-  const double vertical = worst_vertical_disparity(place.half_parallax, view.elevation, gaze()) / kArcMinute;
+  const double vertical = worst_vertical_disparity(place.half_parallax, view.elevation, reach_) / kArcMinute;
   set(Strain::kVertical, vertical);
   if (vertical <= limits_[static_cast<size_t>(Strain::kVertical)].caution) view.harmless = place.half_parallax;
 }
@@ -287,7 +289,7 @@ double Judge::circle_for(size_t pixel) const {
   for (int i = 0; i < 8; i++) {
     const auto [half, elevation] = seen_from_circle(share * circle, place.across, place.height);
     const double near = vergence_dioptres(vergence(half, elevation), options_.viewer);
-    const double vertical = worst_vertical_disparity(half, elevation, gaze()) / kArcMinute;
+    const double vertical = worst_vertical_disparity(half, elevation, reach_) / kArcMinute;
     const double over = std::max(near / limit(Strain::kNear), vertical / limit(Strain::kVertical));
     if (over <= 1.0 && (over > 0.9999 || share == 1.0)) break;
     share = std::min(1.0, share / over);
@@ -312,6 +314,23 @@ double Judge::circle_for_row(int y) const {
     if (points_[i].vergence > points_[worst].vergence) worst = i;
   }
   return std::min(share, circle_for(worst));
+}
+
+// Up to which it is no more than a caution. On an even row, of the pixel for which the eyes converge most.
+double Judge::roll_for_row(int y) const {
+  const double most = limit(Strain::kVertical) * kArcMinute;
+  const auto begin = points_.begin() + static_cast<std::ptrdiff_t>(pixel(0, y));
+  const auto worst =
+      std::max_element(begin, begin + width_, [](const Point& a, const Point& b) { return a.vergence < b.vergence; });
+  double least = 0.5 * pi;
+  for (int x = 0; x < width_; x++) {
+    if ((is_even_ && begin + x != worst) || !(begin[x].vergence > 0.0f)) continue;
+    const View view = view_of(x, y);
+    const double half = place_at(x, y, view).half_parallax;
+    if (worst_vertical_disparity(half, view.elevation, {reach_.gaze, least}) <= most) continue;
+    least = roll_for_disparity(half, view.elevation, reach_.gaze, most);
+  }
+  return least;
 }
 
 // Strains go nearly as one over the distance.
@@ -391,13 +410,14 @@ void Judge::list_places(ComfortReport& report, double all) const {
 ComfortReport Judge::report() {
   points_.resize(seen_.depth.pixels.size());
   tbb::parallel_for(0, height_, [&](int y) { judge_row(y); });
-  std::vector<double> circles(static_cast<size_t>(height_), 1.0);
+  std::vector<double> circles(static_cast<size_t>(height_), 1.0), rolls(circles.size(), 0.5 * pi);
   tbb::parallel_for(0, height_, [&](int y) {
     if (options_.rules == ComfortRules::kStrain) add_steps(y), add_edges(y);
     for (int x = 0; x < width_; x++) {
       rate(points_[pixel(x, y)]);
     }
     circles[static_cast<size_t>(y)] = circle_for_row(y);
+    if (options_.rules == ComfortRules::kStrain) rolls[static_cast<size_t>(y)] = roll_for_row(y);
   });
   ComfortReport report;
   report.level = Image(width_, height_, 1);
@@ -422,6 +442,7 @@ ComfortReport Judge::report() {
   for (double& share : report.looked) share /= std::max(looked, 1e-12);
   report.unknown = static_cast<double>(unknown) / static_cast<double>(points_.size());
   report.largest_ipd = seen_.camera.ipd * static_cast<float>(*std::ranges::min_element(circles));
+  report.head_roll = *std::ranges::min_element(rolls) / kDegree;
   list_places(report, std::max(all, 1e-12));
   return report;
 }
@@ -437,10 +458,10 @@ PointComfort judge_point(const StereoCamera& setting, int eye, vec2 uv, float de
   const Camera camera = make_camera(setting);
   const ViewDirection look = look_of(camera.projection, uv, uv);
   const JudgedPlace place = place_of(camera, eye, uv, look, depth);
-  const double elevation = elevation_of(look), gaze = double{viewer.gaze_degrees} * kDegree;
+  const double elevation = elevation_of(look);
   PointComfort point{ComfortLevel::kOk, place.distance};
   point.near = vergence_dioptres(vergence(place.half_parallax, elevation), viewer);
-  point.vertical = worst_vertical_disparity(place.half_parallax, elevation, gaze) / kArcMinute;
+  point.vertical = worst_vertical_disparity(place.half_parallax, elevation, reach_of(viewer)) / kArcMinute;
   point.level = std::max(level_of(point.near, strain_limits(Strain::kNear, viewer)),
                          level_of(point.vertical, strain_limits(Strain::kVertical, viewer)));
   return point;
@@ -466,24 +487,6 @@ std::string direction_text(double azimuth, double elevation) {
                                    : "behind";
   if (above > 0) text += fmt::format(", {}{} {}", above, is_side ? "" : " degrees", elevation < 0.0 ? "down" : "up");
   return text;
-}
-
-Image nearest_of_blocks(const Image& depth, int most_width, std::vector<size_t>* chosen) {
-  const int block = std::max(1, (depth.width + most_width - 1) / most_width);
-  Image nearest((depth.width + block - 1) / block, (depth.height + block - 1) / block, 1);
-  std::ranges::fill(nearest.pixels, std::numeric_limits<float>::quiet_NaN());
-  if (chosen) chosen->assign(nearest.pixels.size(), 0);
-  for (int y = 0; y < depth.height; y++) {
-    const float* row = depth.at(0, y);
-    for (int x = 0; x < depth.width; x++) {
-      const size_t at = static_cast<size_t>(nearest.at(x / block, y / block) - nearest.pixels.data());
-      float& least = nearest.pixels[at];
-      if (!(row[x] > 0.0f) || row[x] >= least) continue;
-      least = row[x];
-      if (chosen) (*chosen)[at] = static_cast<size_t>(&row[x] - depth.pixels.data());
-    }
-  }
-  return nearest;
 }
 
 }  // namespace ods

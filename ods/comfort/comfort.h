@@ -61,7 +61,8 @@ struct ComfortReport {
   double nearest = 0.0;                            // metres; infinite if there is nothing
   double unknown = 0.0;                            // share of pixels without a depth
   float largest_ipd = 0.0f;                        // of the picture, with which nothing is more than a caution
-  Image level;                                     // 1 channel: the ComfortLevel of each pixel, as a number
+  double head_roll = 0.0;  // degrees to which the ears may be out of level before kVertical is a warning anywhere
+  Image level;             // 1 channel: the ComfortLevel of each pixel, as a number
 };
 
 // Throws Error(kInput) if no pixel has a depth. Precondition: the depth has 1 channel, `things` its size or none.

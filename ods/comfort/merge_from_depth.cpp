@@ -36,13 +36,13 @@ struct Allowed {
   double share = 1.0, elevation = 0.0;
 };
 
-Allowed allowed(double across, double height, double radius, double gaze, double limit) {
+Allowed allowed(double across, double height, double radius, const HeadReach& reach, double limit) {
   Allowed result;
   for (int i = 0; i < 8; i++) {
     const double circle = std::min(result.share * radius, 0.999 * across);
     const CircleView view = seen_from_circle(circle, across, height);
     result.elevation = view.elevation;
-    const double worst = worst_vertical_disparity(view.half_parallax, view.elevation, gaze);
+    const double worst = worst_vertical_disparity(view.half_parallax, view.elevation, reach);
     const double share = worst > 0.0 ? circle / radius * limit / worst : 1.0;
     if (share >= result.share) break;
     result.share = share;
@@ -105,7 +105,8 @@ SeenDepth seen_from_middle(const std::vector<SeenDepth>& eyes, const StereoCamer
 std::vector<float> comfortable_shares(const SeenDepth& seen, const Viewer& viewer, float limit) {
   assert(seen.eye == kMono);
   const Camera camera = make_camera(seen.camera);
-  const double radius = 0.5 * double{camera.ipd}, gaze = double{viewer.gaze_degrees} * pi / 180.0;
+  const double radius = 0.5 * double{camera.ipd};
+  const HeadReach reach = reach_of(viewer);
   std::vector<float> shares(kMergeRows, 1.0f);
   for (int y = 0; y < seen.depth.height; y++) {
     for (int x = 0; x < seen.depth.width; x++) {
@@ -115,7 +116,7 @@ std::vector<float> comfortable_shares(const SeenDepth& seen, const Viewer& viewe
       if (!look.seen || !is_surface(depth) || radius == 0.0) continue;
       const glm::dvec3 point = glm::dvec3(look.direction) * double{depth};
       const double across = std::max(std::hypot(point.x, point.z), 1e-6);
-      const Allowed own = allowed(across, point.y, radius, gaze, double{kSafety * limit} * kArcMinute);
+      const Allowed own = allowed(across, point.y, radius, reach, double{kSafety * limit} * kArcMinute);
       float& least = shares[static_cast<size_t>(row_of(own.elevation))];
       least = std::min(least, static_cast<float>(own.share));
     }

@@ -29,11 +29,6 @@ StrainLimits near_limits(const Viewer& viewer) {
   return {std::min(one_degree, zone), zone, std::max(zone, 1.0 / kGoogleAhead)};
 }
 
-// The yaw up to which a head may be turned away from the point.
-double most_yaw(double elevation, double gaze) {
-  return std::asin(std::min(std::sin(gaze) / std::max(std::cos(elevation), 1e-12), 1.0));
-}
-
 }  // namespace
 
 StrainLimits strain_limits(Strain strain, const Viewer& viewer) {
@@ -79,10 +74,35 @@ double vertical_disparity(double half_parallax, double elevation, double head_ya
          std::atan2(height, std::cos(head_yaw - half_parallax));
 }
 
-// |V| grows with the yaw up to a quarter turn. From a head turned by beta the point is at least
-// asin(cos phi sin beta) from straight ahead.
-double worst_vertical_disparity(double half_parallax, double elevation, double gaze) {
-  return std::abs(vertical_disparity(half_parallax, elevation, most_yaw(elevation, gaze)));
+HeadReach reach_of(const Viewer& viewer) {
+  return {double{viewer.gaze_degrees} * kDegree, double{viewer.roll_degrees} * kDegree};
+}
+
+// Vertical disparity is the angle between the eyes' lines of sight about the line h through the ears. Let m be the
+// direction in the middle of them, e the one along which they differ, and n = m x e. Then it grows with how much h
+// leans from e towards n, and with the angle between h and the plane of e and n. Gaze bounds that angle, the roll how
+// much h leans: its height is that lean times the elevation's cosine plus the angle's sine times the elevation's sine.
+double worst_vertical_disparity(double half_parallax, double elevation, const HeadReach& reach) {
+  const double converged = vergence(half_parallax, elevation);
+  const double middle = std::atan2(std::abs(std::sin(elevation)), std::cos(elevation) * std::cos(half_parallax));
+  const double aside = std::min(reach.gaze, 0.5 * pi + reach.roll - middle);
+  const double across = std::cos(aside) * std::cos(middle);
+  const double most = std::sin(reach.roll) + std::sin(middle) * std::sin(aside);
+  const double lean = most < across ? most / across : 1.0;  // the sine
+  const double inside = std::cos(aside) * std::cos(aside), along = inside * (1.0 - lean * lean);
+  const double together = 0.5 * (1.0 + std::cos(converged)), apart = 0.5 * (1.0 - std::cos(converged));
+  return std::atan2(std::abs(std::sin(converged)) * std::cos(aside) * lean, together * inside - apart * (1.0 - along));
+}
+
+double roll_for_disparity(double half_parallax, double elevation, double gaze, double limit) {
+  double least = 0.0, most = 0.5 * pi;
+  if (worst_vertical_disparity(half_parallax, elevation, {gaze, most}) <= limit) return most;
+  if (worst_vertical_disparity(half_parallax, elevation, {gaze, least}) >= limit) return 0.0;
+  for (int i = 0; i < 20; i++) {
+    const double roll = 0.5 * (least + most);
+    (worst_vertical_disparity(half_parallax, elevation, {gaze, roll}) <= limit ? least : most) = roll;
+  }
+  return least;
 }
 
 }  // namespace ods

@@ -11,7 +11,9 @@
 //
 //   V(beta) = atan2(tan phi, cos(beta + delta)) - atan2(tan phi, cos(beta - delta))
 //
-// for a head whose yaw is beta from the point; the head's pitch does not matter. Source: derived from the projection of
+// for a head whose yaw is beta from the point; the head's pitch does not matter. A head whose ears are not level sees
+// the vergence itself tilted, in every stereo picture: while it looks straight at the point, vertical disparity is the
+// vergence times the sine of its roll. Both together are in docs/comfort.md. Source: derived from the projection of
 // Google, "Rendering Omni-directional Stereo Content"; tests/comfort/strain_test.cpp searches head poses for worse
 // ones.
 //
@@ -27,6 +29,7 @@ struct Viewer {
   float ipd = 0.065f;          // between the pupils
   float focus = 1.3f;          // where the headset's lenses focus; may be infinite
   float gaze_degrees = 15.0f;  // how far the eyes turn before the head does
+  float roll_degrees = 0.0f;   // how far the line through the ears may be out of level
 };
 
 // What strains.
@@ -106,8 +109,17 @@ double vergence_dioptres(double vergence, const Viewer& viewer);
 // V above.
 double vertical_disparity(double half_parallax, double elevation, double head_yaw);
 
-// The largest |V| over all heads, of any yaw and pitch, from which the point is at most `gaze` away from straight
-// ahead.
-double worst_vertical_disparity(double half_parallax, double elevation, double gaze);
+// What a head may do: the point is at most `gaze` away from straight ahead, the line through the ears at most `roll`
+// out of level.
+struct HeadReach {
+  double gaze = 0.0, roll = 0.0;
+};
+HeadReach reach_of(const Viewer& viewer);
+
+// The largest vertical disparity over all such heads, of any yaw and pitch.
+double worst_vertical_disparity(double half_parallax, double elevation, const HeadReach& reach);
+
+// The roll, up to a quarter turn, with which that is the limit; 0 if it is more with level ears.
+double roll_for_disparity(double half_parallax, double elevation, double gaze, double limit);
 
 }  // namespace ods

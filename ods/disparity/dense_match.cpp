@@ -115,7 +115,7 @@ class Volume {
   size_t cell(int x, int y) const { return pixel(x, y) * static_cast<size_t>(shifts_); }
   double size() const { return 2.0 * std::numbers::pi / width(); }
 
-  const Band left_, right_;
+  const Band left_;
   const int least_, shifts_;  // the first shift, and how many there are
   Census own_, other_;
   std::vector<uint8_t> costs_;
@@ -124,7 +124,6 @@ class Volume {
 
 Volume::Volume(const Band& left, const Band& right)
     : left_(left),
-      right_(right),
       least_(-static_cast<int>(std::ceil(kOutwards / size()))),
       shifts_((static_cast<int>(std::ceil(kInwards / size())) - least_ + 8) / 8 * 8),
       own_(census_of(left)),

@@ -256,7 +256,7 @@ PartsReader::File PartsReader::open(const std::string& path) const {
     each_plane(eye, [&]<typename Number>(const char* name, const std::vector<Number>& plane) {
       for (const std::string& channel : channels_of(name, plane.size(), Words<Number>::kCount))
         offsets.sums.push_back(offset(channel));
-      for (const size_t numbers : {1, 3}) {
+      for (const size_t numbers : {size_t{1}, size_t{3}}) {
         for (const std::string& channel : channels_of(name, numbers, Words<Number>::kCount))
           if (has(channel)) offsets.checked.push_back(offset(channel));
       }

@@ -111,6 +111,32 @@ TEST_F(ComfortCommand, AMergeByDepthCuresWhatIsAboveAndBelow) {
   EXPECT_EQ(run("testcard -o " + folder.path("card.png") + " --merge auto"), 2);
 }
 
+// The picture itself keeps the merge; where one is missing that only a sidecar keeps, the eyes tell what they show.
+TEST_F(ComfortCommand, AMergeMapIsNotForgotten) {
+  const std::string words = " --width 512 --samples 4 --bounces 1 -q ";
+  const std::string merged = folder.path("merged.exr");
+  ASSERT_EQ(run("render room --merge auto" + words + "-o " + merged), 0) << err;
+  const Json alone = judged(merged);
+  EXPECT_LE(alone["most"]["vertical"], 26.0);
+  EXPECT_FALSE(alone.contains("matched"));
+
+  // Eyes half as far apart, and in one column a little more, so that the map is no curve.
+  ods::ExrForm form;
+  form.width = 8, form.height = 4, form.channels = {"B", "G", "R"};
+  form.types = {Imf::FLOAT, Imf::FLOAT, Imf::FLOAT};
+  std::vector<float> map(8 * 4 * 3, 0.5f);
+  std::fill_n(map.begin(), 3, 0.52f);
+  write_exr_of(folder.path("map.exr"), form, map);
+  const std::string near = folder.path("near.exr");
+  ASSERT_EQ(run("render room --position 1.9,0.5,0.4 --merge-map " + folder.path("map.exr") + words + "-o " + near), 0)
+      << err;
+  const Json found = judged(near);
+  EXPECT_TRUE(found.contains("matched")) << out;
+  EXPECT_LT(found["share"]["error"], 0.15) << out;  // by its depth, as if it had no merge: 0.25
+  run("comfort " + near);
+  EXPECT_NE(out.find("Its merge map is missing"), std::string::npos) << out;
+}
+
 TEST_F(ComfortCommand, TextNamesThingsAndWhatWouldDo) {
   EXPECT_EQ(run("comfort room --width 256 --position 1.9,0.5,0.4 --merge none"), 1);
   EXPECT_NE(out.find("m would do"), std::string::npos) << out;

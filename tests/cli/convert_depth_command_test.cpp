@@ -32,13 +32,14 @@ class ConvertDepth : public Cli {
     return at == std::string::npos ? -1.0 : std::atof(out.c_str() + at + 12);
   }
 
-  // Metres, 64x32: a level ceiling this far above, and all else far away.
-  static std::string room_depth(float ceiling) {
+  // Metres, 64x32: a level ceiling this far above, a floor this far below, and all else far away.
+  static std::string room_depth(float ceiling, float floor = 50.0f) {
     std::string file = "Pf\n64 32\n-1\n";
     for (int y = 31; y >= 0; y--) {
       for (int x = 0; x < 64; x++) {
         const float up = std::sin((0.5f - (static_cast<float>(y) + 0.5f) / 32.0f) * 3.14159265f);
-        const float metres = up > 0.0f ? std::min(ceiling / up, 40.0f + static_cast<float>(x)) : 50.0f;
+        const float metres =
+            up > 0.0f ? std::min(ceiling / up, 40.0f + static_cast<float>(x)) : std::min(floor / -up, 50.0f);
         file.append(reinterpret_cast<const char*>(&metres), sizeof metres);
       }
     }
@@ -142,6 +143,30 @@ TEST_F(ConvertDepth, TheMergeOfAVideoFollowsItsDepthSteadily) {
   EXPECT_EQ(run(in_folder("convert @mono_360.mp4 --depth @depth.#.pfm --merge auto --stabilize @turns.txt -o @no.mp4")),
             2);
   EXPECT_NE(err.find("exclude each other"), std::string::npos) << err;
+}
+
+// The camera sinks: each frame's floor would give another scale.
+TEST_F(ConvertDepth, TheScaleOfAnEyeHeightIsOneForAllShares) {
+  make_panorama();
+  for (int i = 0; i < 4; i++) {
+    folder.write("depth." + std::to_string(i) + ".pfm", room_depth(2.5f, 0.4f + 0.2f * static_cast<float>(i)));
+    std::filesystem::copy(folder.path("panorama.png"), folder.path("panorama." + std::to_string(i) + ".png"));
+  }
+  const std::string words = "convert @panorama.#.png --depth @depth.#.pfm --eye-height 1.6 -q -o ";
+  run_well(words + "@whole.#.png");
+  run_well(words + "@share.#.png --only 2/2");
+  run_well(words + "@share.#.png --skip-existing");
+  for (const char* number : {"0", "1", "2", "3"}) {
+    EXPECT_EQ(folder.read(std::string("share.") + number + ".png"),
+              folder.read(std::string("whole.") + number + ".png"))
+        << number;
+  }
+  // A video's frames have no numbers.
+  run_well("encode -q --fps 4 --projection lat-long --layout separate @panorama.#.png -o @depth_360.mp4");
+  EXPECT_EQ(run(in_folder("convert @panorama.#.png --depth @depth_360.mp4 --depth-kind inverse --near 1 --only 2/2 "
+                          "-o @no.#.png")),
+            2);
+  EXPECT_NE(err.find("need the depth as frames"), std::string::npos) << err;
 }
 
 TEST_F(ConvertDepth, MistakesHaveTheirExitCodes) {

@@ -23,40 +23,83 @@ dvec3 direction(double azimuth, double elevation) {
   return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), -std::cos(elevation) * std::cos(azimuth)};
 }
 
-// How far an eye of that head must turn up to look along a direction, about the line through both eyes.
-double eye_pitch(dvec3 look, double yaw, double pitch) {
-  const dvec3 ahead = direction(yaw, pitch), up = direction(yaw, pitch + 0.5 * pi);
-  return std::atan2(glm::dot(look, up), glm::dot(look, ahead));
+// How far an eye must turn up to look along a direction, about the line through both eyes, over the other one.
+double apart(dvec3 left, dvec3 right, dvec3 ears) {
+  const auto across = [&](dvec3 look) { return look - glm::dot(look, ears) * ears; };
+  const dvec3 a = across(left), b = across(right);
+  return std::abs(std::atan2(glm::dot(glm::cross(a, b), ears), glm::dot(a, b)));
 }
 
-// A viewer who turns the head in all ways that keep the point within reach of the eyes.
+// A viewer who turns, nods and tilts the head in 10,000 ways that keep the point within reach of the eyes, and then
+// looks around the worst one for a worse one.
+double worst_of_heads(dvec3 left, dvec3 right, const HeadReach& reach, std::mt19937& random) {
+  const dvec3 point = glm::normalize(left + right);
+  const double azimuth = std::atan2(point.x, -point.z), elevation = std::asin(point.y);
+  dvec3 best(azimuth, elevation, 0.0);  // yaw, pitch, roll
+  double worst = 0.0;
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int i = 0; i < 10'000; i++) {
+    const double wide = i < 5000 ? 1.0 : std::exp(-i / 900.0 + 5.0);
+    const dvec3 middle = i < 5000 ? dvec3(azimuth, elevation, 0.0) : best;
+    dvec3 head = middle + wide * dvec3(pi * unit(random), 0.5 * pi * unit(random), 0.5 * pi * unit(random));
+    head.y = std::clamp(head.y, -0.5 * pi, 0.5 * pi);
+    const dvec3 ahead = direction(head.x, head.y), level = direction(head.x + 0.5 * pi, 0.0);
+    const dvec3 ears = std::cos(head.z) * level + std::sin(head.z) * glm::cross(level, ahead);
+    if (glm::dot(point, ahead) < std::cos(reach.gaze) || std::abs(ears.y) > std::sin(reach.roll) + 1e-12) {
+      head.z = 0.0;  // level ears are always within reach
+      if (glm::dot(point, ahead) < std::cos(reach.gaze) || apart(left, right, level) <= worst) continue;
+      best = head, worst = apart(left, right, level);
+    } else if (const double value = apart(left, right, ears); value > worst) {
+      best = head, worst = value;
+    }
+  }
+  return worst;
+}
+
 TEST(Strain, NoHeadSeesAWorseVerticalDisparity) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  for (int i = 0; i < 60; i++) {
+  for (int i = 0; i < 120; i++) {
     const double half = std::asin(0.0325 / (0.4 + 4.0 * unit(random)));
-    const double elevation = (unit(random) - 0.5) * 178.0 * kDegree, gaze = (5.0 + 25.0 * unit(random)) * kDegree;
-    const dvec3 left = direction(half, elevation), right = direction(-half, elevation),
-                point = direction(0.0, elevation);
-    double worst = 0.0;
-    for (int turn = 0; turn <= 180; turn++) {
-      for (int nod = -180; nod <= 180; nod++) {
-        const double yaw = turn * 0.5 * kDegree, pitch = nod * 0.5 * kDegree;
-        if (glm::dot(point, direction(yaw, pitch)) < std::cos(gaze)) continue;
-        worst = std::max(worst, std::abs(eye_pitch(left, yaw, pitch) - eye_pitch(right, yaw, pitch)));
-      }
-    }
-    const double predicted = worst_vertical_disparity(half, elevation, gaze);
+    const double elevation = (unit(random) - 0.5) * 178.0 * kDegree;
+    const HeadReach reach{(5.0 + 25.0 * unit(random)) * kDegree, i % 2 == 0 ? 0.0 : 20.0 * unit(random) * kDegree};
+    const double worst = worst_of_heads(direction(half, elevation), direction(-half, elevation), reach, random);
+    const double predicted = worst_vertical_disparity(half, elevation, reach);
     EXPECT_LE(worst, predicted * (1.0 + 1e-9)) << elevation / kDegree;
-    EXPECT_GE(worst, 0.9 * predicted) << elevation / kDegree;
+    EXPECT_GE(worst, 0.9 * predicted) << elevation / kDegree << " " << reach.roll / kDegree;
   }
+}
+
+// While one looks straight at a point, roll alone tilts the vergence.
+TEST(Strain, RollTiltsTheVergence) {
+  for (const double elevation : {0.0, 30.0, -50.0}) {
+    const double half = std::asin(0.0325 / 1.0), roll = 10.0 * kDegree;
+    const double converged = vergence(half, elevation * kDegree);
+    const double found = worst_vertical_disparity(half, elevation * kDegree, {0.0, roll});
+    EXPECT_NEAR(found, converged * std::min(std::sin(roll) / std::cos(elevation * kDegree), 1.0), 2e-3 * converged);
+  }
+  // 10 degrees at 1 m, straight ahead.
+  EXPECT_NEAR(worst_vertical_disparity(std::asin(0.0325), 0.0, {0.0, 10.0 * kDegree}) / kArcMinute, 38.8, 0.1);
+}
+
+TEST(Strain, TheRollForADisparityGivesIt) {
+  const double gaze = 15.0 * kDegree, limit = kFusionLimit * kArcMinute;
+  for (const double elevation : {0.0, 20.0, -40.0}) {
+    const double half = std::asin(0.0325 / 2.5);
+    const double roll = roll_for_disparity(half, elevation * kDegree, gaze, limit);
+    EXPECT_GT(roll, 0.0) << elevation;
+    EXPECT_NEAR(worst_vertical_disparity(half, elevation * kDegree, {gaze, roll}), limit, 1e-3 * limit) << elevation;
+  }
+  EXPECT_EQ(roll_for_disparity(std::asin(0.0325), 80.0 * kDegree, gaze, limit), 0.0);  // too much already
+  EXPECT_EQ(roll_for_disparity(1e-4, 0.0, gaze, limit), 0.5 * pi);                     // never too much
 }
 
 // Figures derived in closed form elsewhere, to the digits given there.
 TEST(Strain, KnownVerticalDisparities) {
   const auto minutes = [](double metres, double elevation, double gaze) {
     const double across = metres * std::cos(elevation * kDegree);
-    return worst_vertical_disparity(std::asin(0.0325 / across), elevation * kDegree, gaze * kDegree) / kArcMinute;
+    return worst_vertical_disparity(std::asin(0.0325 / across), elevation * kDegree, {gaze * kDegree, 0.0}) /
+           kArcMinute;
   };
   EXPECT_EQ(minutes(0.6, 0.0, 15.0), 0.0);  // at the horizon itself eyes never turn apart
   EXPECT_NEAR(minutes(1.0, 60.0, 15.0), 107.3, 0.6);

@@ -392,10 +392,12 @@ TEST_F(Decode, DamagedVideosAreOneLine) {
 
 TEST_F(Decode, UnevenTimesAreTheFilesOwn) {
   if (!is_installed("ffmpeg")) GTEST_SKIP() << "skipped: ffmpeg is not installed";
-  made::write_frames(folder.path("a.#.png"), {1, 2, 3, 4, 5, 6});
+  // Four are left out. (Where FFmpeg's setpts moves times, its version 7 writes files without durations, and itself
+  // does not show their last picture.)
+  made::write_frames(folder.path("a.#.png"), {1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
   const std::string video = make("video.mp4", usual(VideoCodec::kH264)), uneven = folder.path("uneven_360_TB.mp4");
   const std::string command = "ffmpeg -v error -i " + video +
-                              " -vf 'setpts=PTS+gte(N\\,3)*4/30/TB' -vsync vfr -c:v libx264 " + uneven + " 2>&1";
+                              " -vf 'select=not(between(n\\,3\\,6))' -vsync vfr -c:v libx264 " + uneven + " 2>&1";
   if (!output_of(command).empty()) GTEST_SKIP() << "skipped: this ffmpeg makes no uneven video";
   VideoDecoder decoder(uneven, 1);
   const double tick = 1.0 / decoder.stream().clock.value();

@@ -38,8 +38,8 @@ DepthNumbers numbers_of(const Footage& footage, const DecodedFrame& frame) {
 }  // namespace
 
 DepthFootage::DepthFootage(const std::string& path, const StoredPicture& format, const DepthOptions& options,
-                           const TimeSpan& part)
-    : path_(path), format_(format), options_(options), kind_(footage_kind(path)) {
+                           const TimeSpan& part, std::optional<int> first)
+    : path_(path), format_(format), options_(options), kind_(footage_kind(path)), first_(first) {
   if (kind_ == FootageKind::kFrames) frames_ = frames_on_disk(*frame_names(path));
   if (kind_ != FootageKind::kVideo) return;
   footage_.emplace(open_depth(path, format));
@@ -72,8 +72,9 @@ std::optional<DepthFootage::Give> DepthFootage::next_if_any(std::optional<int> n
     return [still = still_, options = options_](StoredPicture& picture) { return add_depth(picture, *still, options); };
   }
   if (!number && index >= frames_.size()) return std::nullopt;
-  const std::string file = frame_names(path_)->path(number ? *number : frames_[index]);
-  if (index == 0) known(read_depth(file, format_));
+  const FrameNames names = *frame_names(path_);
+  const std::string file = names.path(number ? *number : frames_[index]);
+  if (index == 0) known(read_depth(first_ ? names.path(*first_) : file, format_));
   return [file, options = options_](StoredPicture& picture) {
     return add_depth(picture, read_depth(file, picture), options);
   };

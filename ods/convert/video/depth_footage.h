@@ -19,10 +19,11 @@ class DepthFootage {
   // Adds the depth to its picture; may be called from any thread.
   using Give = std::function<DepthReport(StoredPicture&)>;
 
-  // format: of the pictures. part: of a video, which its depth's video shares. The scale of an eye height is that of
-  // the first picture. Throws Error(kInput): no such files, a damaged video.
+  // format: of the pictures. part: of a video, which its depth's video shares. first: the number of the first of all
+  // frames, of which this process may convert others; the scale of an eye height is that of the first picture of all.
+  // Throws Error(kInput): no such files, a damaged video.
   DepthFootage(const std::string& path, const StoredPicture& format, const DepthOptions& options,
-               const TimeSpan& part = {});
+               const TimeSpan& part = {}, std::optional<int> first = {});
 
   // The depth of the next picture. number: of a frame, which its depth has, too; none: of a video, whose pictures take
   // frames of depth in their order. Throws Error(kInput): there is none left, and as add_depth().
@@ -38,6 +39,7 @@ class DepthFootage {
   std::vector<int> frames_;         // of frames
   std::optional<Footage> footage_;  // of a video
   std::shared_ptr<const std::vector<DepthNumbers>> still_;
+  std::optional<int> first_;
   size_t taken_ = 0;
 };
 

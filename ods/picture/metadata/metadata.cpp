@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <map>
 
+#include "ods/base/decimal.h"
 #include "ods/camera/camera_fields.h"
 #include "ods/image/format/xmp.h"
 
@@ -16,10 +18,47 @@ namespace ods {
 
 // --- our own attributes ----------------------------------------------------------------------------------------------
 
+constexpr const char* kMergeCurve = "ods:mergeCurve";
+constexpr int kMostCurveRows = 4096;
+
 // The attribute of a field's number i.
 static std::string attribute_of(const CameraFieldRow& row, size_t i) {
   return row.attribute.ends_with('#') ? fmt::format("{}{}", row.attribute.substr(0, row.attribute.size() - 1), i)
                                       : std::string(row.attribute);
+}
+
+// A map that is the same all around, as a merge by depth is, is a curve: "4x180:" and a number per row, from the top.
+// Empty: it is not.
+static std::string text_of_curve(const Image& map) {
+  std::string text = fmt::format("{}x{}:", map.width, map.height);
+  for (int y = 0; y < map.height; y++) {
+    const float* row = map.at(0, y);
+    if (!std::all_of(row, row + map.width, [&](float value) { return value == *row; })) return "";
+    text += fmt::format(" {}", decimal(*row));
+  }
+  return map.height <= kMostCurveRows ? text : "";
+}
+
+// Nothing: that is no curve.
+static std::shared_ptr<const Image> curve_of_text(const std::string& text) {
+  int width = 0, height = 0, used = 0;
+  if (std::sscanf(text.c_str(), "%5dx%5d:%n", &width, &height, &used) != 2 || used == 0) return nullptr;
+  if (width < 1 || width > kMostCurveRows || height < 1 || height > kMostCurveRows) return nullptr;
+  auto map = std::make_shared<Image>(width, height, 1);
+  const char *at = text.data() + used, *const end = text.data() + text.size();
+  for (int y = 0; y < height; y++) {
+    float value = 0.0f;
+    if (at == end || *at++ != ' ') return nullptr;
+    const auto [next, error] = std::from_chars(at, end, value);
+    if (error != std::errc() || !(value >= 0.0f && value <= 1.0f)) return nullptr;
+    std::fill_n(map->at(0, y), width, value);
+    at = next;
+  }
+  return at == end ? map : nullptr;
+}
+
+static bool merges_by_map(const StereoCamera& camera) {
+  return camera.top.mode == kMergeMap || camera.bottom.mode == kMergeMap;
 }
 
 void add_camera(std::vector<Attribute>& attributes, const StereoCamera& camera) {
@@ -40,6 +79,8 @@ void add_camera(std::vector<Attribute>& attributes, const StereoCamera& camera) 
   }
   if (camera.mirrored) attributes.push_back({"ods:mirrored", 1});
   if (camera.head_tilt_map) attributes.push_back({"ods:headTilt", std::string("map")});
+  const std::string curve = merges_by_map(camera) ? text_of_curve(*camera.merge_map) : "";
+  if (!curve.empty()) attributes.push_back({kMergeCurve, curve});
 }
 
 namespace {
@@ -100,11 +141,17 @@ void read_numbers(AttributeReader& in, StereoCamera& camera) {
   }
 }
 
-// The maps themselves are in a sidecar only.
-void do_without_maps(AttributeReader& in, StereoCamera& camera, std::vector<std::string>& warnings) {
-  for (PoleMergeSetting* merge : {&camera.top, &camera.bottom}) {
-    if (merge->mode != kMergeMap) continue;
-    merge->mode = kMergeNone;
+// Maps that vary around are in a sidecar only.
+void read_maps(AttributeReader& in, StereoCamera& camera, std::vector<std::string>& warnings) {
+  if (merges_by_map(camera)) {
+    const std::optional<std::string> curve = in.word(kMergeCurve);
+    if (curve) camera.merge_map = curve_of_text(*curve);
+    if (curve && !camera.merge_map) return in.refuse(kMergeCurve);
+  }
+  if (merges_by_map(camera) && !camera.merge_map) {
+    for (PoleMergeSetting* merge : {&camera.top, &camera.bottom}) {
+      if (merge->mode == kMergeMap) merge->mode = kMergeNone;
+    }
     warnings.push_back("its merge map is in a sidecar that is missing: using no pole merge");
   }
   const std::optional<std::string> tilt = in.word("ods:headTilt");
@@ -128,12 +175,21 @@ std::optional<StereoCamera> camera_of(const FileInfo& info, std::vector<std::str
   read_modes(in, camera);
   read_numbers(in, camera);
   camera.mirrored = !in.numbers("ods:mirrored").empty();
-  do_without_maps(in, camera, warnings);
+  read_maps(in, camera, warnings);
   const std::string fault = in.bad().empty() ? camera_fault(camera) : "";
   if (in.bad().empty() && fault.empty()) return camera;
   const std::string what = fault.empty() ? fmt::format("{} is invalid", in.bad()) : "camera is impossible: " + fault;
   warnings.push_back(fmt::format("its {}: ignoring its camera metadata", what));
   return std::nullopt;
+}
+
+bool lacks_merge_map(const FileInfo& info, const StereoCamera& camera) {
+  if (camera.merge_map) return false;
+  return std::ranges::any_of(camera_modes(), [&](const CameraModeRow& row) {
+    const auto word = info.text.find(std::string(row.attribute));
+    return row.attribute.starts_with("ods:poleMerge") && word != info.text.end() &&
+           word->second == merge_name(kMergeMap);
+  });
 }
 
 // --- GPano -----------------------------------------------------------------------------------------------------------

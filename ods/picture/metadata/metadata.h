@@ -5,8 +5,8 @@
 // Metadata" (GPano) in display-referred formats.
 //
 // The attributes are those of ods/camera/camera_fields.cpp where they matter to the picture, ods:projection,
-// ods:mirrored and ods:headTilt. All round-trip bit for bit, except merge maps and head-tilt maps: the file says "map",
-// and only a sidecar holds them.
+// ods:mirrored, ods:headTilt and ods:mergeCurve. All round-trip bit for bit, except head-tilt maps and merge maps that
+// vary around: the file says "map", and only a sidecar holds them.
 #pragma once
 #include <optional>
 #include <string>
@@ -24,6 +24,9 @@ void add_camera(std::vector<Attribute>& attributes, const StereoCamera& camera);
 // The camera that a file's attributes describe; nothing if there is none. Invalid attributes add a message to
 // `warnings` and are ignored, and so are the camera's other attributes.
 std::optional<StereoCamera> camera_of(const FileInfo& info, std::vector<std::string>& warnings);
+
+// Whether this file's camera merges by a map that nobody has who read it.
+bool lacks_merge_map(const FileInfo& info, const StereoCamera& camera);
 
 // GPano supports mono lat-long: the whole sphere, or a part that does not cross the seam.
 bool fits_gpano(const ProjectionSetting& projection);

@@ -91,8 +91,8 @@ TEST(Metadata, EveryMergeAndConvergenceComesBack) {
     std::vector<std::string> warnings;
     const auto read = camera_of(read_info(folder.path("a.exr")), warnings);
     ASSERT_TRUE(read);
-    EXPECT_EQ(read->top.mode, merge == kMergeMap ? kMergeNone : merge);
-    EXPECT_EQ(warnings.size(), merge == kMergeMap ? 1u : 0u);
+    EXPECT_EQ(read->top.mode, merge);
+    EXPECT_TRUE(warnings.empty());
   }
   for (int convergence : kConvergences) {
     StereoCamera stereo;
@@ -100,6 +100,41 @@ TEST(Metadata, EveryMergeAndConvergenceComesBack) {
     save_picture(grey({kMono}, {16, 8}), &stereo, {}, folder.path("a.exr"));
     EXPECT_EQ(open_picture(folder.path("a.exr")).camera.convergence, convergence);
   }
+}
+
+// A merge by depth is a curve, which the file itself keeps; one that varies around needs its sidecar.
+TEST(Metadata, AMergeThatIsTheSameAllAroundIsInTheFile) {
+  const TemporaryFolder folder;
+  StereoCamera stereo;
+  auto map = std::make_shared<Image>(4, 3, 1);
+  for (size_t i = 0; i < map->pixels.size(); i++)
+    map->pixels[i] = i / 4 == 1 ? 1.0f : 0.1f + 0.2f * static_cast<float>(i / 4);
+  stereo.merge_map = map;
+  stereo.top.mode = stereo.bottom.mode = kMergeMap;
+  save_picture(grey({kLeft, kRight}, {16, 8}), &stereo, {}, folder.path("a.exr"));
+  const StoredPicture back = open_picture(folder.path("a.exr"));
+  EXPECT_EQ(back.camera.top.mode, kMergeMap);
+  ASSERT_TRUE(back.camera.merge_map);
+  EXPECT_TRUE(same_map(back.camera.merge_map, stereo.merge_map));
+  FileInfo info = read_info(folder.path("a.exr"));
+  EXPECT_FALSE(lacks_merge_map(info, back.camera));
+  for (const char* bad : {"4x3: 0.1 1", "4x3: 0.1 1 2", "4x3: 0.1 1 nan", "4x3: 0.1 1 0.5 ", "0x3: 1 1 1", "4x99999: 1",
+                          "4x3:", "", "4x3: 0.1,1,0.5"}) {
+    info.text["ods:mergeCurve"] = bad;
+    std::vector<std::string> warnings;
+    EXPECT_FALSE(camera_of(info, warnings)) << bad;
+    ASSERT_EQ(warnings.size(), 1u) << bad;
+    EXPECT_NE(warnings[0].find("ods:mergeCurve"), std::string::npos) << warnings[0];
+  }
+
+  auto uneven = std::make_shared<Image>(*map);
+  uneven->pixels[0] = 0.0f;
+  stereo.merge_map = uneven;
+  save_picture(grey({kLeft, kRight}, {16, 8}), &stereo, {}, folder.path("b.exr"));
+  const StoredPicture without = open_picture(folder.path("b.exr"));
+  EXPECT_FALSE(without.camera.merge_map);
+  EXPECT_EQ(without.camera.top.mode, kMergeNone);
+  EXPECT_TRUE(lacks_merge_map(read_info(folder.path("b.exr")), without.camera));
 }
 
 // An EXR says that there is a map; the sidecar has it.

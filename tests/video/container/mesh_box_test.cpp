@@ -263,6 +263,19 @@ TEST(MeshBox, WhatMakesNoSenseIsRefusedInWords) {
   }
 }
 
+// A corner that is nearly in the plane between two faces; the fuzzer found it.
+TEST(MeshBox, CornersFarAsideOfAFaceHaveACell) {
+  constexpr char kFound[] =
+      "\x00\x00\x00\x00\x5c\x29\x9a\x24\x72\x61\x77\x20\x00\x00\x00\x3f\x6d\x65\x73\x68"
+      "\x00\x00\x00\x06\x80\x00\x00\x00\xbf\x80\x3d\x20\x30\x3b\xbd\x2e\x3f\x00\x4b\x00"
+      "\xda\x00\x00\x00\x3f\x80\x00\x00\x00\x00\x00\x04\x02\x46\x88\x00\x00\x78\x00\x28"
+      "\x00\x00\x00\x00\x00\x01\x00\x00\x00\x00\x00\x06\x09\x03\x00";
+  const std::string found(kFound, sizeof kFound - 1);
+  const ProjectionMeshes meshes = parse_mesh_box(found);
+  ASSERT_FALSE(meshes.eyes.empty());
+  for (const TextureMesh& mesh : meshes.eyes) EXPECT_TRUE(make_map(mesh));
+}
+
 TEST(MeshBox, MeshesOfNoUseAreRefused) {
   TextureMesh mesh;
   EXPECT_NE(mesh_fault(mesh), "");
