@@ -38,7 +38,7 @@ sheet() {
 }
 
 begin projections
-for name in lat-long vr180 cylinder fisheye fisheye-equisolid fisheye-polynomial mirror-ball dome perspective cube-3x2 cube-6x1 cube-1x6 eac eac-face; do
+for name in $("$ods" render room --projection unknown 2>&1 | sed -n 's/.* is one of \(.*\), not .*/\1/p' | tr -d ,); do
   width=480
   [ $name = cube-1x6 ] && width=120
   tile $name --eyes left --projection $name --width $width
