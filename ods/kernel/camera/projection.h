@@ -166,11 +166,23 @@ inline bool inside_circle(Projection projection, vec2 uv) {
   return length(vec2(2.0f * uv.x - 1.0f, 1.0f - 2.0f * uv.y) / projection.circle) <= 1.0f;
 }
 
+// The angle from the lens axis at a radius, in units of the image circle's, and the way back.
+inline float fisheye_angle(Projection projection, float r) {
+  float quarter = 0.25f * projection.angle;
+  if (projection.kind == kFisheyeEquisolid) return 2.0f * asin(min(sin(quarter) * r, 1.0f));
+  return 2.0f * quarter * r;
+}
+
+inline float fisheye_radius(Projection projection, float angle) {
+  float quarter = 0.25f * projection.angle;
+  if (projection.kind == kFisheyeEquisolid) return sin(0.5f * angle) / sin(quarter);
+  return 0.5f * angle / quarter;
+}
+
 inline ViewDirection fisheye_look(Projection projection, vec2 home, vec2 uv) {
   vec2 p = vec2(2.0f * uv.x - 1.0f, 1.0f - 2.0f * uv.y);
   float r = length(p);
-  float angle = 0.5f * projection.angle * r;
-  if (projection.kind == kFisheyeEquisolid) angle = 2.0f * asin(min(sin(0.25f * projection.angle) * r, 1.0f));
+  float angle = fisheye_angle(projection, r);
   float out_of_axis = r > 0.0f ? sin(angle) / r : 0.0f;
   ViewDirection look = look_along(from_lens(projection, vec3(p.x * out_of_axis, p.y * out_of_axis, -cos(angle))));
   look.seen = inside_circle(projection, home);
@@ -180,9 +192,7 @@ inline ViewDirection fisheye_look(Projection projection, vec2 home, vec2 uv) {
 inline ImagePoint fisheye_place(Projection projection, vec3 direction) {
   vec3 p = to_lens(projection, direction);
   float out_of_axis = sqrt(p.x * p.x + p.y * p.y);
-  float angle = atan(out_of_axis, -p.z);
-  float r = 2.0f * angle / projection.angle;
-  if (projection.kind == kFisheyeEquisolid) r = sin(0.5f * angle) / sin(0.25f * projection.angle);
+  float r = fisheye_radius(projection, atan(out_of_axis, -p.z));
   float scale = out_of_axis > 0.0f ? r / out_of_axis : 0.0f;
   ImagePoint place;
   place.uv = vec2(0.5f + 0.5f * p.x * scale, 0.5f - 0.5f * p.y * scale);
