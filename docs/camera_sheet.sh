@@ -44,7 +44,7 @@ for name in $("$ods" render room --projection unknown 2>&1 | sed -n 's/.* is one
   tile $name --eyes left --projection $name --width $width
 done
 tile "--range -60,60,-30,45" --eyes left --range -60,60,-30,45 --width 480
-sheet 5x3 projections.jpg
+sheet 4x4 projections.jpg
 
 begin layouts
 for name in top-bottom bottom-top side-by-side cross-eyed top-bottom-half side-by-side-half row-interleaved \
