@@ -38,13 +38,13 @@ sheet() {
 }
 
 begin projections
-for name in lat-long vr180 cylinder fisheye fisheye-equisolid fisheye-polynomial mirror-ball dome perspective cube-3x2 cube-6x1 cube-1x6 eac eac-face; do
+for name in $("$ods" render room --projection unknown 2>&1 | sed -n 's/.* is one of \(.*\), not .*/\1/p' | tr -d ,); do
   width=480
   [ $name = cube-1x6 ] && width=120
   tile $name --eyes left --projection $name --width $width
 done
 tile "--range -60,60,-30,45" --eyes left --range -60,60,-30,45 --width 480
-sheet 5x3 projections.jpg
+sheet 4x4 projections.jpg
 
 begin layouts
 for name in top-bottom bottom-top side-by-side cross-eyed top-bottom-half side-by-side-half row-interleaved \

@@ -418,7 +418,7 @@ TEST(House, RecipesNameTheFilesThatAMemberTouches) {
     const char* member;
     const char* word;
   };
-  for (const Added& added : {Added{"a projection", "kEacFace", "eac-face"},
+  for (const Added& added : {Added{"a projection", "kFisheyeStereographic", "fisheye-stereographic"},
                              Added{"a name for a projection with other defaults", "mirror-ball", "mirror-ball"},
                              Added{"a pole merge", "kMergeSmootherstep", "smootherstep"},
                              Added{"a layout of the eyes", "kColumnInterleaved", "column-interleaved"}}) {

@@ -6,8 +6,6 @@
 import { radians } from './geometry.js';
 import { compile } from './panorama.js';
 
-// The kernel's numbers of the merges (ods/kernel/camera/merge.h), in order.
-const KERNEL_MERGES = ['none', 'linear', 'cosine', 'smoothstep', 'gaussian', 'power', 'tilt-brush', 'map', 'smootherstep'];
 const COUNT = 181;
 const SIZE = [280, 92]; // of the drawing
 const BOX = [8, 272, 10, 82]; // of the curve in it: left, right, top, bottom
@@ -18,7 +16,9 @@ const yOf = (left) => BOX[3] - left * (BOX[3] - BOX[2]);
 
 // Fractions for -90 .. 90 degrees, of two merges of a sidecar.
 class Formula {
-  constructor(text) {
+  // kinds: the kernel's number of each merge.
+  constructor(text, kinds) {
+    this.kinds = kinds;
     const gl = (this.gl = new OffscreenCanvas(COUNT, 1).getContext('webgl2', { alpha: false, antialias: false }));
     this.program = compile(gl, text);
     gl.useProgram(this.program);
@@ -30,7 +30,7 @@ class Formula {
     const { gl, program } = this;
     merges.forEach(({ mode, start, end, exponent }, i) => {
       const at = (name) => gl.getUniformLocation(program, `merges[${i}].${name}`);
-      gl.uniform1i(at('mode'), Math.max(KERNEL_MERGES.indexOf(mode), 0));
+      gl.uniform1i(at('mode'), this.kinds[mode]);
       gl.uniform1f(at('start'), radians(start));
       gl.uniform1f(at('end'), radians(end));
       gl.uniform1f(at('exponent'), exponent);
@@ -51,7 +51,7 @@ function shape(tag, attributes, parent) {
 
 export class MergeCurve {
   // onDrag(which, end, elevation, gesture): which is top or bottom, end is start or end; the gesture is null at last.
-  constructor(onDrag) {
+  constructor(kinds, onDrag) {
     this.onDrag = onDrag;
     this.element = document.createElement('figure');
     this.element.className = 'curve';
@@ -73,7 +73,7 @@ export class MergeCurve {
     caption.append(...['straight down', 'horizon', 'straight up'].map((text) => Object.assign(document.createElement('span'), { textContent: text })));
     this.element.append(caption);
     fetch('merge-curve.frag').then((answer) => answer.text()).then((text) => {
-      this.formula = new Formula(text);
+      this.formula = new Formula(text, kinds);
       if (this.last) this.draw(...this.last);
     }).catch((error) => console.warn(error.message));
   }

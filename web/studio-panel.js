@@ -40,7 +40,7 @@ export class Panel {
   }
 
   merge(top, bottom) {
-    this.curve = new MergeCurve((...drag) => this.dragCurve(...drag));
+    this.curve = new MergeCurve(this.view.studio.kernel_merges, (...drag) => this.dragCurve(...drag));
     const box = make('input', { type: 'checkbox', checked: this.linked });
     box.addEventListener('change', () => {
       this.linked = box.checked;

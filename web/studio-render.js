@@ -67,7 +67,7 @@ export class RenderFoot {
     });
     element.append(more, make('div', { className: 'line' }, this.go, this.what, this.job, open));
     session.addEventListener('accepted', ({ detail }) => {
-      if (detail === session.side) this.tell();
+      if (detail === session.side) this.named ? this.tell() : this.suggest();
     });
     for (const field of [this.name, this.quality]) field.addEventListener('input', () => this.tell());
     session.addEventListener('edit', () => this.update());
@@ -148,7 +148,9 @@ export class RenderFoot {
     if (!this.named) return this.suggest();
     if (name !== this.name.value.trim()) return;
     // The words that players understand stay at the end.
-    const [, stem, end] = /^(.*?)((?:_(?:180|360|TB|BT|LR|RL))*\.\w+)$/.exec(name) ?? [name, name, ''];
+    const known = this.studio.session.side.end;
+    const end = known && name.endsWith(known) ? known : /\.\w+$/.exec(name)?.[0] ?? '';
+    const stem = name.slice(0, name.length - end.length);
     let count = 2;
     while (this.taken.has(`${stem}-${count}${end}`)) count++;
     this.name.value = `${stem}-${count}${end}`;

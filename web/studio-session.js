@@ -155,11 +155,11 @@ export class Session extends EventTarget {
       this.sentAt = performance.now();
       this.answer = ask('set', { ...settings, look: this.look() });
       try {
-        const { revision, command, note } = await this.answer;
+        const { revision, command, note, end } = await this.answer;
         const { env, variant } = this.sent ?? settings;
         if (revision < this.revision || env !== settings.env || variant !== settings.variant) this.restart();
         Object.assign(this, { revision, sent: settings, isOthers: false });
-        Object.assign(side, { revision, command, note, sent: settings });
+        Object.assign(side, { revision, command, note, end, sent: settings });
         this.fault = '';
         if (this.missed) this.fromStart();
         this.say('accepted', side);

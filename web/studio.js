@@ -18,8 +18,6 @@ import { ENDED, Session, ask, sleep } from './studio-session.js';
 
 const LOOK_PAUSE = 100; // milliseconds between messages of where one looks
 const SIDES = ['A', 'B'];
-// What names of files say of the layout, for players that go by it.
-const SHORT = { 'top-bottom': 'TB', 'bottom-top': 'BT', 'side-by-side': 'LR', 'cross-eyed': 'RL', separate: '%V' };
 const TURN = 2000; // milliseconds of a side's first turn in a comparison
 
 // What a frame is, and what comes after it. A part is the whole picture or, finer, what is in view.
@@ -179,11 +177,8 @@ class Studio {
   // A name that says what the picture is; count: which of its kind.
   fileName(count) {
     const { view } = this.page.viewer;
-    const { projection, picture } = this.session.settings.sidecar;
     const stem = view.studio.scene.replace(/^.*[\\/]/, '').replace(/\.[^.]*$/, '');
-    const angle = projection.name === 'vr180' ? '_180' : /^(lat-long|cube|eac)/.test(projection.name) ? '_360' : '';
-    const short = SHORT[picture.layout];
-    return `${stem}${count > 1 ? `_${count}` : ''}${angle}${short ? `_${short}` : ''}.${picture.layout === 'multiview' ? 'exr' : 'png'}`;
+    return `${stem}${count > 1 ? `_${count}` : ''}${this.session.side.end ?? '.png'}`;
   }
 
   // --- where one looks ---

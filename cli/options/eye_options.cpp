@@ -10,10 +10,10 @@
 #include <stdexcept>
 
 #include "cli/console/console.h"
-#include "cli/options/field_option.h"
 #include "ods/base/error.h"
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
+#include "ods/camera/camera_fields.h"
 #include "ods/camera/camera_preset.h"
 #include "ods/comfort/strain.h"
 #include "ods/image/image_file.h"
@@ -154,8 +154,11 @@ std::optional<float> parse_auto_merge(const std::string& text) {
 void add_circle_options(Options& options, CameraOptions& camera) {
   StereoCamera& stereo = camera.stereo;
   options.group("Eyes");
-  add_field_option(options, "--ipd", stereo.ipd, CameraField::kIpd,
-                   "distance between the eyes (interpupillary distance), metres");
+  for (const ods::CameraFieldRow& row : ods::camera_fields()) {
+    if (row.help.empty()) continue;
+    options.number(fmt::format("--{}", row.setting), *row.numbers(stereo)[0], row.range.least, row.range.most,
+                   std::string(row.help));
+  }
   const auto set_both = [&](const std::string& text) {
     camera.merge_limit = camera.may_follow_depth ? parse_auto_merge(text) : std::nullopt;
     if (!camera.merge_limit) stereo.top = stereo.bottom = parse_merge("--merge", text);
@@ -188,8 +191,6 @@ void add_circle_options(Options& options, CameraOptions& camera) {
       "--convergence", "MODE[,METRES]", "parallel", [&](const std::string& text) { parse_convergence(text, stereo); },
       "parallel; toe-in: the eyes' rays meet at METRES; shift: the pictures are shifted sideways so that points at "
       "METRES coincide");
-  add_field_option(options, "--eye-to-neck", stereo.neck, CameraField::kNeck,
-                   "distance of the eyes in front of the axis they turn about, metres");
 }
 
 void add_eye_options(Options& options, CameraOptions& camera) {

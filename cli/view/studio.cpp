@@ -23,6 +23,7 @@
 #include "ods/files/atomic_file.h"
 #include "ods/files/read_file.h"
 #include "ods/image/format/file_format.h"
+#include "ods/picture/metadata/stereo_format.h"
 #include "ods/render/cpu/render.h"
 #include "ods/scene/builtin/builtin.h"
 #include "ods/stage/exposure.h"
@@ -87,6 +88,13 @@ Json polynomial_lens_json() {
   usual.camera.projection = ods::find_projection("fisheye-polynomial")->setting;
   const Json projection = Json::parse(write_sidecar(usual)).at("projection");
   return {{"sensor", projection.at("sensor")}, {"polynomial", projection.at("polynomial")}};
+}
+
+// The kernel's number of each merge.
+Json kernel_merges_json() {
+  Json json = Json::object();
+  for (const auto& row : ods::kMergeTable) json[std::string(row.name)] = row.member;
+  return json;
 }
 
 Json ranges_json() {
@@ -181,6 +189,7 @@ Json Studio::description() const {
                {"settings", settings_json(usual_)},
                {"ranges", ranges_json()},
                {"merges", ods::names_of(ods::kMergeTable)},
+               {"kernel_merges", kernel_merges_json()},
                {"convergences", ods::names_of(ods::kConvergenceTable)},
                {"projections", Json::array()},
                {"polynomial_lens", polynomial_lens_json()},
@@ -256,15 +265,12 @@ WebAnswer Studio::set(const std::string& body) {
   const int revision = live_->set(settings_.live, settings_.look);
   std::vector<std::string> command = words(saved_.empty() ? stem() : saved_, true);
   command.insert(command.begin(), "ods");
-  const ods::Layout layout = settings_.sidecar.layout;
-  const char* const end = layout == ods::Layout::kMultiview  ? "_360.exr"
-                          : layout == ods::Layout::kSeparate ? "_360_%V.png"
-                                                             : "_360_TB.png";
+  const std::string end = ods::name_end(settings_.live.camera.projection, settings_.sidecar.layout);
   command.insert(command.end(), {"-o", stem() + end});
   const bool has_maps =
       std::ranges::find_if(command, [](const std::string& word) { return word.ends_with("-map"); }) != command.end();
   const char* const note = has_maps ? "Save camera writes the maps that this command reads" : "";
-  return json_answer({{"revision", revision}, {"command", ods::shell_line(command)}, {"note", note}});
+  return json_answer({{"revision", revision}, {"command", ods::shell_line(command)}, {"note", note}, {"end", end}});
 }
 
 // The command that renders what the page shows: as its user knows the files, or as they are here, and without the

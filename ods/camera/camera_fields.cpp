@@ -17,6 +17,8 @@ constexpr FieldRange kAngle{-36000.0f, 36000.0f};
 constexpr FieldRange kPlace{-1e6f, 1e6f};
 constexpr FieldRange kElevation{0.0f, 90.0f};
 constexpr FieldRange kExponent{1e-6f, 100.0f};
+constexpr FieldRange kApart{0.0f, 1e4f};
+constexpr FieldRange kOffset{-1e3f, 1e3f};
 constexpr FieldRange kDistance{1e-3f, 1e6f};
 
 // A member of the camera, of its projection or of one of its merges.
@@ -141,8 +143,10 @@ constexpr CameraFieldRow kFields[] = {
     {kYaw, "yaw", kAngle, "degrees", "yaw", "yaw", "ods:yaw", own<&StereoCamera::yaw>, always},
     {kPitch, "pitch", kAngle, "degrees", "pitch", "pitch", "ods:pitch", own<&StereoCamera::pitch>, always},
     {kRoll, "roll", kAngle, "degrees", "roll", "roll", "ods:roll", own<&StereoCamera::roll>, always},
-    {kIpd, "ipd", {0.0f, 1e4f}, "metres", "ipd", "ipd", "ods:ipd", own<&StereoCamera::ipd>, always},
-    {kNeck, "neck", {-1e3f, 1e3f}, "metres", "eye-to-neck", "neck", "ods:neck", own<&StereoCamera::neck>, has_neck},
+    {kIpd, "ipd", kApart, "metres", "ipd", "ipd", "ods:ipd", own<&StereoCamera::ipd>, always,
+     "distance between the eyes (interpupillary distance), metres"},
+    {kNeck, "neck", kOffset, "metres", "eye-to-neck", "neck", "ods:neck", own<&StereoCamera::neck>, has_neck,
+     "distance of the eyes in front of the axis they turn about, metres"},
     {kTopMergeStart, "top merge start", kElevation, "degrees", "merge-top", "merge_top.start", "ods:poleMergeTopStart",
      pole<&StereoCamera::top, &Merge::start>, merges<&StereoCamera::top>},
     {kTopMergeEnd, "top merge end", kElevation, "degrees", "merge-top", "merge_top.end", "ods:poleMergeTopEnd",

@@ -59,6 +59,7 @@ struct CameraFieldRow {
   std::string_view attribute;  // its attribute in an EXR header: "ods:look"; where it ends in #, one for each number
   std::vector<float*> (*numbers)(StereoCamera& camera);
   bool (*matters)(const StereoCamera& camera);  // whether another number would make another picture
+  std::string_view help = {};  // of an option that is one number of the viewing circle, such as --ipd; empty: any other
 };
 std::span<const CameraFieldRow> camera_fields();
 const CameraFieldRow& row_of(CameraField field);

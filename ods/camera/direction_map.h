@@ -33,7 +33,7 @@ struct FisheyeLens {
   vec2 center{0.0f};    // of the circle, pixels from the left and top edge of the eye's picture
   float radius = 0.0f;  // pixels
   float fov = 180.0f;   // degrees, from rim to rim of the circle
-  int kind = kFisheye;  // or kFisheyeEquisolid
+  int kind = kFisheye;  // is_fisheye()
   float yaw = 0.0f;     // degrees: where the lens points, to the right,
   float pitch = 0.0f;   // up,
   float roll = 0.0f;    // and how it is turned, clockwise

@@ -16,7 +16,9 @@ std::string lens_fault(const FisheyeLens& lens, Extent picture) {
     return fmt::format("an image circle has a radius of 2 pixels to four times the picture's longer side, not {:g}",
                        lens.radius);
   }
-  if (!(lens.fov >= 1.0f && lens.fov <= 360.0f)) return "a fisheye sees 1 to 360 degrees";
+  ProjectionSetting whole;
+  whole.kind = lens.kind, whole.fov = lens.fov;
+  if (const std::string fault = projection_fault(whole); !fault.empty()) return fault;
   if (!(lens.center.x >= 0.0f && lens.center.x <= width && lens.center.y >= 0.0f && lens.center.y <= height)) {
     return fmt::format("the middle of the image circle, {:g},{:g}, is outside the eye's picture of {}x{} pixels",
                        lens.center.x, lens.center.y, picture.width, picture.height);
@@ -29,11 +31,11 @@ namespace {
 class LensMap final : public DirectionMap {
  public:
   LensMap(const FisheyeLens& lens, Extent picture)
-      : kind_(lens.kind),
-        half_(glm::radians(0.5f * lens.fov)),
+      : half_(glm::radians(0.5f * lens.fov)),
         size_(static_cast<float>(picture.width), static_cast<float>(picture.height)),
         center_(lens.center / size_),
         radius_(lens.radius / size_.x, lens.radius / size_.y) {
+    curve_.kind = lens.kind, curve_.angle = 2.0f * half_;
     const auto radians = [](float degrees) { return glm::radians(static_cast<double>(degrees)); };
     const auto axes = orientation(radians(lens.yaw), radians(lens.pitch), radians(lens.roll));
     right_ = vec3(axes[0]), up_ = vec3(axes[1]), back_ = vec3(axes[2]);
@@ -42,8 +44,7 @@ class LensMap final : public DirectionMap {
   ImagePoint place(vec3 direction) const override {
     const vec2 across(dot(direction, right_), dot(direction, up_));
     const float off = length(across), angle = angle_of(direction);
-    float r = angle / half_;
-    if (kind_ == kFisheyeEquisolid) r = std::sin(0.5f * angle) / std::sin(0.5f * half_);
+    const float r = fisheye_radius(curve_, angle);
     const vec2 way = off > 0.0f ? across / off : vec2(1.0f, 0.0f);
     ImagePoint point;
     point.uv = center_ + radius_ * r * vec2(way.x, -way.y);
@@ -58,7 +59,7 @@ class LensMap final : public DirectionMap {
     return atan(length(vec2(dot(direction, right_), dot(direction, up_))), -dot(direction, back_));
   }
 
-  int kind_;
+  Projection curve_{};  // kind and angle alone
   float half_;
   vec2 size_, center_, radius_;
   vec3 right_, up_, back_;

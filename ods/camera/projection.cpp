@@ -42,6 +42,8 @@ std::span<const NamedProjection> named_projections() {
       {"cylinder", "all around, 60 degrees up and down", part(kCylinder, {-180.0f, 180.0f}, {-60.0f, 60.0f}), -1.0},
       {"fisheye", "equidistant, 180 degrees", lens(kFisheye, 180.0f, 0.0f), -0.5},
       {"fisheye-equisolid", "equal areas, 180 degrees", lens(kFisheyeEquisolid, 180.0f, 0.0f), -1.7},
+      {"fisheye-stereographic", "keeps shapes, 180 degrees; looking down, a little planet",
+       lens(kFisheyeStereographic, 180.0f, 0.0f), -2.5},
       {"fisheye-polynomial", "a measured lens, as Cycles describes it", of_kind(kFisheyePolynomial), -4.0},
       // An orthographic camera sees the ball at the radius sin(b) where the ball reflects its ray by 2 b.
       {"mirror-ball", "a mirrored sphere seen from far away: all directions", lens(kFisheyeEquisolid, 360.0f, 0.0f),
@@ -157,10 +159,16 @@ static std::string polynomial_fault(const ProjectionSetting& setting) {
   return {};
 }
 
+constexpr float kWidestStereographic = 350.0f;  // degrees
+
 static std::string lens_fault(const ProjectionSetting& setting) {
   const FieldRange fov = range_of(CameraField::kFov);
   if (has_image_circle(setting.kind) && !(setting.fov >= 1.0f && setting.fov <= fov.most)) {
     return "a fisheye sees 1 to 360 degrees";
+  }
+  if (setting.kind == kFisheyeStereographic && !(setting.fov <= kWidestStereographic)) {
+    return fmt::format("a stereographic fisheye sees 1 to {:g} degrees: straight behind it is infinitely far out",
+                       kWidestStereographic);
   }
   if (setting.kind == kFisheyePolynomial) {
     const std::string fault = polynomial_fault(setting);
@@ -234,6 +242,8 @@ constexpr KindRow kKinds[] = {
     {kFisheye, "fisheye", square, [](Setting s, double width) { return width / fov_of(s); }},
     {kFisheyeEquisolid, "fisheye-equisolid", square,
      [](Setting s, double width) { return width / (4.0 * std::sin(fov_of(s) / 4.0)); }},
+    {kFisheyeStereographic, "fisheye-stereographic", square,
+     [](Setting s, double width) { return width / (4.0 * std::tan(fov_of(s) / 4.0)); }},
     {kPerspective, "perspective", [](Setting s) { return static_cast<double>(s.aspect); },
      [](Setting s, double width) { return width / (2.0 * std::tan(fov_of(s) / 2.0)); }},
     {kCube3x2, "cube-3x2", [](Setting) { return 1.5; }, face_pixels},

@@ -176,7 +176,7 @@ class Writer {
 
   // A direction of any length, in the camera's frame.
   Vector lens_direction() {
-    static_assert(kProjectionCount == 11, "a new projection needs its formula here");
+    static_assert(kProjectionCount == 12, "a new projection needs its formula here");
     const std::array<glm::dvec3, 3> columns = orientation(radians(setting_.pan), radians(setting_.tilt), 0.0);
     const Formula x = 2.0 * eye_u_ - 1.0, y = 1.0 - 2.0 * eye_v_;
     if (setting_.kind == kPerspective) {
@@ -190,12 +190,17 @@ class Writer {
     const Formula px = step("lens_x", x), py = step("lens_y", y);
     const Formula radius = step("off_axis", sqrt(squared(px) + squared(py)));
     const Formula full = radians(1.0f) * parameter("fov", setting_.fov, "of the fisheye, degrees");
-    assert(setting_.kind == kFisheye || setting_.kind == kFisheyeEquisolid);
-    const Formula angle = step(
-        "from_axis", setting_.kind == kFisheye ? full * radius / 2.0 : 2.0 * asin(min(sin(full / 4.0) * radius, 1.0)));
+    const Formula angle = step("from_axis", fisheye_angle(full, radius));
     const Formula outwards = step("outwards", sin(angle) / max(radius, 1e-9));
     seen_ = step("seen", select(1.0 - radius, 0.0, 1.0));
     return combine(columns, {px * outwards, py * outwards, -cos(angle)});
+  }
+
+  Formula fisheye_angle(const Formula& full, const Formula& radius) const {
+    if (setting_.kind == kFisheyeEquisolid) return 2.0 * asin(min(sin(full / 4.0) * radius, 1.0));
+    if (setting_.kind == kFisheyeStereographic) return 2.0 * atan2(tan(full / 4.0) * radius, 1.0);
+    assert(setting_.kind == kFisheye);
+    return full * radius / 2.0;
   }
 
   // Positions on the sensor are in millimetres.

@@ -406,7 +406,7 @@ static Identity with_bars_in_windows(Identity identity, Extent file) {
 static bool is_whole(const Reading& reading) {
   const ProjectionSetting& projection = reading.projection;
   const EyeArrangement eyes = reading.layout ? arrangement_of(*reading.layout) : EyeArrangement();
-  return !is_cube(projection.kind) && projection.kind != kPerspective && projection_name(projection) != "eac-face" &&
+  return !is_cube(projection.kind) && (!has_lens(projection.kind) || has_image_circle(projection.kind)) &&
          (projection.kind != kLatLong || is_full_lat_long(projection) || is_vr180(projection)) &&
          (!reading.layout || eyes.is_halves());
 }

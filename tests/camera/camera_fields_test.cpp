@@ -4,6 +4,7 @@
 // Every legal camera comes back from everything that it is written into.
 #include "ods/camera/camera_fields.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -129,6 +130,20 @@ TEST(CameraFields, TheSidecarsPageNamesEveryKey) {
                 page.find(fmt::format("`{}`", key)) != std::string::npos)
         << place;
   }
+}
+
+TEST(CameraFields, TheStudioHasAControlForEach) {
+  std::ifstream file(ODS_SOURCE_DIR "/web/studio-fields.js");
+  const std::string page(std::istreambuf_iterator<char>(file), {});
+  const auto expect_control = [&](std::string_view place) {
+    const std::string_view key = place.substr(place.find('.') + 1);
+    const bool is_there = page.find(fmt::format("camera('{}')", place)) != std::string::npos ||
+                          page.find(fmt::format("camera(`{}.${{i}}`)", place)) != std::string::npos ||
+                          page.find(fmt::format("camera(`${{which}}.{}`)", key)) != std::string::npos;
+    EXPECT_TRUE(is_there) << place;
+  };
+  for (const CameraFieldRow& row : camera_fields()) expect_control(row.place);
+  for (const CameraModeRow& row : camera_modes()) expect_control(row.place);
 }
 
 // The last of a field's numbers is at an end of its range, in every projection that allows it.

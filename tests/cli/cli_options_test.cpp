@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -145,13 +146,15 @@ TEST_F(Cli, CamerasAtTheEndsOfTheirRangesComeBack) {
       if (lens) camera.projection.fov = projection == "fisheye" ? (most ? 360.0f : 1.0f) : most ? 170.0f : 0.001f;
       if (!lens) camera.projection.pan = camera.projection.tilt = 0.0f;
       if (!lens) camera.projection.longitude = most ? ods::vec2(35640, 36000) : ods::vec2(-36000, -35999);
-      words = fmt::format("--position {0},{0},{0} --yaw {1} --pitch {1} --roll {1} --ipd {2} --eye-to-neck {3}",
-                          camera.position.x, camera.yaw, camera.ipd, camera.neck);
-      words += fmt::format(" --merge cosine,60,90,{} --convergence toe-in,{} --lens {},{}", camera.top.exponent,
-                           camera.convergence_distance, camera.lens_radius, camera.focus_distance);
-      words += lens ? fmt::format(" --fov {} --lens-direction {},{}", camera.projection.fov, camera.projection.pan,
-                                  camera.projection.tilt)
-                    : fmt::format(" --range {},{}", camera.projection.longitude.x, camera.projection.longitude.y);
+      std::map<std::string_view, std::string> given;
+      for (const ods::CameraModeRow& row : ods::camera_modes()) given[row.setting] = mode_of(camera, row);
+      for (const ods::CameraFieldRow& row : ods::camera_fields()) {
+        if (row.setting == "aspect" || (row.setting != "lens" && !row.matters(camera))) continue;
+        std::string& value = given[row.setting];
+        for (const float number : values_of(camera, row))
+          value += fmt::format("{}{}", value.empty() ? "" : ",", number);
+      }
+      for (const auto& [setting, value] : given) words += fmt::format(" --{} {}", setting, value);
       ASSERT_EQ(run("camera --for json --width 64 --projection " + projection + " " + words + " -o " + sidecar), 0)
           << words << "\n"
           << err;

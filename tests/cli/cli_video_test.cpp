@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "ods/camera/camera_fields.h"
 #include "ods/video/encode.h"
 #include "tests/support/cli_runner.h"
 #include "tests/support/gltf_builder.h"
@@ -202,7 +203,13 @@ const std::map<std::string, std::string> kVideoAlone = {
     {"--confine", "."},      {"--keep-frames", ""},    {"--skip-existing", ""},  {"--duration", "3"},
     {"--brighter", "1"},     {"--force", ""},
 };
-const std::map<std::string, std::string> kOfFrames = {
+std::map<std::string, std::string> with_circle(std::map<std::string, std::string> options) {
+  for (const ods::CameraFieldRow& row : ods::camera_fields()) {
+    if (!row.help.empty()) options.emplace(fmt::format("--{}", row.setting), "0.06");
+  }
+  return options;
+}
+const std::map<std::string, std::string> kOfFrames = with_circle({
     {"--scene", "0"},
     {"--variant", "red"},
     {"--solid-glass", ""},
@@ -225,12 +232,10 @@ const std::map<std::string, std::string> kOfFrames = {
     {"--pitch", "10"},
     {"--roll", "10"},
     {"--camera-preset", "google:IPD=0.1"},
-    {"--ipd", "0.06"},
     {"--merge", "none"},
     {"--merge-top", "power"},
     {"--merge-bottom", "linear"},
     {"--convergence", "shift,3"},
-    {"--eye-to-neck", "0.1"},
     {"--axis", "1,1,0"},
     {"--lens", "0.01,2"},
     {"--left-handed", ""},
@@ -254,7 +259,7 @@ const std::map<std::string, std::string> kOfFrames = {
     {"--indirect", "path"},
     {"--filter", "box"},
     {"--seed", "7"},
-};
+});
 // These ask for other files (tested elsewhere), say where, or need another one; --time and --sidecar are refused.
 const std::set<std::string> kOthers = {"--output",
                                        "--audio",

@@ -133,6 +133,7 @@ TEST_F(StudioCommand, DescribesItsControls) {
     EXPECT_EQ(has("lens"), ods::has_lens(named.setting.kind)) << named.name;
     EXPECT_EQ(has("polynomial"), named.name == "fisheye-polynomial") << named.name;
   }
+  for (const auto& row : ods::kMergeTable) EXPECT_EQ(studio["kernel_merges"][std::string(row.name)], row.member);
   // The page's numbers are those that the server takes where none are given.
   Json settings = studio["settings"];
   settings["sidecar"]["projection"] = {{"name", "fisheye-polynomial"}};
@@ -144,6 +145,11 @@ TEST_F(StudioCommand, DescribesItsControls) {
   const std::string own = asked("set", settings)["command"];
   EXPECT_NE(own.find("--axis 0,1,0.5 "), std::string::npos) << own;
   EXPECT_NE(own.find("--lens-polynomial "), std::string::npos) << own;
+  settings["sidecar"]["projection"] = {{"name", "vr180"}};
+  settings["sidecar"]["picture"]["layout"] = "side-by-side";
+  const Json half = asked("set", settings);
+  EXPECT_EQ(half["end"], "_180_LR.png");
+  EXPECT_TRUE(half["command"].get<std::string>().ends_with(" -o toys_180_LR.png")) << half;
 }
 
 // Thirty changes in quick succession; then the picture is that of the command that the page shows.

@@ -15,6 +15,7 @@
 #include "ods/identify/lenses.h"
 #include "ods/picture/load_eyes.h"
 #include "ods/picture/stored_lenses.h"
+#include "tests/support/exact_projection.h"
 #include "tests/support/stored_pictures.h"
 #include "tests/support/waves.h"
 
@@ -23,15 +24,18 @@ namespace {
 
 constexpr Extent kEye{300, 280};
 
+ProjectionSetting curve_of(const FisheyeLens& lens) {
+  ProjectionSetting setting;
+  setting.kind = lens.kind, setting.fov = lens.fov;
+  return setting;
+}
+
 // What a lens sees at an image position: the direction, if it is within the circle.
 bool look(const FisheyeLens& lens, Extent eye, vec2 uv, vec3& direction) {
-  const vec2 at = uv * vec2(static_cast<float>(eye.width), static_cast<float>(eye.height)) - lens.center;
-  const float r = length(at) / lens.radius;
-  if (r > 1.0f) return false;
-  const float half = glm::radians(0.5f * lens.fov);
-  const float angle = lens.kind == kFisheyeEquisolid ? 2.0f * std::asin(r * std::sin(0.5f * half)) : r * half;
-  const vec2 way = r > 0.0f ? at / length(at) : vec2(0.0f);
-  const vec3 own(way.x * std::sin(angle), -way.y * std::sin(angle), -std::cos(angle));
+  const vec2 at =
+      (uv * vec2(static_cast<float>(eye.width), static_cast<float>(eye.height)) - lens.center) / lens.radius;
+  if (length(at) > 1.0f) return false;
+  const vec3 own(exact_fisheye(curve_of(lens), dvec2(0.5f + 0.5f * at)));
   const auto axes =
       orientation(glm::radians(static_cast<double>(lens.yaw)), glm::radians(static_cast<double>(lens.pitch)),
                   glm::radians(static_cast<double>(lens.roll)));
@@ -89,7 +93,8 @@ FisheyeLens lens_at(float x, float y, float radius, float fov) {
 TEST(StoredLenses, CirclesOffTheMiddleAreUnwrappedExactly) {
   const Waves waves;
   FisheyeLens left = lens_at(143.3f, 135.8f, 131.0f, 190.0f), right = lens_at(155.6f, 141.1f, 131.0f, 190.0f);
-  for (const int kind : {kFisheye, kFisheyeEquisolid}) {
+  for (int kind = 0; kind < kProjectionCount; kind++) {
+    if (!is_fisheye(kind)) continue;
     left.kind = right.kind = kind;
     MadePicture made = picture_of({left, right}, kEye, waves);
     FormatHint known;
@@ -99,8 +104,7 @@ TEST(StoredLenses, CirclesOffTheMiddleAreUnwrappedExactly) {
     ConvertTarget target = same_format(made.picture);
     EXPECT_EQ(target.eyes, (std::vector<int>{kLeft, kRight}));
     EXPECT_FALSE(is_same_picture(made.picture, target));
-    const double half = glm::radians(95.0);  // of the lens; pixels per radian in its middle
-    const double density = kind == kFisheye ? 131.0 / half : 131.0 / (2.0 * std::sin(half / 2.0));
+    const double density = pixels_per_radian(curve_of(left), 2.0 * 131.0);  // in the lens's middle
     EXPECT_NEAR(target.eye.width, density * std::acos(-1.0), 4.0);
     const Error2 error = error_of(made.picture, target, waves);
     EXPECT_LT(error.most, 0.03) << kind;

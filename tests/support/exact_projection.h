@@ -27,8 +27,10 @@ inline dvec3 turned(dvec3 d, double pan, double tilt) {
 inline dvec3 exact_fisheye(const ProjectionSetting& setting, dvec2 uv) {
   const double x = 2.0 * uv.x - 1.0, y = 1.0 - 2.0 * uv.y, r = std::hypot(x, y);
   const double fov = glm::radians(double{setting.fov});
-  const double angle =
-      setting.kind == kFisheye ? fov / 2.0 * r : 2.0 * std::asin(std::min(r * std::sin(fov / 4.0), 1.0));
+  double angle = fov / 2.0 * r;
+  if (setting.kind == kFisheyeEquisolid) angle = 2.0 * std::asin(std::min(r * std::sin(fov / 4.0), 1.0));
+  // The line from the point opposite to the axis meets the sphere at the angle and the picture's plane at the radius.
+  if (setting.kind == kFisheyeStereographic) angle = 2.0 * std::atan(r * std::tan(fov / 4.0));
   const double roll = std::atan2(y, x);
   return {std::sin(angle) * std::cos(roll), std::sin(angle) * std::sin(roll), -std::cos(angle)};
 }
@@ -81,6 +83,7 @@ inline dvec3 exact_direction(const ProjectionSetting& setting, dvec2 uv) {
     }
     case kFisheye:
     case kFisheyeEquisolid:
+    case kFisheyeStereographic:
       return turned(exact_fisheye(setting, uv), pan, tilt);
     case kPerspective: {
       const double half = std::tan(glm::radians(double{setting.fov}) / 2.0);
@@ -129,6 +132,7 @@ inline std::vector<ProjectionSetting> many_settings(Dice& dice) {
 // angle the nearer it looks to straight behind.
 inline double rounding(const ProjectionSetting& setting, dvec2 uv) {
   if (setting.kind == kFisheyePolynomial) return 5e-7;  // five terms, a root
+  if (setting.kind == kFisheyeStereographic) return 2.4e-7 * std::tan(glm::radians(double{setting.fov}) / 4.0);
   if (setting.kind != kFisheyeEquisolid) return 0.0;
   const double sine = std::sin(glm::radians(double{setting.fov}) / 4.0), r = sine * length(2.0 * uv - 1.0);
   return 1.2e-7 * 2.0 * sine / std::sqrt(1.0 - std::min(r * r, 0.99999));

@@ -21,7 +21,7 @@ const camera = { projection: { center: [0, 0], span: [6.28, 3.14], angle: 3.14, 
 export const PROJECTIONS = [{ name: 'lat-long', camera }, { name: 'mirror-ball', camera }];
 // What view.json says of the studio.
 export const STUDIO = {
-  scene: 'a.glb', settings: SETTINGS, ranges: { ipd: [0, 10] }, merges: ['none', 'cosine'], convergences: ['parallel', 'toe-in'],
+  scene: 'a.glb', settings: SETTINGS, ranges: { ipd: [0, 10] }, merges: ['none', 'cosine'], kernel_merges: { none: 0, cosine: 2 }, convergences: ['parallel', 'toe-in'],
   projections: ['lat-long', 'mirror-ball', 'fisheye-polynomial'], polynomial_lens: { sensor: [36, 24], polynomial: [0, 1, 2, 3, 4] },
   controls: { 'lat-long': ['range'], 'mirror-ball': ['fov', 'lens'], 'fisheye-polynomial': ['polynomial'] }, tones: ['neutral'], envs: ['auto'], variants: [], duration: 0,
 };
@@ -44,7 +44,7 @@ export class Server {
       if (text !== this.last) this.revision++;
       this.last = text;
       if (this.prompt) this.send({ revision: this.revision });
-      return Response.json({ revision: this.revision, command: `ods render a.glb --yaw ${settings.sidecar.yaw} -o a.png` });
+      return Response.json({ revision: this.revision, command: `ods render a.glb --yaw ${settings.sidecar.yaw} -o a.png`, end: '_360_TB.png' });
     }
     if (path.startsWith('studio/frame')) {
       const after = Number(path.split('=')[1]);

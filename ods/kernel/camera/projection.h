@@ -14,18 +14,19 @@
 namespace ods {
 #endif
 
-const int kLatLong = 0;             // linear in theta and phi, over the whole sphere or a part of it
-const int kCylinder = 1;            // linear in theta and in the tangent of phi
-const int kFisheye = 2;             // equidistant: the radius is proportional to the angle from the lens axis
-const int kFisheyeEquisolid = 3;    // equal areas have equal solid angles
-const int kPerspective = 4;         // a flat window; with 90 degrees it is a face of a cube
-const int kCube3x2 = 5;             // as the VR camera for Arnold arranges the faces
-const int kCube6x1 = 6;             // likewise ("NVIDIA" order)
-const int kCube1x6 = 7;             // the faces of kCube6x1 in a column
-const int kEac = 8;                 // equi-angular cube, 3x2 as players of 360 video expect it
-const int kEacFace = 9;             // one face of it, which can be pointed in any direction
-const int kFisheyePolynomial = 10;  // the angle from the lens axis is a polynomial of the radius on a sensor
-const int kProjectionCount = 11;
+const int kLatLong = 0;                // linear in theta and phi, over the whole sphere or a part of it
+const int kCylinder = 1;               // linear in theta and in the tangent of phi
+const int kFisheye = 2;                // equidistant: the radius is proportional to the angle from the lens axis
+const int kFisheyeEquisolid = 3;       // equal areas have equal solid angles
+const int kPerspective = 4;            // a flat window; with 90 degrees it is a face of a cube
+const int kCube3x2 = 5;                // as the VR camera for Arnold arranges the faces
+const int kCube6x1 = 6;                // likewise ("NVIDIA" order)
+const int kCube1x6 = 7;                // the faces of kCube6x1 in a column
+const int kEac = 8;                    // equi-angular cube, 3x2 as players of 360 video expect it
+const int kEacFace = 9;                // one face of it, which can be pointed in any direction
+const int kFisheyePolynomial = 10;     // the angle from the lens axis is a polynomial of the radius on a sensor
+const int kFisheyeStereographic = 11;  // keeps shapes: seen from the point opposite to the lens axis on the unit sphere
+const int kProjectionCount = 12;
 
 // Headings and heights are linear from edge to edge.
 inline bool has_range(int kind) {
@@ -33,7 +34,7 @@ inline bool has_range(int kind) {
 }
 
 inline bool is_fisheye(int kind) {
-  return kind == kFisheye || kind == kFisheyeEquisolid;
+  return kind == kFisheye || kind == kFisheyeEquisolid || kind == kFisheyeStereographic;
 }
 
 // The picture is an ellipse, Projection::circle; outside it the frame is empty.
@@ -166,11 +167,25 @@ inline bool inside_circle(Projection projection, vec2 uv) {
   return length(vec2(2.0f * uv.x - 1.0f, 1.0f - 2.0f * uv.y) / projection.circle) <= 1.0f;
 }
 
+// The angle from the lens axis at a radius, in units of the image circle's, and the way back.
+inline float fisheye_angle(Projection projection, float r) {
+  float quarter = 0.25f * projection.angle;
+  if (projection.kind == kFisheyeEquisolid) return 2.0f * asin(min(sin(quarter) * r, 1.0f));
+  if (projection.kind == kFisheyeStereographic) return 2.0f * atan(tan(quarter) * r);
+  return 2.0f * quarter * r;
+}
+
+inline float fisheye_radius(Projection projection, float angle) {
+  float quarter = 0.25f * projection.angle;
+  if (projection.kind == kFisheyeEquisolid) return sin(0.5f * angle) / sin(quarter);
+  if (projection.kind == kFisheyeStereographic) return tan(min(0.5f * angle, 1.57f)) / tan(quarter);
+  return 0.5f * angle / quarter;
+}
+
 inline ViewDirection fisheye_look(Projection projection, vec2 home, vec2 uv) {
   vec2 p = vec2(2.0f * uv.x - 1.0f, 1.0f - 2.0f * uv.y);
   float r = length(p);
-  float angle = 0.5f * projection.angle * r;
-  if (projection.kind == kFisheyeEquisolid) angle = 2.0f * asin(min(sin(0.25f * projection.angle) * r, 1.0f));
+  float angle = fisheye_angle(projection, r);
   float out_of_axis = r > 0.0f ? sin(angle) / r : 0.0f;
   ViewDirection look = look_along(from_lens(projection, vec3(p.x * out_of_axis, p.y * out_of_axis, -cos(angle))));
   look.seen = inside_circle(projection, home);
@@ -180,9 +195,7 @@ inline ViewDirection fisheye_look(Projection projection, vec2 home, vec2 uv) {
 inline ImagePoint fisheye_place(Projection projection, vec3 direction) {
   vec3 p = to_lens(projection, direction);
   float out_of_axis = sqrt(p.x * p.x + p.y * p.y);
-  float angle = atan(out_of_axis, -p.z);
-  float r = 2.0f * angle / projection.angle;
-  if (projection.kind == kFisheyeEquisolid) r = sin(0.5f * angle) / sin(0.25f * projection.angle);
+  float r = fisheye_radius(projection, atan(out_of_axis, -p.z));
   float scale = out_of_axis > 0.0f ? r / out_of_axis : 0.0f;
   ImagePoint place;
   place.uv = vec2(0.5f + 0.5f * p.x * scale, 0.5f - 0.5f * p.y * scale);
@@ -436,6 +449,10 @@ inline float relative_solid_angle(Projection projection, vec2 home, vec2 uv) {
     float angle = max(0.5f * projection.angle * length(p), 1e-4f);
     return sin(min(angle, kPi)) / angle;
   }
+  if (projection.kind == kFisheyeStereographic) {
+    p = p * tan(0.25f * projection.angle);
+    return 1.0f / ((1.0f + dot(p, p)) * (1.0f + dot(p, p)));
+  }
   if (projection.kind == kFisheyePolynomial) {
     float r = max(length(vec2(0.5f * p.x * projection.sensor.x, 0.5f * p.y * projection.sensor.y)), 1e-4f);
     return sin(min(polynomial_angle(projection, r), kPi)) * polynomial_slope(projection, r) / r;
@@ -450,7 +467,7 @@ inline float relative_solid_angle(Projection projection, vec2 home, vec2 uv) {
 #ifdef __cplusplus
 static_assert(sizeof(Projection) == 104);
 static_assert(
-    kProjectionCount == 11,
+    kProjectionCount == 12,
     "a new projection is named in is_cube() .. above, cube_cell(), look_of(), place_of(), relative_solid_angle()");
 }  // namespace ods
 #endif

@@ -39,6 +39,17 @@ static const NamedProjection* projection_word(const std::string& word) {
   return find_projection(word);
 }
 
+std::string name_end(const ProjectionSetting& projection, Layout layout) {
+  const bool is_whole = is_full_lat_long(projection) || is_cube(projection.kind);
+  const char* const angle = is_vr180(projection) ? "_180" : is_whole ? "_360" : "";
+  const EyeArrangement eyes = arrangement_of(layout);
+  std::string word;
+  if (eyes.how == EyePacking::kStacked && !eyes.squeezed) word = eyes.right_first ? "_BT" : "_TB";
+  if (eyes.how == EyePacking::kBeside && !eyes.squeezed) word = eyes.right_first ? "_RL" : "_LR";
+  if (layout == Layout::kSeparate) word = "_%V";
+  return angle + word + (layout == Layout::kMultiview ? ".exr" : ".png");
+}
+
 NameWords read_name(const std::string& path) {
   NameWords words;
   std::string name = std::filesystem::path(path).stem().native();

@@ -30,6 +30,10 @@ struct NameWords {
 };
 NameWords read_name(const std::string& path);
 
+// The end of the name of a picture from a renderer, by which read_name() and players know it: "_180_LR.png". Parts of
+// the sphere and formats that players do not know have no word; names with %V stand for two files.
+std::string name_end(const ProjectionSetting& projection, Layout layout);
+
 // The same path with these words in place of the format words of its name: a_180.mp4 becomes a_360_TB.mp4.
 std::string renamed(const std::string& path, const std::string& words);
 

@@ -8,6 +8,7 @@
 
 #include "ods/base/error.h"
 #include "ods/base/suggest.h"
+#include "ods/camera/camera_fields.h"
 #include "ods/image/format/exr_header.h"
 #include "ods/image/format/jpeg_segments.h"
 #include "ods/image/format/png_chunks.h"
@@ -188,13 +189,13 @@ static bool stays(const ExrAttribute& there, const PictureTag& tag) {
 
 // Attributes that a tag sets or omits; without a tag, all attributes that we ever write.
 static bool is_ours(const std::string& name, bool has_tag) {
-  constexpr std::string_view kOptional[] = {"longitude", "latitude",  "fov",  "look", "aspect",   "convergence",
-                                            "neck",      "poleMerge", "axis", "lens", "mirrored", "headTilt"};
   if (name == "envmap" || name == "view") return true;
   if (!name.starts_with("ods:")) return false;
-  const std::string_view word = std::string_view(name).substr(4);
-  return !has_tag || std::any_of(std::begin(kOptional), std::end(kOptional),
-                                 [&](std::string_view each) { return word.starts_with(each); });
+  const auto is_of = [&](const auto& row) {
+    return name.starts_with(row.attribute.substr(0, row.attribute.find('#')));
+  };
+  return !has_tag || name == "ods:mirrored" || name == "ods:headTilt" || std::ranges::any_of(camera_fields(), is_of) ||
+         std::ranges::any_of(camera_modes(), is_of);
 }
 
 static void tag_exr(const FileInput& file, AtomicFile& to, const std::optional<PictureTag>& tag) {

@@ -215,6 +215,31 @@ TEST(Projections, MirrorBallsReflect) {
   EXPECT_EQ(place_of(ball, vec3(0.0f, 0.0f, -1.0f)).uv, vec2(0.5f));
 }
 
+// Seen from the south pole of the unit sphere, on the plane of its equator. Small circles stay circles.
+TEST(Projections, StereographicPicturesAreThoseOfASphereSeenFromItsPole) {
+  ProjectionSetting setting = find_projection("fisheye-stereographic")->setting;
+  const auto place = [&](vec3 d) { return dvec2(place_of(make_projection(setting), d).uv) * 2.0 - 1.0; };
+  EXPECT_NEAR(place(vec3(1.0f, 0.0f, -std::sqrt(3.0f))).x, std::tan(kExactPi / 12.0), 1e-6) << "30 degrees off axis";
+  setting.fov = 270.0f;
+  Dice dice(9);
+  for (int i = 0; i < 100; i++) {
+    const dvec3 middle = turned(dvec3(0.0, 0.0, -1.0), dice.between(-1.0f, 1.0f), dice.between(-1.0f, 1.0f));
+    const dvec3 side = normalize(cross(middle, dvec3(0.3, 1.0, 0.2))), other = cross(middle, side);
+    const auto on_rim = [&](double turn) {
+      return place(vec3(middle + 0.4 * (std::cos(turn) * side + std::sin(turn) * other)));
+    };
+    const dvec2 a = on_rim(0.0), b = on_rim(2.0), c = on_rim(4.0), d = on_rim(5.0);
+    const auto square = [](dvec2 v) { return dot(v, v); };
+    const double twice = 2.0 * (a.x * (b.y - c.y) + b.x * (c.y - a.y) + c.x * (a.y - b.y));
+    const dvec2 center = dvec2(square(a) * (b.y - c.y) + square(b) * (c.y - a.y) + square(c) * (a.y - b.y),
+                               square(a) * (c.x - b.x) + square(b) * (a.x - c.x) + square(c) * (b.x - a.x)) /
+                         twice;
+    EXPECT_NEAR(length(d - center), length(a - center), 1e-5);
+  }
+  setting.fov = 351.0f;
+  EXPECT_NE(projection_fault(setting).find("350"), std::string::npos);
+}
+
 // Straight behind a lens is the rim of a whole circle, and nowhere in a smaller one.
 TEST(Projections, StraightBehindIsOnTheRim) {
   for (const int kind : {kFisheye, kFisheyeEquisolid}) {
@@ -391,7 +416,8 @@ TEST(Cameras, MergeMapsScaleTheCircle) {
 TEST(Projection, EveryKindIsOfOneFamily) {
   for (int kind = 0; kind < kProjectionCount; kind++) {
     EXPECT_EQ(int{has_range(kind)} + int{has_lens(kind)} + int{is_cube(kind)}, 1) << kind;
-    EXPECT_EQ(has_image_circle(kind), kind == kFisheye || kind == kFisheyeEquisolid || kind == kFisheyePolynomial)
+    EXPECT_EQ(has_image_circle(kind), kind == kFisheye || kind == kFisheyeEquisolid || kind == kFisheyeStereographic ||
+                                          kind == kFisheyePolynomial)
         << kind;
     EXPECT_EQ(std::count_if(named_projections().begin(), named_projections().end(),
                             [&](const NamedProjection& named) { return named.setting.kind == kind; }) > 0,

@@ -111,6 +111,22 @@ TEST(RetagPicture, OnlyWhatIsAskedForChangesInAnExr) {
   }
 }
 
+// What means nothing to the new projection goes.
+TEST(RetagPicture, AnExrLosesTheNumbersOfAnotherLens) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path("a.exr");
+  StereoCamera camera;
+  camera.projection = find_projection("fisheye-polynomial")->setting;
+  save_picture(gradient({kMono}), camera, {}, path);
+  ASSERT_TRUE(read_info(path).numbers.contains("ods:sensor"));
+  PictureTag tag;
+  tag.eye = kMono, tag.has_camera = true;
+  tag_picture(path, path, tag);
+  for (const char* name : {"ods:sensor", "ods:lensK1", "ods:fov", "ods:look"}) {
+    EXPECT_FALSE(read_info(path).numbers.contains(name)) << name;
+  }
+}
+
 TEST(RetagPicture, AnExrKeepsAPositionOfWhichNobodyKnowsTheEyes) {
   const TemporaryFolder folder;
   const std::string path = folder.path("a.exr");

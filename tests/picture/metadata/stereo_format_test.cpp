@@ -317,6 +317,27 @@ TEST(GuessLayout, WhatIsNoLayoutIsLeftAside) {
   EXPECT_NE(format.guesses[0].find("ods:layout is invalid"), std::string::npos) << format.guesses[0];
 }
 
+TEST(NameEnd, IsReadAsWhatThePictureShows) {
+  for (const NamedProjection& named : named_projections()) {
+    for (const Layout layout : kLayouts) {
+      if (layout == Layout::kSeparate) continue;  // two names
+      const std::string end = name_end(named.setting, layout);
+      const NameWords words = read_name("a" + end);
+      EXPECT_TRUE(words.layout_word.empty() || words.layout == layout) << end;
+      const bool is_half = is_vr180(named.setting);
+      EXPECT_EQ(words.projection_word, is_half                                                   ? "_180"
+                                       : named.name == "lat-long" || is_cube(named.setting.kind) ? "_360"
+                                                                                                 : "");
+    }
+  }
+  EXPECT_EQ(name_end(find_projection("vr180")->setting, Layout::kSideBySide), "_180_LR.png");
+  EXPECT_EQ(name_end(find_projection("cylinder")->setting, Layout::kMultiview), ".exr");
+  EXPECT_EQ(name_end({}, Layout::kSeparate), "_360_%V.png");
+  ProjectionSetting band;
+  band.latitude = vec2(-45.0f, 45.0f);
+  EXPECT_EQ(name_end(band, Layout::kCrossEyed), "_RL.png");
+}
+
 TEST(NameFault, IsWhatReadersWouldGetWrong) {
   const ProjectionSetting sphere, half = find_projection("vr180")->setting;
   EXPECT_NE(name_fault("y_LR.png", Layout::kTopBottom, sphere).find("_LR"), std::string::npos);
