@@ -215,12 +215,12 @@ TEST_F(Unknown, FacesInAnotherOrderAreTold) {
 
 // Two eyes of vr180, as a file beside each other, changed by `change`.
 StoredPicture vr180_file(const TemporaryFolder& folder, World world, const std::function<Image(const Image&)>& change) {
-  Image both(1280, 640, 3);
+  Image both(960, 480, 3);
   for (const int eye : {kLeft, kRight}) {
     StereoCamera camera;
     camera.projection = named("vr180");
-    const Image own = seen(world, camera, eye, {640, 640}, true);
-    for (int y = 0; y < own.height; y++) std::copy_n(own.at(0, y), 3 * own.width, both.at(eye == kLeft ? 0 : 640, y));
+    const Image own = seen(world, camera, eye, {480, 480}, true);
+    for (int y = 0; y < own.height; y++) std::copy_n(own.at(0, y), 3 * own.width, both.at(eye == kLeft ? 0 : 480, y));
   }
   const std::string path = folder.path("file.jpg");
   Picture picture;
@@ -247,7 +247,7 @@ Image of_height(const Image& image, int height) {
 
 TEST_F(Unknown, Vr180SqueezedInto16To9IsRecognised) {
   for (const World world : kWorlds) {
-    const Identity seen = identify(vr180_file(folder, world, [](const Image& both) { return of_height(both, 720); }));
+    const Identity seen = identify(vr180_file(folder, world, [](const Image& both) { return of_height(both, 540); }));
     ASSERT_FALSE(seen.readings.empty());
     EXPECT_EQ(reading_text(seen.best()), "side-by-side, vr180") << world_name(world);
     EXPECT_FALSE(seen.bars.any());
@@ -256,16 +256,16 @@ TEST_F(Unknown, Vr180SqueezedInto16To9IsRecognised) {
 
 TEST_F(Unknown, BlackBarsAreNoPartOfVr180) {
   const auto with_bars = [](const Image& both) {
-    Image file(both.width, 720, 3);
-    std::copy(both.pixels.begin(), both.pixels.end(), file.at(0, 40));
+    Image file(both.width, 540, 3);
+    std::copy(both.pixels.begin(), both.pixels.end(), file.at(0, 30));
     return file;
   };
   for (const World world : kWorlds) {
     const Identity seen = identify(vr180_file(folder, world, with_bars));
     ASSERT_FALSE(seen.readings.empty());
     EXPECT_EQ(reading_text(seen.best()), "side-by-side, vr180") << world_name(world);
-    EXPECT_NEAR(seen.bars.top, 40, 1) << world_name(world);
-    EXPECT_NEAR(seen.bars.bottom, 40, 1) << world_name(world);
+    EXPECT_NEAR(seen.bars.top, 30, 1) << world_name(world);
+    EXPECT_NEAR(seen.bars.bottom, 30, 1) << world_name(world);
   }
 }
 
@@ -302,7 +302,7 @@ TEST_F(Unknown, StripsOfAWorldWhoseYIsUpAreTold) {
           return seen(world, camera, eye, size);
         };
         const std::string path = folder.path("file.jpg");
-        write_unknown(path, {std::nullopt, named(name)}, eyes, unknown_eye(named(name), 768));
+        write_unknown(path, {std::nullopt, named(name)}, eyes, unknown_eye(named(name), 512));
         const Identity seen = identify(open_unknown(path));
         EXPECT_EQ(seen.is_sure(), pitch == 0.0f) << world_name(world) << " " << name;
         EXPECT_EQ(doubt_text(seen).find("faces of a cube") != std::string::npos, pitch != 0.0f) << world_name(world);

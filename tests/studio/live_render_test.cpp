@@ -41,7 +41,7 @@ double mean_of(const LiveFrame& frame) {
 
 class LiveRendering : public testing::Test {
  protected:
-  ods::Scene scene = ods::find_builtin("toys")->make();
+  ods::Scene scene = ods::find_builtin("axis")->make();
   LiveSettings settings = settings_for(scene);
 };
 
