@@ -134,7 +134,7 @@ TEST(LayersFurnace, WhiteStaysWhite) {
   for (float roughness : kRoughness) {
     for (const NamedMaterial& each : white_materials(roughness)) {
       for (float cosine : kCosines) {
-        const double white = whiteness(kernel, each.material, viewer(cosine, 0.6f)).x;
+        const double white = whiteness(kernel, each.material, viewer(cosine, 0.6f), 1 << 14).x;
         EXPECT_NEAR(white, 1.0, 1e-2) << each.name << ", roughness " << roughness << ", cosine " << cosine;
       }
     }
