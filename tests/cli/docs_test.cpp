@@ -391,7 +391,7 @@ class Pages : public ::testing::Test {
   void try_server(const std::string& line) {
     const std::string network = has(line, "--lan") ? " || test $code = 3" : "";  // perhaps there is none
     const std::string words = ODS_COMMAND + line.substr(3) + " --no-browser";
-    EXPECT_EQ(shell("timeout -s TERM 60 " + words +
+    EXPECT_EQ(shell("rm -f address; timeout -s TERM 60 " + words +
                     " >address & while kill -0 $! && ! test -s address; do sleep 0.1; done; "
                     "kill $!; wait $!; code=$?; test $code = 143" +
                     network),
