@@ -111,7 +111,7 @@ class Frames {
     add_colour(made, [&camera](int which, vec2 uv, float* out) {
       const Ray ray = camera_ray(camera, which, uv);
       vec3 light(0.0f);
-      if (ray.direction != vec3(0.0f)) light = hall_at(ray.origin, ray.direction);
+      if (ray.direction != vec3(0.0f)) light = world_at(World::kHall, ray.origin, ray.direction);
       for (int c = 0; c < 3; c++) out[c] = light[c];
     });
     made.picture.is_float = true;

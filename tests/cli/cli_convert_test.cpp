@@ -21,10 +21,10 @@ namespace ods::cli_convert_test {
 
 class CliConvert : public Cli {
  protected:
-  // A stereo picture of the room, 64x32 an eye.
+  // A stereo picture, 64x32 an eye.
   std::string make(const std::string& name, const std::string& words = "") {
     const std::string path = folder.path(name);
-    EXPECT_EQ(run("render room -q --width 64 --samples 1 --threads 2 -o " + path + " " + words), 0) << err;
+    EXPECT_EQ(run("render mirrors -q --width 64 --samples 1 --threads 2 -o " + path + " " + words), 0) << err;
     return path;
   }
   int convert(const std::string& from, const std::string& to, const std::string& words = "") {
@@ -132,8 +132,8 @@ TEST_F(CliConvert, ColourSpacesAreHonoured) {
   EXPECT_NE(err.find("its ICC profile is damaged: taken as sRGB"), std::string::npos) << err;
   EXPECT_EQ(run("probe " + unknown), 0);
   EXPECT_NE(out.find("its ICC profile is damaged: taken as sRGB"), std::string::npos) << out;
-  EXPECT_EQ(run("render room -q --width 8 --samples 1 --env " + unknown + " -o " + folder.path("a.png")), 0);
-  EXPECT_EQ(run("render room --progress none --width 8 --samples 1 --env " + unknown + " -o " + folder.path("a.png")),
+  EXPECT_EQ(run("render axis -q --width 8 --samples 1 --env " + unknown + " -o " + folder.path("a.png")), 0);
+  EXPECT_EQ(run("render axis --progress none --width 8 --samples 1 --env " + unknown + " -o " + folder.path("a.png")),
             0);
   EXPECT_NE(err.find(warning), std::string::npos) << err;
 }

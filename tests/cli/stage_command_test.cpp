@@ -117,7 +117,7 @@ TEST_F(Stage, ACameraWithNothingToSeeIsSaidBeforeAnHourOfRendering) {
 }
 
 TEST_F(Stage, TheExposureIsSaidAndCanBeRepeated) {
-  const std::string render = "render room --env 40" + kTiny;
+  const std::string render = "render axis --env 40" + kTiny;
   ASSERT_EQ(run(render + folder.path("auto.png")), 0) << err;
   const std::string stops = number_after(err, "--exposure ");
   ASSERT_NE(stops, "none") << err;
@@ -128,14 +128,14 @@ TEST_F(Stage, TheExposureIsSaidAndCanBeRepeated) {
   EXPECT_FALSE(bytes("auto.png") == bytes("zero.png"));
   ASSERT_EQ(run(render + folder.path("light.exr")), 0) << err;
   EXPECT_EQ(err.find("exposure"), std::string::npos) << "an .exr keeps the light";
-  ASSERT_EQ(run("render room" + kTiny + folder.path("own.png")), 0) << err;
+  ASSERT_EQ(run("render axis" + kTiny + folder.path("own.png")), 0) << err;
   EXPECT_EQ(err.find("exposure"), std::string::npos) << "the built-in scenes are made for exposure 0";
   for (const std::string word : {"bright", "1,2", "31", "nan", "inf"})
     EXPECT_EQ(run(render + "a.png --exposure " + word), 2);
 }
 
 TEST_F(Stage, BrighterIsAStopMoreThanWhatIsChosenOrGiven) {
-  const std::string render = "render room --env 40 --denoise none" + kTiny;
+  const std::string render = "render axis --env 40 --denoise none" + kTiny;
   ASSERT_EQ(run(render + folder.path("auto.png")), 0) << err;
   const std::string chosen = number_after(err, "--exposure ");
   ASSERT_NE(chosen, "none") << err;
@@ -148,7 +148,7 @@ TEST_F(Stage, BrighterIsAStopMoreThanWhatIsChosenOrGiven) {
     EXPECT_TRUE(bytes("brighter.png") == bytes("same.png")) << same;
   }
   EXPECT_FALSE(bytes("auto.png") == bytes("brighter.png"));
-  const std::string own = "render room --denoise none" + kTiny;
+  const std::string own = "render axis --denoise none" + kTiny;
   ASSERT_EQ(run(own + folder.path("own.png") + " --brighter -1"), 0) << err;
   ASSERT_EQ(run(own + folder.path("given.png") + " --exposure -1"), 0) << err;
   EXPECT_TRUE(bytes("own.png") == bytes("given.png")) << "a built-in scene is made for exposure 0";
@@ -179,7 +179,7 @@ TEST_F(Stage, FramesAndPartsShareTheExposure) {
 
 TEST_F(Stage, ViewsOfARigHaveTheExposureThatIsGiven) {
   ASSERT_EQ(run("rig --width 16 --slits 6 --pitches 3 -q -o " + scenes.path("rig.json")), 0) << err;
-  const std::string views = "render room -q --samples 1 --rig " + scenes.path("rig.json") + " -o ";
+  const std::string views = "render axis -q --samples 1 --rig " + scenes.path("rig.json") + " -o ";
   std::vector<std::string> firsts;
   for (const std::string exposure : {"", " --exposure 0", " --exposure 3"}) {
     ASSERT_EQ(run(views + folder.path("v_####.png") + exposure), 0) << err;
@@ -206,7 +206,7 @@ TEST_F(Stage, AnObjectTurnsOnTheSpot) {
 }
 
 TEST_F(Stage, ThePolesAreMergedByDefault) {
-  const std::string render = "render room" + kTiny + folder.path("a.png") + " --sidecar ";
+  const std::string render = "render axis" + kTiny + folder.path("a.png") + " --sidecar ";
   const auto merge = [&] { return ods::GltfJson::parse(bytes("a.camera.json")).dump(); };
   ASSERT_EQ(run(render), 0) << err;
   EXPECT_NE(merge().find("\"mode\":\"cosine\""), std::string::npos) << merge();

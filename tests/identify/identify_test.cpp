@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "ods/base/error.h"
 #include "ods/identify/eye_match.h"
 #include "ods/identify/marks.h"
@@ -22,10 +24,25 @@ ProjectionSetting named(const char* name) {
   return find_projection(name)->setting;
 }
 
+// Many tests see the same.
+Image seen(World world, const StereoCamera& camera, int eye, Extent size, bool is_pair = false) {
+  struct Seen {
+    std::tuple<World, int, int, int, bool> what;
+    StereoCamera camera;
+    Image image;
+  };
+  static std::vector<Seen> pictures;
+  const std::tuple what(world, eye, size.width, size.height, is_pair);
+  const auto found = std::find_if(pictures.begin(), pictures.end(),
+                                  [&](const Seen& each) { return each.what == what && each.camera == camera; });
+  if (found != pictures.end()) return found->image;
+  return pictures.emplace_back(Seen{what, camera, seen_in(world, camera, eye, size, is_pair)}).image;
+}
+
 Image eye_of(World world, const ProjectionSetting& projection, int eye = kMono, int pixels = 448) {
   StereoCamera camera;
   camera.projection = projection;
-  return seen_in(world, camera, eye, unknown_eye(projection, pixels));
+  return seen(world, camera, eye, unknown_eye(projection, pixels));
 }
 
 Image grey(const Image& image) {
@@ -93,7 +110,7 @@ TEST(MatchEyes, TwoEyesMatchAndTwoPlacesDoNot) {
     StereoCamera behind;
     behind.projection = named("vr180");
     behind.yaw = 180.0f;
-    const Image other = grey(seen_in(world, behind, kMono, {left.width, left.height}));
+    const Image other = grey(seen(world, behind, kMono, {left.width, left.height}));
     EXPECT_LT(match_eyes({left, other}).mark(), -0.5) << world_name(world);
   }
 }
@@ -122,7 +139,7 @@ class Unknown : public testing::Test {
     const TwoEyes eyes = [&](int eye, const ProjectionSetting& projection, Extent size) {
       StereoCamera camera;
       camera.projection = projection;
-      return seen_in(world, camera, eye, size, is_pair);
+      return seen(world, camera, eye, size, is_pair);
     };
     const std::string path = folder.path(unknown_name(truth));
     write_unknown(path, truth, eyes, unknown_eye(truth.projection, 512));
@@ -198,12 +215,12 @@ TEST_F(Unknown, FacesInAnotherOrderAreTold) {
 
 // Two eyes of vr180, as a file beside each other, changed by `change`.
 StoredPicture vr180_file(const TemporaryFolder& folder, World world, const std::function<Image(const Image&)>& change) {
-  Image both(1280, 640, 3);
+  Image both(960, 480, 3);
   for (const int eye : {kLeft, kRight}) {
     StereoCamera camera;
     camera.projection = named("vr180");
-    const Image own = seen_in(world, camera, eye, {640, 640}, true);
-    for (int y = 0; y < own.height; y++) std::copy_n(own.at(0, y), 3 * own.width, both.at(eye == kLeft ? 0 : 640, y));
+    const Image own = seen(world, camera, eye, {480, 480}, true);
+    for (int y = 0; y < own.height; y++) std::copy_n(own.at(0, y), 3 * own.width, both.at(eye == kLeft ? 0 : 480, y));
   }
   const std::string path = folder.path("file.jpg");
   Picture picture;
@@ -230,7 +247,7 @@ Image of_height(const Image& image, int height) {
 
 TEST_F(Unknown, Vr180SqueezedInto16To9IsRecognised) {
   for (const World world : kWorlds) {
-    const Identity seen = identify(vr180_file(folder, world, [](const Image& both) { return of_height(both, 720); }));
+    const Identity seen = identify(vr180_file(folder, world, [](const Image& both) { return of_height(both, 540); }));
     ASSERT_FALSE(seen.readings.empty());
     EXPECT_EQ(reading_text(seen.best()), "side-by-side, vr180") << world_name(world);
     EXPECT_FALSE(seen.bars.any());
@@ -239,16 +256,16 @@ TEST_F(Unknown, Vr180SqueezedInto16To9IsRecognised) {
 
 TEST_F(Unknown, BlackBarsAreNoPartOfVr180) {
   const auto with_bars = [](const Image& both) {
-    Image file(both.width, 720, 3);
-    std::copy(both.pixels.begin(), both.pixels.end(), file.at(0, 40));
+    Image file(both.width, 540, 3);
+    std::copy(both.pixels.begin(), both.pixels.end(), file.at(0, 30));
     return file;
   };
   for (const World world : kWorlds) {
     const Identity seen = identify(vr180_file(folder, world, with_bars));
     ASSERT_FALSE(seen.readings.empty());
     EXPECT_EQ(reading_text(seen.best()), "side-by-side, vr180") << world_name(world);
-    EXPECT_NEAR(seen.bars.top, 40, 1) << world_name(world);
-    EXPECT_NEAR(seen.bars.bottom, 40, 1) << world_name(world);
+    EXPECT_NEAR(seen.bars.top, 30, 1) << world_name(world);
+    EXPECT_NEAR(seen.bars.bottom, 30, 1) << world_name(world);
   }
 }
 
@@ -257,8 +274,8 @@ TEST_F(Unknown, AnaglyphsAreToldAndNothingElseIsOne) {
   for (const World world : {World::kField, World::kHall}) {
     StereoCamera camera;
     camera.projection = named("perspective");
-    Image mixed = seen_in(world, camera, kRight, {640, 480}, true);
-    const Image left = seen_in(world, camera, kLeft, {640, 480}, true);
+    Image mixed = seen(world, camera, kRight, {640, 480}, true);
+    const Image left = seen(world, camera, kLeft, {640, 480}, true);
     for (size_t i = 0; i < mixed.pixels.size(); i += 3) mixed.pixels[i] = left.pixels[i];
     for (const bool is_anaglyph : {true, false}) {
       const std::string path = folder.path("file.png");
@@ -282,10 +299,10 @@ TEST_F(Unknown, StripsOfAWorldWhoseYIsUpAreTold) {
         const TwoEyes eyes = [&](int eye, const ProjectionSetting& projection, Extent size) {
           StereoCamera camera;
           camera.projection = projection, camera.pitch = pitch;
-          return seen_in(world, camera, eye, size);
+          return seen(world, camera, eye, size);
         };
         const std::string path = folder.path("file.jpg");
-        write_unknown(path, {std::nullopt, named(name)}, eyes, unknown_eye(named(name), 768));
+        write_unknown(path, {std::nullopt, named(name)}, eyes, unknown_eye(named(name), 512));
         const Identity seen = identify(open_unknown(path));
         EXPECT_EQ(seen.is_sure(), pitch == 0.0f) << world_name(world) << " " << name;
         EXPECT_EQ(doubt_text(seen).find("faces of a cube") != std::string::npos, pitch != 0.0f) << world_name(world);
@@ -298,7 +315,7 @@ TEST_F(Unknown, WhatIsKnownCountsMoreThanPixels) {
   const TwoEyes eyes = [&](int eye, const ProjectionSetting& projection, Extent size) {
     StereoCamera camera;
     camera.projection = projection;
-    return seen_in(World::kHall, camera, eye, size);
+    return seen(World::kHall, camera, eye, size);
   };
   const std::string path = folder.path("file.jpg");
   write_unknown(path, {Layout::kTopBottom, named("lat-long")}, eyes, {512, 256});

@@ -54,7 +54,7 @@ using Bsdf64 = std::function<dvec3(dvec3 wi)>;  // of one viewer; without the co
 
 // The integral of a function over the hemisphere above (side 1) or below (side -1).
 dvec3 integrate(double side, const std::function<dvec3(dvec3)>& function) {
-  constexpr int kHeights = 240, kTurns = 240;
+  constexpr int kHeights = 120, kTurns = 120;
   dvec3 sum(0.0);
   for (int i = 0; i < kHeights; i++) {
     const double t = (i + 0.5) / kHeights, z = t * t, r = std::sqrt(1.0 - z * z);  // denser where light grazes
@@ -175,7 +175,7 @@ void expect_formula(Material material, const MaterialLayers& layers, const std::
                                   add_layered(scene, material, layers));
   const Mesh& mesh = scene.meshes[static_cast<size_t>(floor)];
   for (uint i = 0; i < mesh.vertex_count; i++) scene.vertices[mesh.first_vertex + i].tangent = vec4(1, 0, 0, 1);
-  RenderOptions options = small_render(32, 512);
+  RenderOptions options = small_render(32, 128);
   options.height = 32;
   options.bounces = 1;
   StereoCamera camera;

@@ -21,7 +21,7 @@
 namespace ods {
 namespace {
 
-constexpr int kWidth = 1024;
+constexpr int kWidth = 768;
 
 const Picture& scene_picture() {
   static const Picture picture = [] {

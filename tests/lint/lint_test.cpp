@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faults planted into pictures of three scenes, and none into as many more.
+// Faults planted into pictures of up to three scenes, and none into as many more.
 #include "ods/lint/lint.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -177,9 +178,15 @@ class Lint : public ::testing::Test {
   TemporaryFolder folder;
 };
 
+constexpr std::array kScenes = {"axis", "mirrors", "fractal"};
+const auto kSceneName = [](const auto& scene) { return std::string(scene.param); };
+
 class LintScene : public Lint, public ::testing::WithParamInterface<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Three, LintScene, ::testing::Values("axis", "mirrors", "fractal"),
-                         [](const auto& scene) { return std::string(scene.param); });
+INSTANTIATE_TEST_SUITE_P(Three, LintScene, ::testing::ValuesIn(kScenes), kSceneName);
+
+// What depends less on what there is to see: with the most planes, and with the most noise.
+class LintForm : public LintScene {};
+INSTANTIATE_TEST_SUITE_P(Two, LintForm, ::testing::Values("mirrors", "fractal"), kSceneName);
 
 TEST_P(LintScene, FindsWhatIsWrongWithTheEyes) {
   const Studio studio(GetParam());
@@ -215,7 +222,7 @@ TEST_P(LintScene, AHeadTiltMapIsNoFault) {
   }
 }
 
-TEST_P(LintScene, FindsOneEyeThatWasRenderedTwice) {
+TEST_P(LintForm, FindsOneEyeThatWasRenderedTwice) {
   Studio studio(GetParam());
   studio.options.width = 2 * kWidth, studio.options.samples = 4;
   const Pair twice{studio.mono_at(vec3(0.0f)), studio.mono_at(vec3(0.0f), 7)};
@@ -228,7 +235,7 @@ TEST_P(LintScene, FindsAMirroredCircle) {
   expect_only(Fault::kMirroredCircle, save(pair, "mirrored_circle.png"));
 }
 
-TEST_P(LintScene, FindsAWrongLayout) {
+TEST_P(LintForm, FindsAWrongLayout) {
   const Studio studio(GetParam());
   const Pair& pair = plain_pair(studio);
   const std::string beside = save_as(pair, Layout::kSideBySide, "beside.png");
@@ -240,8 +247,8 @@ TEST_P(LintScene, FindsAWrongLayout) {
   expect_only(Fault::kMonoAsStereo, save(pair.left, "cut_TB.png"));
 }
 
-TEST_P(LintScene, FindsWordsThatDoNotFit) {
-  const Studio studio(GetParam());
+TEST_F(Lint, FindsWordsThatDoNotFit) {
+  const Studio studio("mirrors");
   const Pair& pair = plain_pair(studio);
   expect_only(Fault::kMetadata, save_as(pair, Layout::kTopBottom, "named_LR.png"));
   // The eyes lie beside each other in a file that says top-bottom.
@@ -259,7 +266,7 @@ TEST_P(LintScene, FindsWordsThatDoNotFit) {
   expect_only(Fault::kMetadata, folder.path("gpano_TB.png"), {{}, ProjectionSetting{}});
 }
 
-TEST_P(LintScene, FindsWhatIsWrongWithTheForm) {
+TEST_P(LintForm, FindsWhatIsWrongWithTheForm) {
   const Studio studio(GetParam());
   const Pair& pair = plain_pair(studio);
   const int squat = kWidth * 9 / 20;
@@ -277,19 +284,22 @@ TEST_P(LintScene, FindsWhatIsWrongWithTheForm) {
   expect_only(Fault::kRaggedSeam, save(doubled, "doubled.png"));
 }
 
+// The layouts take turns: each is tried with one of the scenes.
 TEST_P(LintScene, IsSilentAboutEveryLayout) {
   const Studio studio(GetParam());
   const Pair& pair = plain_pair(studio);
   expect_silence(save(pair, "plain.png"));
   expect_silence(save(pair.left, "mono.png"));
+  size_t turn = 0;
+  const auto is_its_turn = [&] { return kScenes[turn++ % kScenes.size()] == studio.name; };
   for (const char* name : {"top-bottom_TB.png", "bottom-top_BT.png", "side-by-side_LR.png", "cross-eyed_RL.png",
                            "top-bottom-half_HTB.png", "side-by-side-half_HSBS.png"}) {
     const std::string word = name;
-    expect_silence(save_as(pair, *layout_of(word.substr(0, word.find('_'))), name));
+    if (is_its_turn()) expect_silence(save_as(pair, *layout_of(word.substr(0, word.find('_'))), name));
   }
   for (Layout layout :
        {Layout::kRowInterleaved, Layout::kColumnInterleaved, Layout::kCheckerboard, Layout::kMultiview}) {
-    expect_silence(save_as(pair, layout, std::string(layout_name(layout)) + ".exr"));
+    if (is_its_turn()) expect_silence(save_as(pair, layout, std::string(layout_name(layout)) + ".exr"));
   }
   save_as(pair, Layout::kSeparate, "eye_%V.png");
   expect_silence(folder.path("eye_%V.png"));

@@ -44,7 +44,12 @@ class LintVideo : public ::testing::Test {
   }
 
   // The right eye is higher by so many degrees, from a frame on.
-  std::string make(int count, float higher, int from, std::optional<int> quality = {}) {
+  std::string make(int count, float higher, int from) {
+    make_frames(count, higher, from);
+    return encode();
+  }
+
+  void make_frames(int count, float higher, int from) {
     const Waves world;
     SaveOptions save;
     save.tone = ToneCurve::kLinear;
@@ -56,6 +61,9 @@ class LintVideo : public ::testing::Test {
       for (const int eye : {kLeft, kRight}) picture.eyes.push_back({eye, view(world, eye, turned, stored), {}, {}, {}});
       save_picture(picture, save, frame_names(folder.path("f.##_TB.png"))->path(frame));
     }
+  }
+
+  std::string encode(std::optional<int> quality = {}) {
     const FrameFiles files = find_frames(folder.path("f.##_TB.png"));
     EncodeOptions options;
     options.packing.codec = VideoCodec::kH264;
@@ -99,8 +107,9 @@ TEST_F(LintVideo, FindsAFaultOfAShotAndItsTimes) {
 
 // With few bits a codec breaks the picture where it closes.
 TEST_F(LintVideo, ASeamNeedsBits) {
+  make_frames(8, 0.0f, 8);
   const auto has_few_bits = [&](int quality) {
-    const LintReport report = lint_video(make(8, 0.0f, 8, quality));
+    const LintReport report = lint_video(encode(quality));
     return std::any_of(report.not_judged.begin(), report.not_judged.end(), [](const NotJudged& each) {
       return each.check == Check::kSeam && each.reason.find("so few bits") != std::string::npos;
     });

@@ -3,6 +3,9 @@
 //
 // How far the walls of World::kHall are.
 #pragma once
+#include <algorithm>
+
+#include "ods/kernel/camera/camera.h"
 #include "tests/support/worlds.h"
 
 namespace ods {

@@ -48,7 +48,7 @@ TEST(CachedLight, GlowingBoxHasEveryBounce) {
     Scene scene;
     const vec3 albedo(0.5f, 0.7f, 0.2f);
     add_box(scene, vec3(-2, -1, -3), vec3(2, 1.5f, 3), add_material(scene, matte(albedo, vec3(1.0f))));
-    RenderOptions options = cached(32, 64);
+    RenderOptions options = cached(32, 16);
     options.bounces = bounces;
     const Picture picture = render_cpu(scene, StereoCamera{}, options);
     for (int c = 0; c < 3; c++) {
@@ -126,6 +126,7 @@ TEST(CachedLight, StaysOnItsSideOfAWall) {
 TEST(CachedLight, ResumedAndInParts) {
   const Scene scene = room();
   RenderOptions options = cached(32, 16);
+  options.cache_paths = 1 << 14;
   options = with_height(options, StereoCamera{});
   const CpuRenderer renderer(scene);
   const StereoCamera camera;
@@ -192,7 +193,7 @@ TEST(CachedLight, ARoomInALandscape) {
   const int grass = add_material(scene, matte(vec3(0.2f, 0.4f, 0.1f)));
   add_rectangle(scene, vec3(-1000, -1.3f, 1000), vec3(2000, 0, 0), vec3(0, 0, -2000), grass);
   scene.environment.radiance = vec3(0.5f);
-  EXPECT_NEAR(cached_over_path(scene, StereoCamera{}, cached(32, 256)), 1.0, 0.02);
+  EXPECT_NEAR(cached_over_path(scene, StereoCamera{}, cached(32, 96)), 1.0, 0.02);
   StereoCamera far;
   far.position = vec3(0, 40, 300);
   EXPECT_NEAR(cached_over_path(scene, far, cached(32, 64)), 1.0, 0.02);
@@ -210,7 +211,7 @@ TEST(CachedLight, ACameraThatFliesFromRoomToRoom) {
   for (const float x : {-3.0f, -0.2f, 0.0f, 0.2f, 3.0f}) {
     StereoCamera camera;
     camera.position = vec3(x, 0, 0);
-    EXPECT_NEAR(cached_over_path(scene, camera, cached(32, 256)), 1.0, 0.02) << x;
+    EXPECT_NEAR(cached_over_path(scene, camera, cached(32, 96)), 1.0, 0.02) << x;
   }
 }
 
@@ -228,7 +229,7 @@ TEST(CachedLight, ASunBehindSixPanes) {
     add_rectangle(scene, vec3(-4, -2, z), vec3(8, 0, 0), vec3(0, 4, 0), pane);
   }
   scene.lights.push_back(make_sun(0.0f, 30.0f, vec3(4.0f)));
-  EXPECT_NEAR(cached_over_path(scene, StereoCamera{}, cached(32, 256)), 1.0, 0.02);
+  EXPECT_NEAR(cached_over_path(scene, StereoCamera{}, cached(32, 96)), 1.0, 0.02);
 }
 
 int count_cells(const LightCells& cells) {
@@ -267,7 +268,7 @@ TEST(CachedLight, ACacheServesSeveralPictures) {
   const Scene scene = room();
   const CpuRenderer renderer(scene);
   StereoCamera camera;
-  RenderOptions options = with_height(cached(64, 64), camera);
+  RenderOptions options = with_height(cached(64, 16), camera);
   const LightCells cells = renderer.fill_cells({&camera, 1}, options);
   const auto sampled = [&](const LightCells* given) {
     PictureSamples samples = no_samples(options);
@@ -277,7 +278,7 @@ TEST(CachedLight, ACacheServesSeveralPictures) {
   EXPECT_EQ(digest(sampled(&cells)), digest(sampled(nullptr)));
   camera.projection.longitude = vec2(20, 90);
   camera.projection.latitude = vec2(-40, 30);
-  options = with_height(cached(64, 128), camera);
+  options = with_height(cached(64, 64), camera);
   options.indirect = Indirect::kPath;
   const Picture with = sampled(&cells), without = sampled(nullptr);
   EXPECT_NE(digest(with), digest(without));
@@ -287,6 +288,7 @@ TEST(CachedLight, ACacheServesSeveralPictures) {
 TEST(CachedLight, SameBitsForAnyThreads) {
   const Scene scene = room();
   RenderOptions options = cached(32, 16);
+  options.cache_paths = 1 << 14;
   options.eyes = Eyes::kBothEyes;
   options.threads = 1;
   const uint64_t alone = digest(render_cpu(scene, StereoCamera{}, options));

@@ -131,7 +131,7 @@ void expect_same_light(const Scene& scene, std::span<const View> views) {
     const StereoCamera camera = camera_of(view);
     std::vector<Mean> difference;
     for (int seed = 0; seed < kSeeds; seed++) {
-      RenderOptions together = options_with(true, view, 8), apart = options_with(false, view, 8);
+      RenderOptions together = options_with(true, view, 4), apart = options_with(false, view, 4);
       together.seed = static_cast<uint32_t>(seed);
       apart.seed = static_cast<uint32_t>(seed + 1000);
       const std::vector<double> a = block_sums(renderer.render(camera, together));
