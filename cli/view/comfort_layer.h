@@ -14,8 +14,8 @@ struct ComfortLayer {
   std::string left, right;  // JPEGs: what is ok in grey, the rest in yellow, orange and red
 };
 
-// What the page reads of a verdict: { camera: of the heat's pictures, level, text: of the worst, worst: where, if anything
-// strains }.
+// What the page reads of a verdict: { camera: of the heat's pictures, level, text: of the worst, worst: where, if
+// anything strains }.
 ods::Json verdict_json(const ods::StereoCamera& camera, const ods::ComfortReport& report, ods::ComfortLevel level);
 
 // By the picture's depth, or by matching its eyes. Takes seconds. Throws ods::Error: as `ods comfort` where nothing can
