@@ -74,7 +74,7 @@ def take_picture(browser, address, is_ready, what):
     while not browser.ask("Runtime.evaluate", session, expression=is_ready)["result"].get("value") and time.monotonic() < end:
         time.sleep(1)
     browser.ask("Runtime.evaluate", session, expression=what)
-    time.sleep(2)
+    time.sleep(1)  # the bar fades after three
     return base64.b64decode(browser.ask("Page.captureScreenshot", session)["data"])
 
 
