@@ -93,6 +93,7 @@ void change_to_first_light(benchmark::State& state, const Subject& subject) {
   for (auto _ : state) {
     const Changes changes = first_lights(scene, settings);
     state.counters["first_light_ms"] = share_of(changes.wall, 0.5);
+    state.counters["first_light_cpu_ms"] = share_of(changes.cpu, 0.5);
     state.counters["worst_ms"] = share_of(changes.wall, 1.0);
     state.counters["worst_cpu_ms"] = share_of(changes.cpu, 1.0);
     state.counters["late"] =
