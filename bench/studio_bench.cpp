@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How soon the studio answers: milliseconds from a change to its first picture while a finer one is rendered, and how
-// long that finer one takes to stop. Ratios are to the longest that the studio may take.
+// How soon the studio answers: milliseconds from each of 60 changes to its first picture while a finer one is rendered,
+// how many of them were late, and how long that finer one takes to stop. Ratios are to the longest that the studio may
+// take.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "bench/measure.h"
 #include "bench/subjects.h"
 #include "ods/studio/live_render.h"
 
@@ -22,7 +24,7 @@ using namespace std::chrono_literals;
 
 constexpr Subject kRoom{"room"};
 constexpr double kFirstLight = 300.0, kCancel = 50.0;  // milliseconds
-constexpr int kChanges = 7;
+constexpr int kChanges = 60, kCancels = 7;
 
 double milliseconds_of(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
@@ -47,33 +49,41 @@ constexpr auto kNeverRest = 60s;
 
 // The studio's steps take from milliseconds to seconds: a pause of its own before each change meets several.
 void pause_before(int change) {
-  std::this_thread::sleep_for(500ms + change * 170ms);
+  std::this_thread::sleep_for(500ms + (change % 12) * 170ms);
 }
 
-double median_of_changes(const std::function<double(int)>& measure) {
-  std::vector<double> times;
-  for (int i = 0; i < kChanges; i++) times.push_back(measure(i));
-  std::nth_element(times.begin(), times.begin() + kChanges / 2, times.end());
-  return times[kChanges / 2];
+double share_of(std::vector<double> times, double share) {
+  std::ranges::sort(times);
+  return times[std::min(static_cast<size_t>(share * static_cast<double>(times.size())), times.size() - 1)];
 }
 
-double first_light(Scene& scene, LiveSettings settings) {
+struct Changes {
+  std::vector<double> wall, cpu;  // milliseconds of each
+};
+
+Changes first_lights(Scene& scene, LiveSettings settings) {
   LiveRender live(scene, 0, kNeverRest);
   milliseconds_to_change(live, settings);
-  return median_of_changes([&](int change) {
-    pause_before(change);
-    return milliseconds_to_change(live, settings);
-  });
+  Changes changes;
+  for (int i = 0; i < kChanges; i++) {
+    pause_before(i);
+    const Seconds took = seconds_of([&] { milliseconds_to_change(live, settings); });
+    changes.wall.push_back(1e3 * took.wall);
+    changes.cpu.push_back(1e3 * took.cpu);
+  }
+  return changes;
 }
 
 // Until the thread has ended, with what it takes to free all that it held: an upper bound.
 double cancel(Scene& scene, LiveSettings settings) {
-  return median_of_changes([&](int change) {
+  std::vector<double> times;
+  for (int change = 0; change < kCancels; change++) {
     std::optional<LiveRender> live(std::in_place, scene, 0, kNeverRest);
     milliseconds_to_change(*live, settings);
     pause_before(change);
-    return milliseconds_of([&] { live.reset(); });
-  });
+    times.push_back(milliseconds_of([&] { live.reset(); }));
+  }
+  return share_of(times, 0.5);
 }
 
 void change_to_first_light(benchmark::State& state, const Subject& subject) {
@@ -81,7 +91,13 @@ void change_to_first_light(benchmark::State& state, const Subject& subject) {
   LiveSettings settings;
   settings.camera = camera_of(subject, scene);
   for (auto _ : state) {
-    state.counters["first_light_ms"] = first_light(scene, settings);
+    const Changes changes = first_lights(scene, settings);
+    state.counters["first_light_ms"] = share_of(changes.wall, 0.5);
+    state.counters["first_light_cpu_ms"] = share_of(changes.cpu, 0.5);
+    state.counters["worst_ms"] = share_of(changes.wall, 1.0);
+    state.counters["worst_cpu_ms"] = share_of(changes.cpu, 1.0);
+    state.counters["late"] =
+        static_cast<double>(std::ranges::count_if(changes.wall, [](double ms) { return ms > kFirstLight; }));
     state.counters["first_light_ratio"] = state.counters["first_light_ms"] / kFirstLight;
     state.counters["cancel_ms"] = cancel(scene, settings);
     state.counters["cancel_ratio"] = state.counters["cancel_ms"] / kCancel;

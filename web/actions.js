@@ -13,6 +13,7 @@ const film = (run) => (player, viewer) => viewer.picture?.video && run(viewer.pi
 const isFilm = (viewer) => viewer.about?.kind === 'video';
 const isLive = (viewer) => viewer.about?.live;
 const isPicture = (viewer) => Boolean(viewer.picture) && !viewer.scene;
+const isJudged = (viewer, player) => Boolean(viewer.picture) && viewer.view.live && !isFilm(viewer) && !player.studio?.comparing;
 const isFolder = (viewer, player) => viewer.view.items.length > 1 && !player.isSingle();
 
 function show(viewer, name) {
@@ -97,8 +98,9 @@ export const ACTIONS = [
     viewer.say('change');
     return on ? 'Subtitles' : 'No subtitles';
   } },
+  { id: 'list', keys: ['y'], label: 'all pictures', group: FOLDER, when: isFolder, run: (player) => player.toggleList() },
   { id: 'compare', keys: ['x'], label: 'compare with another picture or setting', group: FOLDER, when: (viewer, player) => isPicture(viewer) && !player.isSingle(), run: (player) => player.compare() },
-  { id: 'comfort', keys: ['q'], label: 'what strains the eyes', group: FOLDER, when: (viewer) => isPicture(viewer) && viewer.view.live && !isFilm(viewer), run: (player) => player.comfort() },
+  { id: 'comfort', keys: ['q'], label: 'what strains the eyes', group: FOLDER, when: isJudged, run: (player) => player.comfort() },
   { id: 'link', keys: ['u'], label: 'copy a link to this view', group: PAGE, when: (viewer, player) => player.copyLink, run: (player) => player.copyLink() },
   { id: 'fullscreen', keys: ['f'], label: 'full screen', group: PAGE, run: (player) => player.toggleFullscreen() },
   { id: 'headset', keys: ['v'], label: 'view in the headset', group: PAGE, run: (player) => player.enterHeadset() },

@@ -4,12 +4,14 @@
 // Two pictures at the same look, with a line between them that moves, by turns, or as their difference. The one to the
 // right of the line is `picture.beside` (panorama.js); the studio has its own there, settings B.
 import { clamp } from './geometry.js';
+import { make } from './elements.js';
 import { icon } from './icons.js';
 import { modeOf } from './modes.js';
 import { openPicture } from './picture.js';
 
 const BLINK = 600; // milliseconds
 const STEP = 0.02; // of the view, by key
+const LEVELS = ['caution', 'warn', 'error'];
 const WAYS = [['slider', 'Slider'], ['blink', 'Blink'], ['difference', 'Difference ×4']];
 
 export class Compare {
@@ -162,9 +164,29 @@ class Pinned extends Compare {
     this.place();
   }
 
+  // With each new picture of the whole scene, one after the other.
+  judgeAgain(session) {
+    let isJudging = false;
+    const follow = async ({ detail }) => {
+      if (this.viewer.compare !== this) return session.removeEventListener('status', follow);
+      if (detail.part !== 'base' || isJudging) return;
+      isJudging = true;
+      const found = await judge(this.viewer).catch(() => null);
+      isJudging = false;
+      if (!found) return;
+      const is = this.viewer.compare === this;
+      (is ? this.other : found.other).free();
+      if (!is) return;
+      Object.assign(this, { other: found.other, name: `Comfort: ${found.level}` });
+      this.place();
+      this.viewer.redraw();
+    };
+    session.addEventListener('status', follow);
+  }
+
   place() {
     const { viewer, name } = this;
-    if (name) this.names = [nameOf(viewer, viewer.item, viewer.choice), name];
+    if (name) this.names = [viewer.scene?.name ?? nameOf(viewer, viewer.item, viewer.choice), name];
     super.place();
     this.keepTime();
   }
@@ -190,18 +212,45 @@ export async function startCompare(player, pin) {
   return new Pinned(player, other, nameOf(viewer, item, choice), { item, choice });
 }
 
-// Puts what strains the eyes over the picture: the server's answer to `ods comfort` (cli/view/comfort_layer.h). The line
-// begins at the left edge, and takes it away.
-export async function showComfort(player) {
-  const { viewer } = player;
-  const { about, base } = viewer;
-  const at = new URL(about.image ?? about.left, base);
-  const answer = await fetch(new URL('comfort.json', at));
+// What `ods comfort` says of what is shown, and the picture of it: cli/view/comfort_layer.h; of the studio's scene
+// cli/view/comfort_answers.h.
+async function judge({ about, base, scene, panorama, view }) {
+  const at = new URL(scene ? 'studio/' : (about.image ?? about.left), base);
+  const answer = await fetch(new URL(scene ? 'comfort' : 'comfort.json', at));
   if (!answer.ok) throw new Error((await answer.text()).trim().split('\n')[0]);
-  const { camera, level, text } = await answer.json();
-  const [left, right] = ['left', 'right'].map((eye) => new URL(`comfort-${eye}.jpg`, at).href);
-  const other = await openPicture(viewer.panorama, viewer.view, { name: 'Comfort', kind: 'picture', left, right, layout: 'separate', camera }, { base });
+  const verdict = await answer.json();
+  if (!verdict) throw new Error('There is no picture yet');
+  const [left, right] = ['left', 'right'].map((eye) => new URL(scene ? `heat.png?eye=${eye}` : `comfort-${eye}.jpg`, at).href);
+  const item = { name: 'Comfort', kind: 'picture', left, right, layout: 'separate', camera: verdict.camera };
+  return { ...verdict, other: await openPicture(panorama, view, item, { base }) };
+}
+
+// The colours' meanings instead of the difference, which would say nothing; and the way to the worst place.
+function explain({ element, viewer }, worst) {
+  const difference = element.querySelector('[data-way="difference"]');
+  if (worst) {
+    const button = make('button', { type: 'button', 'data-tip': 'Look at what strains the eyes most' }, 'Worst place');
+    button.addEventListener('click', (event) => {
+      event.stopPropagation();
+      viewer.set(worst);
+    });
+    difference.before(button);
+  }
+  difference.before(make('span', { className: 'legend' }, ...LEVELS.map((level) => make('span', { className: level }, level))));
+  difference.remove();
+}
+
+// Puts what strains the eyes over the picture. The line begins at the left edge, and takes it away. In the studio it
+// follows what is changed.
+export async function showComfort(player) {
+  const { viewer, studio } = player;
+  const { item } = viewer;
+  const { text, level, worst, other } = await judge(viewer);
+  if (viewer.compare || viewer.item !== item) return other.free(); // meanwhile somebody has done something else
   const compare = new Pinned(player, other, `Comfort: ${level}`, null);
+  explain(compare, worst);
   compare.moveTo(0);
+  viewer.addEventListener('loading', () => viewer.compare === compare && compare.end(), { once: true });
+  if (viewer.scene) compare.judgeAgain(studio.session);
   return text;
 }

@@ -172,6 +172,7 @@ export class Controls {
     this.press('compare', Boolean(this.viewer.compare));
     this.button('compare').hidden = !picture || Boolean(this.viewer.scene) || player.isSingle();
     find('shift-row').hidden = Boolean(picture?.mono);
+    for (const id of ['comfort', 'link']) this.button(id).hidden = !applies(ACTIONS.find((action) => action.id === id), player);
     if (picture?.video) this.film(picture);
   }
 
@@ -195,7 +196,7 @@ export class Controls {
     if (this.player.root.activeElement !== find('seek') || !video.paused) find('seek').value = at;
     const clock = (seconds) => `${Math.floor(seconds / 60)}:${two(seconds % 60)}`;
     this.button('subtitles').hidden = !this.viewer.about.video?.subtitles;
-    find('time').textContent = `${clock(at / fps)} / ${clock(frames / fps)}${video.paused ? `  frame ${at}` : ''}`;
+    find('time').replaceChildren(`${clock(at / fps)} / ${clock(frames / fps)}`, make('span', {}, video.paused ? `  frame ${at}` : ''));
   }
 
   // What applies now: what is done most where one is comes first.
@@ -207,10 +208,11 @@ export class Controls {
     groups.sort((a, b) => (b === first) - (a === first));
     const list = (pairs) => make('dl', {}, ...pairs.map(([what, ...does]) => make('div', {}, make('dt', {}, what), make('dd', {}, ...does))));
     const keys = (action) => keysOf(action).flatMap((text) => [make('kbd', {}, text), ' ']);
-    const section = (title, pairs) => make('section', {}, make('h2', {}, title), list(pairs));
-    find('keys').replaceChildren(...groups.map((group) =>
-      section(group, rows.filter((row) => row.group === group).map((action) => [action.label, ...keys(action)]))));
-    if (navigator.xr) find('keys').append(section('In the headset', BUTTONS.filter(([what]) => Boolean(viewer.scene) || !/studio/.test(what))));
-    find('gestures').textContent = isTouch() ? 'Drag to look around, pinch to zoom.' : 'Drag to look around; turn the wheel to zoom.';
+    const section = (title, pairs, className = '') => make('section', { className }, make('h2', {}, title), list(pairs));
+    // Who has no keyboard, as on a phone, need not read of keys.
+    find('keys').replaceChildren(...(isTouch() ? [] : groups.map((group) =>
+      section(group, rows.filter((row) => row.group === group).map((action) => [titled(action.label), ...keys(action)])))));
+    if (navigator.xr) find('keys').append(section('In the headset', BUTTONS.filter(([what]) => Boolean(viewer.scene) || !/studio/.test(what)), 'words'));
+    find('gestures').textContent = isTouch() ? 'Drag to look around, pinch to zoom. Settings has more: the layout of the eyes, a grid, the little planet.' : 'Drag to look around; turn the wheel to zoom.';
   }
 }

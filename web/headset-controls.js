@@ -45,7 +45,7 @@ function lay(rows) {
 function entriesOf({ viewer }) {
   const { studio } = viewer.steering ?? {};
   const { exposure, tone } = viewer.choice;
-  const files = viewer.view.items.map(({ name }, i) => ({ name, on: !viewer.scene && i === viewer.item, run: () => viewer.open(i, { exposure, tone }) }));
+  const files = viewer.view.items.map(({ name, thumbnail }, i) => ({ name, thumbnail, on: !viewer.scene && i === viewer.item, run: () => viewer.open(i, { exposure, tone }) }));
   return studio ? [{ name: studio.scene.name, on: Boolean(viewer.scene), run: () => studio.showScene() }, ...files] : files;
 }
 
@@ -56,8 +56,8 @@ function listRows(panel, entries) {
   panel.first = Math.min(panel.first, last);
   const by = (count) => () => (panel.first = Math.min(Math.max(panel.first + count, 0), last));
   const turns = [{ id: 'up', icon: 'up', run: by(-LISTED) }, { text: `${Math.ceil(panel.first / LISTED) + 1}/${Math.ceil(entries.length / LISTED)}` }, { id: 'down', icon: 'down', run: by(LISTED) }];
-  return entries.slice(panel.first, panel.first + LISTED).map(({ name, on, run }, i) => {
-    const row = [{ id: `item-${panel.first + i}`, text: name, on, run, share: 9, isName: true }];
+  return entries.slice(panel.first, panel.first + LISTED).map(({ name, thumbnail, on, run }, i) => {
+    const row = [{ id: `item-${panel.first + i}`, text: name, image: panel.thumbnail(thumbnail), on, run, share: 9, isName: true }];
     return last ? [...row, turns[i]] : row;
   });
 }
@@ -126,7 +126,7 @@ function fitted(context, text, width) {
   return `${text.slice(0, length)}…`;
 }
 
-function paintOne(context, { box: [x, y, width, height], text, icon, part, on, run, isName }, isHovered) {
+function paintOne(context, { box: [x, y, width, height], text, icon, image, part, on, run, isName }, isHovered) {
   const fill = (style, ...box) => {
     context.fillStyle = style;
     context.beginPath();
@@ -152,7 +152,14 @@ function paintOne(context, { box: [x, y, width, height], text, icon, part, on, r
     if (SOLID.includes(icon)) context.fill(path);
     else context.stroke(path);
   }
-  if (text) context.fillText(fitted(context, text, width - (isName ? 40 : 12)), isName ? x + 20 : x + width / 2 + (icon ? 28 : 0), y + height / 2 + 3);
+  const [high, wide] = [height - 12, 2 * (height - 12)];
+  if (image) {
+    const scale = Math.max(wide / image.width, high / image.height);
+    const part = [wide / scale, high / scale];
+    context.drawImage(image, (image.width - part[0]) / 2, (image.height - part[1]) / 2, ...part, x + 6, y + 6, wide, high);
+  }
+  const from = image ? wide + 24 : 20;
+  if (text) context.fillText(fitted(context, text, width - (isName ? from + 20 : 12)), isName ? x + from : x + width / 2 + (icon ? 28 : 0), y + height / 2 + 3);
 }
 
 export function paint(canvas, { high, controls }, hovered, width = WIDE) {

@@ -26,7 +26,7 @@ const MARK = 2; // metres: of what the desk points at, whose distance nobody kno
 export class HeadsetPanel {
   constructor(headset) {
     const { gl } = headset.viewer.panorama;
-    Object.assign(this, { headset, gl, isOpen: false, first: 0, message: '', pointers: [], held: new Map(), dwell: { for: 0 }, hovered: new Set(), painted: '' });
+    Object.assign(this, { headset, gl, isOpen: false, first: 0, message: '', pointers: [], thumbnails: new Map(), held: new Map(), dwell: { for: 0 }, hovered: new Set(), painted: '' });
     this.sheets = new Sheets(gl);
     this.canvas = new OffscreenCanvas(WIDE, TEXT);
     [this.face, this.label] = [gl.createTexture(), gl.createTexture()];
@@ -52,6 +52,18 @@ export class HeadsetPanel {
     this.heard.abort();
     this.sheets.free();
     for (const texture of [this.face, this.label]) this.gl.deleteTexture(texture);
+  }
+
+  // An image; null until it has come.
+  thumbnail(address) {
+    if (!address) return null;
+    const { thumbnails, headset: { viewer } } = this;
+    if (!thumbnails.has(address)) {
+      thumbnails.set(address, null);
+      fetch(new URL(address, viewer.base)).then((answer) => answer.blob()).then(createImageBitmap)
+        .then((image) => thumbnails.set(address, image)).catch(() => {}); // the name does without
+    }
+    return thumbnails.get(address);
   }
 
   open() {

@@ -16,7 +16,7 @@ export const BUTTONS = [
   ['Trigger or pinch', 'play or pause; with a picture: next'],
   ['Hold trigger or pinch', 'recentre'],
   ['Stick left, right', 'back or ahead by 10 s; with a picture: previous, next'],
-  ['Stick up, down', 'exposure (HDR and EXR on the live page)'],
+  ['Stick up, down', 'exposure, of HDR and EXR'],
   ['In the studio', 'stick left, right: where the merge starts; up, down: where it ends; trigger: settings A or B'],
   ['Press the stick', 'recentre'],
   ['Grip', 'next; of the left hand: previous'],

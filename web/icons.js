@@ -14,6 +14,7 @@ const ICONS = {
   subtitles: line('M3.5 7a2 2 0 0 1 2-2h13a2 2 0 0 1 2 2v10a2 2 0 0 1-2 2h-13a2 2 0 0 1-2-2zM7 12h4m2.5 0h3.5M7 15.5h7m2.5 0h.5'),
   previous: line('m14.5 6-6 6 6 6'),
   next: line('m9.5 6 6 6-6 6'),
+  list: line('M5 5h5.5v5.5H5zM13.5 5H19v5.5h-5.5zM5 13.5h5.5V19H5zM13.5 13.5H19V19h-5.5z'),
   down: line('m6 9.5 6 6 6-6'),
   swap: line('M4 8.5h15m-3.5-3.5 3.5 3.5-3.5 3.5M20 15.5H5m3.5-3.5L5 15.5 8.5 19'),
   settings: line('M4 8h8m5 0h3M4 16h3m5 0h8M17 8a2.5 2.5 0 1 1-5 0 2.5 2.5 0 1 1 5 0M12 16a2.5 2.5 0 1 1-5 0 2.5 2.5 0 1 1 5 0'),

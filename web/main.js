@@ -72,8 +72,7 @@ function greet(player) {
       localStorage.setItem(GREETED, '1');
     } catch { /* then it will be there again */ }
   };
-  player.viewer.canvas.addEventListener('pointerdown', end, { once: true });
-  document.addEventListener('keydown', end, { once: true });
+  for (const event of ['pointerdown', 'wheel', 'keydown']) document.addEventListener(event, end, { once: true, passive: true });
 }
 
 async function start() {

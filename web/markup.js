@@ -16,7 +16,7 @@ export const MARKUP = `
 <p id="message" role="alert" hidden></p>
 <div id="spinner" hidden></div>
 <progress id="loading" max="1" aria-label="Loading" hidden></progress>
-<div id="title"><span id="folder" hidden>${button('previous')}${button('next')}</span><span id="name"></span><output id="look" aria-label="Where you look" hidden></output></div>
+<div id="title"><span id="folder" hidden>${button('previous')}${button('next')}${button('list')}</span><span id="name"></span><output id="look" aria-label="Where you look" hidden></output></div>
 <div id="foot"><p id="toast" role="status"></p><p id="hint" hidden></p><div id="bar" role="toolbar" aria-label="Viewer">
   <div id="film" hidden>
     ${button('play')}${button('step-back')}${button('step')}
@@ -43,7 +43,8 @@ export const MARKUP = `
   ${check('planet', 'Little planet')}
   ${check('turn', 'Turn slowly')}
   ${check('device', 'Look by turning this device', ' id="device-row" hidden')}
-  <div class="row"><button type="button" data-action="recentre">Recentre</button><button type="button" data-action="screenshot">Screenshot</button><button type="button" data-action="link">Copy link</button></div>
+  <div class="row"><button type="button" data-action="recentre">Recentre</button><button type="button" data-action="screenshot">Screenshot</button><button type="button" data-action="link">Copy link</button>
+    <button type="button" data-action="comfort">What strains the eyes</button></div>
 </form>
 <dialog id="help" aria-labelledby="help-title" tabindex="-1">
   <form method="dialog"><button aria-label="Close" data-tip="Close" data-key="Esc">${icon('close')}</button></form>

@@ -21,7 +21,7 @@ export const MODES = [
     label: 'Cross-eyed',
     parts: () => [{ at: LEFT_HALF, eye: 1 }, { at: RIGHT_HALF, eye: 0 }],
   },
-  { name: 'anaglyph', label: 'Anaglyph, red-cyan', parts: () => [{ at: WHOLE, show: 'anaglyph' }] },
+  { name: 'anaglyph', label: 'Anaglyph', parts: () => [{ at: WHOLE, show: 'anaglyph' }] },
   { name: 'wiggle', label: 'Wiggle', moves: true, parts: (now) => [{ at: WHOLE, eye: Math.floor(now / WIGGLE) % 2 }] },
   { name: 'difference', label: 'Difference', parts: () => [{ at: WHOLE, show: 'difference' }] },
 ];

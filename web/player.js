@@ -101,6 +101,11 @@ export class Player {
     else (this.isPage ? document.documentElement : this.root.host).requestFullscreen?.().catch(() => {});
   }
 
+  async toggleList() {
+    this.list ??= import('./list.js').then(({ makeList }) => makeList(this));
+    (await this.list)();
+  }
+
   toggleSettings() {
     this.find('settings').togglePopover();
   }
@@ -152,7 +157,7 @@ export class Player {
       element.classList.remove('idle');
       clearTimeout(timer);
       timer = setTimeout(() => {
-        if (this.find('settings').matches(':popover-open') || this.find('help').open || this.viewer.canvas.matches(':active')) return wake();
+        if (element.querySelector(':popover-open, dialog[open], canvas:active')) return wake();
         if (!element.querySelector('#bar, #title').matches(':hover, :has(:focus-visible)')) element.classList.add('idle');
       }, IDLE);
     };

@@ -182,6 +182,7 @@ class Stereo360 extends HTMLElement {
     }
     const item = this.findItem();
     if (!view.items[item]) return this.fail('There is no such picture. Set src, or item to an index of view.json.');
+    this.showPoster(view.items[item]);
     await viewer.open(item, choice);
   }
 

@@ -9,6 +9,7 @@ import { groupsOf, limitsOf, readValue } from './studio-fields.js';
 import { choiceRow, numberRow } from './studio-number.js';
 import { ask } from './studio-session.js';
 
+const REST = 400; // milliseconds without a new picture of everything
 const LENGTHS = { longitude: 2, latitude: 2, sensor: 2, polynomial: 5, axis: 3 };
 const LIST = /^(?<list>.*\.(?<name>longitude|latitude|sensor|polynomial|axis))\.(?<i>\d)$/; // settings may lack it
 const LINK = /^sidecar\.merge_(top|bottom)\./;
@@ -30,7 +31,11 @@ export class Panel {
     session.addEventListener('edit', () => this.update());
     session.addEventListener('accepted', () => this.isOfSettings && this.refuse(''));
     session.addEventListener('refused', ({ detail }) => this.refuse(detail.text, detail.paths));
-    session.addEventListener('status', ({ detail }) => detail.part === 'base' && this.followDepth());
+    session.addEventListener('status', ({ detail }) => {
+      if (detail.part !== 'base') return;
+      clearTimeout(this.resting);
+      this.resting = setTimeout(() => this.followDepth(), REST);
+    });
     this.update();
   }
 
@@ -121,7 +126,8 @@ export class Panel {
     this.curve.draw({ top, bottom }, other && { top: other.merge_top, bottom: other.merge_bottom });
   }
 
-  // The curve that the depth of the picture allows, beside the hand-made one.
+  // The curve that the depth of the picture allows, beside the hand-made one. Judging takes the renderer's time, so not
+  // while something changes.
   async followDepth() {
     if (this.isAsking) return;
     this.isAsking = true;

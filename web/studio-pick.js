@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A click on the picture says what is there: its distance, its disparity and where each eye's picture has it.
+import { clamp } from './geometry.js';
 import { icon } from './icons.js';
 import { directionAt, partsOf, placeOf } from './places.js';
 import { make } from './elements.js';
@@ -9,7 +10,9 @@ import { ask } from './studio-session.js';
 
 const NEAR = 5; // pixels that a click may move
 const LONG = 500; // milliseconds that it may take
-const TALL = 260; // pixels of the card and of the bar below it
+const AWAY = 16; // pixels of the card from its place
+const EDGE = 8;
+const BAR = 64; // pixels that the bar below takes
 
 const distance = (metres) => (metres < 1 ? `${(metres * 100).toFixed(1)} cm` : `${metres.toFixed(metres < 100 ? 2 : 0)} m`);
 
@@ -30,12 +33,12 @@ export function pickWithClicks(studio) {
     const place = where && viewer.scene ? placeOf(viewer, where, partsOf(viewer)[0]) : null;
     mark.hidden = card.hidden = !place;
     if (!place) return;
-    for (const element of [mark, card]) {
-      element.style.setProperty('--x', `${place[0]}px`);
-      element.style.setProperty('--y', `${place[1]}px`);
-    }
-    card.classList.toggle('flip', place[0] > canvas.clientWidth - 240);
-    card.classList.toggle('above', place[1] > canvas.clientHeight - TALL);
+    const put = (element, x, y) => Object.assign(element.style, { left: `${x}px`, top: `${y}px` });
+    put(mark, ...place);
+    // Beside the place, on the side that has room, and never beyond the picture's edge.
+    const [wide, high] = [card.offsetWidth, card.offsetHeight];
+    const beside = (at, size, whole) => clamp(at + size + AWAY > whole ? at - size - AWAY : at + AWAY, EDGE, Math.max(whole - size - EDGE, EDGE));
+    put(card, beside(place[0], wide, canvas.clientWidth), beside(place[1], high, canvas.clientHeight - BAR));
   };
   const row = (name, value) => make('div', {}, make('dt', { textContent: name }), make('dd', { textContent: value }));
   const button = (text, run) => {
@@ -50,10 +53,9 @@ export function pickWithClicks(studio) {
     const pixel = (place) => (place ? `${place.map((value) => value.toFixed(1)).join(', ')} px` : 'not seen');
     const metres = Number(found.distance.toPrecision(4));
     const { comfort } = found;
-    const strain = comfort && `${comfort.level}, ${comfort.vertical.toFixed(1)}′ of height at worst`;
     card.replaceChildren(
       make('dl', {}, row('Distance', distance(found.distance)), row('Disparity', `${found.disparity.toFixed(1)}′`),
-        ...(strain ? [row('Comfort', strain)] : []),
+        ...(comfort ? [row('Comfort', comfort.level), row('Height, at worst', `${comfort.vertical.toFixed(1)}′`)] : []),
         row('Left eye', pixel(found.left)), row('Right eye', pixel(found.right)), row('Point', found.point.map((value) => (Math.round(100 * value) / 100 + 0).toFixed(2)).join(', '))),
       make('div', { className: 'row' },
         button('Converge here', () => {

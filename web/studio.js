@@ -170,6 +170,7 @@ class Studio {
   async showItem(item) {
     const { viewer } = this.page;
     if (this.comparing) this.compare();
+    viewer.compare?.end();
     viewer.view.items = (await (await fetch('view.json')).json()).items;
     viewer.open(item);
   }
@@ -224,6 +225,7 @@ class Studio {
       return 'One picture';
     }
     const isNew = !this.session.sides[1];
+    this.page.viewer.compare?.end(); // comfort
     this.comparing = new Compare(this.page, () => this.page.toast(this.compare()));
     if (isNew) this.session.swap(1);
     this.update();

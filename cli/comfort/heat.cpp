@@ -64,17 +64,13 @@ void save_heat(const std::string& path, const Looked& looked, const std::vector<
   }
 }
 
-std::string heat_png(const ods::ComfortReport& report) {
+std::string heat_png(const Judged& judged, const ods::ComfortReport& report) {
   const ods::PrivateFolder folder((std::filesystem::temp_directory_path() / "ods-heat-").native());
+  const ods::Image heat = heat_of(judged, report);
   ods::FileHeader header;
-  header.width = report.level.width, header.height = report.level.height;
-  header.channels = {{"R"}, {"G"}, {"B"}, {"A"}};
+  header.width = heat.width, header.height = heat.height;
+  header.channels = {{"R"}, {"G"}, {"B"}};
   return ods::image_bytes(folder.path() + "/heat.png", header, [&](int y, std::span<float> row) {
-    for (int x = 0; x < report.level.width; x++) {
-      const auto level = static_cast<size_t>(*report.level.at(x, y));
-      float* pixel = &row[static_cast<size_t>(4 * x)];
-      for (int c = 0; c < 3; c++) pixel[c] = ods::srgb_encode(kColors[level][c]);
-      pixel[3] = level == 0 ? 0.0f : kHot;
-    }
+    std::transform(heat.at(0, y), heat.at(0, y) + row.size(), row.data(), ods::srgb_encode);
   });
 }

@@ -16,5 +16,5 @@ ods::Image heat_of(const Judged& judged, const ods::ComfortReport& report);
 ods::Picture heat_picture(const Looked& looked, const std::vector<ods::ComfortReport>& reports);
 void save_heat(const std::string& path, const Looked& looked, const std::vector<ods::ComfortReport>& reports);
 
-// To lay over a picture: a PNG, in these colours and transparent where all is ok.
-std::string heat_png(const ods::ComfortReport& report);
+// heat_of() as a PNG.
+std::string heat_png(const Judged& judged, const ods::ComfortReport& report);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/comfort/heat.h"
+#include "cli/view/comfort_layer.h"
 #include "ods/comfort/merge_from_depth.h"
 
 namespace {
@@ -23,7 +24,9 @@ ods::SeenDepth depth_of(const ods::LiveSeen& seen, size_t eye) {
 WebAnswer heat_answer(const ods::LiveSeen& seen, int eye) {
   if (!seen.picture) return {.status = 204};
   const size_t index = std::min(static_cast<size_t>(eye), seen.picture->eyes.size() - 1);
-  return {.type = "image/png", .body = heat_png(ods::judge_comfort(depth_of(seen, index)))};
+  const Judged judged{depth_of(seen, index), seen.picture->eyes[index].radiance};
+  if (judged.light.width > kMostWidth) return {.status = 204};  // the studio's whole picture is never so large
+  return {.type = "image/png", .body = heat_png(judged, ods::judge_comfort(judged.seen))};
 }
 
 ods::Json comfort_json(const ods::LiveSeen& seen) {
@@ -33,7 +36,8 @@ ods::Json comfort_json(const ods::LiveSeen& seen) {
   const ods::ComfortReport report = ods::judge_comfort(eyes[0]);
   const auto limit = static_cast<float>(ods::kFusionLimit);
   const ods::Image map = ods::merge_map_of(ods::comfortable_shares(eyes, seen.camera, limit));
-  ods::Json json = {{"level", ods::comfort_level_name(ods::worst_level(report))}, {"share", report.share}};
+  ods::Json json = verdict_json(seen.camera, report, ods::worst_level(report));
+  json["share"] = report.share;
   json["nearest"] = std::isfinite(report.nearest) ? ods::Json(report.nearest) : ods::Json();
   for (int row = 0; row < map.height; row++) json["auto"].push_back(*map.at(0, row));
   return json;

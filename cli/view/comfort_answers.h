@@ -9,11 +9,11 @@
 #include "ods/base/json_reader.h"
 #include "ods/studio/live_render.h"
 
-// A PNG of an eye of the studio's picture (heat_png() of cli/comfort/heat.h); 204 while there is none.
+// What the page lays over the studio's picture, of an eye: heat_png() of cli/comfort/heat.h; 204 while there is none.
 WebAnswer heat_answer(const ods::LiveSeen& seen, int eye);
 
-// The verdict on the studio's picture, and the merge that its depth allows: 180 shares of the eye distance, from the
-// zenith down. Null while there is none.
+// verdict_json() on the studio's picture, its share of each level, and the merge that its depth allows: 180 shares of
+// the eye distance, from the zenith down. Null while there is no picture.
 ods::Json comfort_json(const ods::LiveSeen& seen);
 
 // What a click meets: adds `comfort` to the answer.

@@ -21,6 +21,15 @@ static std::string text_of(const ods::ComfortReport& report) {
                      direction_text(worst));
 }
 
+ods::Json verdict_json(const ods::StereoCamera& camera, const ods::ComfortReport& report, ods::ComfortLevel level) {
+  ods::Json json = {{"camera", camera_json(ods::make_camera(camera))},
+                    {"level", comfort_level_name(level)},
+                    {"text", text_of(report)}};
+  if (report.places.empty()) return json;
+  json["worst"] = {{"yaw", report.places[0].azimuth}, {"pitch", report.places[0].elevation}};
+  return json;
+}
+
 ComfortLayer comfort_layer(const ods::ViewItem& item) {
   ComfortJob job;
   job.input = ComfortInput::kPicture;
@@ -31,9 +40,7 @@ ComfortLayer comfort_layer(const ods::ViewItem& item) {
   std::vector<ods::ComfortReport> reports;
   for (const Judged& each : looked.eyes) reports.push_back(ods::judge_comfort(each.seen, job.comfort));
   ComfortLayer layer;
-  const ods::Json json = {{"camera", camera_json(ods::make_camera(looked.camera))},
-                          {"level", comfort_level_name(verdict(job, looked, reports[0]))},
-                          {"text", text_of(reports[0])}};
+  const ods::Json json = verdict_json(looked.camera, reports[0], verdict(job, looked, reports[0]));
   layer.json = json.dump(-1, ' ', false, ods::Json::error_handler_t::replace);
   // Image libraries want files.
   const std::filesystem::path folder = std::filesystem::temp_directory_path();

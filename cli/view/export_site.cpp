@@ -29,10 +29,7 @@ void copy_file(const std::string& from, const std::string& to) {
 
 // The eyes as JPEGs where browsers do not read the file; its light, which joins `files`; and its poster.
 void write_pictures(const ViewItem& item, size_t index, std::vector<std::string>& files, const std::string& folder) {
-  ods::OpenOptions options;
-  options.format = item.known;
-  options.color_only = true;
-  const ods::StoredPicture picture = ods::open_picture(item.path, options);
+  const ods::StoredPicture picture = open_shown(item);
   const size_t eyes = files.size();
   if (has_light(item)) {
     const std::string light = ods::item_file(index, ods::kLightFile);
@@ -77,7 +74,7 @@ std::string export_site(const std::vector<ViewItem>& items, const std::string& f
   for (size_t i = 0; i < items.size(); i++) {
     std::vector<std::string> files = item_files(items[i], i);
     if (items[i].has_own_file) copy_file(items[i].path, folder + "/" + files[0]);
-    if (!items[i].is_video) write_pictures(items[i], i, files, folder);
+    write_pictures(items[i], i, files, folder);
     ods::write_file(folder + "/" + ods::item_file(i, ods::kThumbnailFile), thumbnail_jpeg(items[i]));
     if (has_preview(items[i], false)) {
       files.push_back(ods::item_file(i, ods::kPreviewFile));

@@ -427,8 +427,20 @@ WebAnswer Studio::status() const {
   return json_answer({{"state", fault.empty() ? "rendering" : "failed"}, {"fault", without_paths(fault)}});
 }
 
+// Judging takes long: settings that come meanwhile need not wait for it.
+WebAnswer Studio::comfort(const WebRequest& request) {
+  ods::LiveSeen seen;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    seen = live_->whole();
+  }
+  if (request.path == "studio/comfort") return json_answer(comfort_json(seen));
+  return heat_answer(seen, value_of(request, "eye") == "right" ? ods::kRight : ods::kLeft);
+}
+
 WebAnswer Studio::answer(const WebRequest& request) {
   if (request.path == "studio/frame") return frame(request);
+  if (request.path == "studio/comfort" || request.path == "studio/heat.png") return comfort(request);
   const std::lock_guard<std::mutex> lock(mutex_);
   try {
     return route(request);
@@ -440,10 +452,6 @@ WebAnswer Studio::answer(const WebRequest& request) {
 WebAnswer Studio::route(const WebRequest& request) {
   if (request.path == "studio/job") return job();
   if (request.path == "studio/status") return status();
-  if (request.path == "studio/comfort") return json_answer(comfort_json(live_->whole()));
-  if (request.path == "studio/heat.png") {
-    return heat_answer(live_->whole(), value_of(request, "eye") == "right" ? ods::kRight : ods::kLeft);
-  }
   if (!request.is_post) return nothing_there();
   if (request.path == "studio/set") return set(request.body);
   if (request.path == "studio/pick") return pick(request.body);

@@ -66,6 +66,7 @@ class Studio {
   std::string stem() const;
   WebAnswer route(const WebRequest& request);
   WebAnswer set(const std::string& body);
+  WebAnswer comfort(const WebRequest& request);
   WebAnswer frame(const WebRequest& request);
   WebAnswer pick(const std::string& body);
   WebAnswer render(const std::string& body);

@@ -168,10 +168,8 @@ static Json item_json(const ViewItem& item, size_t index, bool is_live) {
   for (const Hotspot& spot : item.notes.hotspots) {
     json["hotspots"].push_back({{"yaw", spot.yaw}, {"pitch", spot.pitch}, {"title", spot.title}, {"text", spot.text}});
   }
-  if (!item.is_video) {
-    if (!is_live) json["poster"] = item_file(index, kPosterFile);
-    return json;
-  }
+  if (!is_live) json["poster"] = item_file(index, kPosterFile);
+  if (!item.is_video) return json;
   json["video"] = {{"fps", item.fps}};
   if (item.is_ambisonic) json["video"]["sound"] = "ambix";
   if (!item.subtitles.empty()) json["video"]["subtitles"] = item.subtitles;
@@ -287,6 +285,20 @@ std::string preview_jpeg(const ViewItem& item) {
   return small_jpeg(item.path, static_cast<int>(std::lround(kPreviewWidth / eye)), {0.0, 0.0, 1.0, 1.0});
 }
 
+StoredPicture open_shown(const ViewItem& item) {
+  if (item.is_video) {
+    const VideoInput video = open_video(item.path, item.known);
+    VideoDecoder decoder(video.path, video.track);
+    const std::optional<DecodedFrame> frame = decoder.next();
+    if (!frame) throw Error(ErrorKind::kInput, fmt::format("'{}' has no picture", item.path));
+    return picture_of(video, decoder.stream(), *frame);
+  }
+  OpenOptions open;
+  open.format = item.known;
+  open.color_only = true;
+  return open_picture(item.path, open);
+}
+
 std::string thumbnail_jpeg(const ViewItem& item) {
   if (item.has_own_file && !item.is_video) {
     return small_jpeg(item.path, kThumbnailWidth,
@@ -294,17 +306,7 @@ std::string thumbnail_jpeg(const ViewItem& item) {
   }
   EyeOptions options;
   options.most_wide = kThumbnailWidth;
-  if (item.is_video) {
-    const VideoInput video = open_video(item.path, item.known);
-    VideoDecoder decoder(video.path, video.track);
-    const std::optional<DecodedFrame> frame = decoder.next();
-    if (!frame) throw Error(ErrorKind::kInput, fmt::format("'{}' has no picture", item.path));
-    return eye_jpeg(picture_of(video, decoder.stream(), *frame), item.picture.eyes[0].eye, options);
-  }
-  OpenOptions open;
-  open.format = item.known;
-  open.color_only = true;
-  return eye_jpeg(open_picture(item.path, open), item.picture.eyes[0].eye, options);
+  return eye_jpeg(open_shown(item), item.picture.eyes[0].eye, options);
 }
 
 std::string eye_jpeg(const StoredPicture& picture, int eye, const EyeOptions& options) {

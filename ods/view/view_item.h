@@ -52,6 +52,9 @@ constexpr int kPreviewWidth = 1024, kThumbnailWidth = 256;  // pixels of an eye,
 // is_live: as view_json().
 bool has_preview(const ViewItem& item, bool is_live);
 
+// A picture's pixels; a video's first picture. Throws Error(kInput).
+StoredPicture open_shown(const ViewItem& item);
+
 // As JPEGs: the preview, and a small left eye of any item, of a video its first picture. Throw Error(kInput) where the
 // file cannot be read, Error(kOutput) as eye_jpeg().
 std::string preview_jpeg(const ViewItem& item);

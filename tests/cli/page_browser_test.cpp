@@ -159,6 +159,7 @@ TEST_F(PageBrowser, ShowsSubtitlesOfAVideo) {
   const std::string end = run({{"page", "video"}});
   if (end.find("has a codec") != std::string::npos) GTEST_SKIP() << "skipped: this chromium plays no H.264";
   EXPECT_EQ(end, "ok");
+  EXPECT_EQ(read_image(site() + "/item/0/poster.jpg").width, 960) << "before it plays, too, a video shows something";
 }
 
 // What is in the middle of a window of 512 pixels that looks 90 degrees wide.

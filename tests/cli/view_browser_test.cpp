@@ -30,6 +30,7 @@ constexpr int kWindow = 128;     // pixels
 constexpr int kPerRadian = 163;  // of the pictures: 1024 around
 constexpr double kAlike = 38.0;  // dB, at rest
 constexpr double kAlikeMoving = 34.0;
+constexpr double kAlikeMovingInMesa = 30.0;  // whose GPU in software filters more coarsely
 constexpr auto kPatience = std::chrono::seconds(400);
 const std::vector<int> kBothEyes{kLeft, kRight};
 
@@ -163,12 +164,12 @@ class ViewBrowser : public ::testing::Test {
   }
 
   // Both eyes of every look are what ods convert makes, and not the other eye's, at rest and moving.
-  void expect_looks(size_t item, const Looks& looks, const std::string& what) {
+  void expect_looks(size_t item, const Looks& looks, const std::string& what, double moving = kAlikeMoving) {
     for (size_t i = 0; i < looks.size(); i++) {
       const Image wanted[] = {converted(pictures_[item], kLeft, looks[i]),
                               converted(pictures_[item], kRight, looks[i])};
       for (const bool moves : {false, true}) {
-        const double enough = moves ? kAlikeMoving : kAlike;
+        const double enough = moves ? moving : kAlike;
         for (const int eye : kBothEyes) {
           const Image got = drawn(folder_.path(name_of(item, i, eye, moves)));
           const std::string which = fmt::format("{}, look {}, eye {}{}", what, i, eye, moves ? ", moving" : "");
@@ -383,7 +384,9 @@ TEST_F(ViewBrowser, ShowsTheSameInFirefox) {
   const std::string end = run(browser);
   if (end.find("no WebGL 2") != std::string::npos) GTEST_SKIP() << "skipped: this firefox has no WebGL 2";
   ASSERT_EQ(end, "ok");
-  for (size_t i = 0; i < names.size(); i++) expect_looks(i, looks_in(projection_named(names[i])), names[i]);
+  for (size_t i = 0; i < names.size(); i++) {
+    expect_looks(i, looks_in(projection_named(names[i])), names[i], kAlikeMovingInMesa);
+  }
 }
 
 // What the studio's page sends, shows and lets people undo, against a server that the page itself plays.

@@ -52,7 +52,11 @@ inline std::vector<std::string> firefox(const std::string& profile) {
   if (program.empty()) return {};
   std::filesystem::create_directories(profile);
   write_file(profile + "/user.js", "user_pref(\"webgl.force-enabled\", true);\n");  // in software
-  return {program, "--headless", "--no-remote", "--profile", profile};
+  std::vector<std::string> words = {program, "--headless", "--no-remote", "--profile", profile};
+  // It finds the GPU, also one in software, through a display.
+  const std::string display = std::getenv("DISPLAY") ? "" : find_program({"xvfb-run"});
+  if (!display.empty()) words.insert(words.begin(), {display, "-a"});
+  return words;
 }
 
 // A browser and its children, until the end of its life.

@@ -48,6 +48,8 @@ class Ods {
       const rlimit file_limit{largest_file, largest_file}, memory_limit{address_space, address_space};
       setrlimit(RLIMIT_FSIZE, &file_limit);
       setrlimit(RLIMIT_AS, &memory_limit);
+      // Tests that run as a shell's background job hand down that Ctrl-C is ignored: nothing would end what they start.
+      for (const int number : {SIGHUP, SIGINT, SIGTERM}) signal(number, SIG_DFL);
       execv(argv[0], argv.data());
       _exit(127);
     }

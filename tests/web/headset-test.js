@@ -239,6 +239,7 @@ async function testControls(wearer) {
   await until(() => viewer.item === 1 && viewer.picture, 'shows the next picture');
   await wearer.click('previous');
   await until(() => viewer.item === 0 && viewer.picture, 'shows the previous picture');
+  await until(() => panel.content.controls.find(({ id }) => id === 'item-2')?.image?.width > 0, 'shows thumbnails in its list');
   await wearer.click('item-2');
   await until(() => viewer.item === 2 && viewer.picture, 'shows the picture that is chosen');
   await wearer.click('down');

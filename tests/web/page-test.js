@@ -192,6 +192,32 @@ async function testTurn(player) {
   expect(!player.turning, 'it turns on against the keys');
 }
 
+// All items with their thumbnails: chosen by keys and by clicks, as dark as the rest.
+async function testList({ viewer, element }) {
+  const { items } = viewer.view;
+  items.push({ ...items[0], name: 'Again.png' }, { ...items[0], name: 'No thumbnail.png', thumbnail: 'nothing.jpg' });
+  viewer.say('open');
+  element.querySelector('[data-action="list"]').click();
+  await until(() => find('list')?.matches(':popover-open'), 'opens the list');
+  const cells = [...find('list').children];
+  const images = cells.map((cell) => cell.querySelector('img'));
+  await until(() => images[1].naturalWidth === 256 && !images[2].hasAttribute('src'), 'has thumbnails, and none where there is none');
+  expect(cells.length === 3 && cells[0].ariaCurrent === 'true' && document.activeElement === cells[0], 'the list does not begin with what is open');
+  expect(testContrast(find('list')) >= 3, 'the list has no names');
+  const { yaw } = viewer.state;
+  press('ArrowRight', cells[0]);
+  expect(document.activeElement === cells[1] && viewer.state.yaw === yaw, 'the keys do not lead to the next picture');
+  cells[1].click();
+  expect(!find('list').matches(':popover-open') && viewer.item === 1, 'the list does not open what is chosen');
+  await until(() => viewer.picture && !viewer.picture.isPreview, 'shows what was chosen');
+  press('y');
+  await until(() => find('list').matches(':popover-open') && find('list').children[1].ariaCurrent === 'true', 'opens the list by its key');
+  find('list').hidePopover();
+  items.length = 1;
+  viewer.open(0);
+  await until(() => viewer.item === 0 && viewer.picture, 'leads back');
+}
+
 // WCAG 2.2: relative luminance and contrast ratio. Where a picture may be behind, it is black and it is white.
 const channel = (value) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
 const luminance = ([r, g, b]) => 0.2126 * channel(r / 255) + 0.7152 * channel(g / 255) + 0.0722 * channel(b / 255);
@@ -283,6 +309,7 @@ async function testThePage() {
   await testCompare(player);
   await testHelp(player);
   await testTurn(player);
+  await testList(player);
   await testColors(player);
 }
 
@@ -311,7 +338,7 @@ async function testVideo() {
 
 // The studio's page against the server that studio-test.js plays.
 async function testStudioPage() {
-  const { STUDIO, Server } = await import('./studio-test.js');
+  const { CAMERA, STUDIO, Server } = await import('./studio-test.js');
   const view = { ...(await (await fetch('view.json')).json()), items: [], live: true, studio: STUDIO };
   const server = new Server();
   server.prompt = true;
@@ -319,8 +346,16 @@ async function testStudioPage() {
   server.send = (meta) => send.call(server, { seconds: 1, ...meta });
   const played = window.fetch;
   const found = { distance: 2, disparity: 3, left: [1, 2], right: null, point: [0, 0, -2] };
-  const answers = { 'view.json': view, 'studio/pick': found };
-  window.fetch = (path, options) => (answers[path] ? Promise.resolve(Response.json(answers[path])) : played(path, options));
+  const heat = new OffscreenCanvas(8, 4);
+  heat.getContext('2d').fillRect(0, 0, 8, 4);
+  const verdict = { level: 'caution', text: 'Most: the floor', worst: { yaw: 0, pitch: -80 }, auto: Array(180).fill(1), camera: CAMERA };
+  const answers = { 'view.json': view, 'studio/pick': found, 'studio/comfort': verdict };
+  let heats = 0;
+  window.fetch = async (address, options) => {
+    const path = String(address).replace(new URL('.', location).href, '');
+    if (path.startsWith('studio/heat.png')) return ++heats && new Response(await heat.convertToBlob());
+    return answers[path] ? Response.json(answers[path]) : played(path, options);
+  };
   const player = await openPage();
   await until(() => player.studio && find('studio').checkVisibility() && getComputedStyle(find('studio')).position === 'fixed', 'has its panel');
   const { viewer, studio } = player;
@@ -346,6 +381,20 @@ async function testStudioPage() {
   expect(testContrast(document.body) > 60, 'few texts');
   press('x');
   expect(!viewer.compare && viewer.picture, 'the comparison does not end');
+  press('q');
+  await until(() => viewer.compare && heats === 2, 'shows what strains the eyes');
+  expect(viewer.compare.split === 0 && /Comfort: caution/.test(find('divider').textContent), 'the layer of comfort does not say its verdict');
+  find('ways').querySelector('button:not([data-way]):not([aria-label])').click();
+  expect(viewer.state.pitch === -80 && find('ways').querySelectorAll('.legend > span').length === 3, 'the worst place, or what colours mean, is not there');
+  verdict.level = 'warn';
+  studio.session.edit({ 'sidecar.yaw': 3 });
+  await until(() => heats >= 4 && /Comfort: warn/.test(find('divider').textContent), 'judges again what is changed');
+  press('x');
+  await until(() => studio.comparing && !/Comfort/.test(find('divider').textContent), 'leaves comfort to compare A and B');
+  press('q');
+  expect(studio.comparing, 'comfort lies over two settings');
+  press('x');
+  expect(!viewer.compare, 'the comparison does not end');
   press('?');
   expect(find('keys').querySelector('h2').textContent === 'Studio', 'the help does not begin with the studio');
   find('help').close();

@@ -26,6 +26,9 @@ export const STUDIO = {
   controls: { 'lat-long': ['range'], 'mirror-ball': ['fov', 'lens'], 'fisheye-polynomial': ['polynomial'] }, tones: ['neutral'], envs: ['auto'], variants: [], duration: 0,
 };
 
+const none = { width: 0, height: 0 };
+export const CAMERA = { convergence: 0, projection: { kind: 0, span: [6.2831854, 3.1415927] }, merge_map: none, head_tilt_map: none };
+
 // Plays the server: numbers revisions as ods view does, refuses what ods view refuses, and sends the frames it is given.
 export class Server {
   constructor() {
@@ -69,8 +72,7 @@ export class Server {
   }
 
   send(meta) {
-    const none = { width: 0, height: 0 };
-    const camera = { convergence: 0, projection: { kind: 0, span: [6.2831854, 3.1415927] }, merge_map: none, head_tilt_map: none, window: meta.window };
+    const camera = { ...CAMERA, window: meta.window };
     this.frames.push({ number: this.frames.length + 1, width: 8, height: 4, eyes: 2, samples: 1, part: 'base', camera, ...meta });
     this.waiting.splice(0).forEach((go) => go());
   }

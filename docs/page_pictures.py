@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Omnistereo authors
 # SPDX-License-Identifier: Apache-2.0
-"""Makes docs/images/studio.jpg: the page of ods view with a scene, when its picture is finished.
+"""Makes docs/images/view.jpg and docs/images/studio.jpg: the page of ods view with a picture, and with a scene when its
+picture is finished, or after half an hour.
 
-  docs/studio_picture.py atrium.glb '#yaw=12&pitch=4'
+  docs/page_pictures.py atrium_360_TB.jpg '#yaw=12&pitch=4' atrium.glb '#yaw=12&pitch=4'
 
 Needs build/release/ods, chromium (or chromium-headless-shell) and oiiotool.
 """
@@ -18,7 +19,11 @@ import tempfile
 import time
 
 PATIENCE = 1800  # seconds
+SHOWN = "window.omnistereo?.viewer.picture && !omnistereo.viewer.picture.isPreview"
 FINISHED = "document.body.innerText.includes(': finished')"
+# Without the hint; with the bar, which fades otherwise.
+PLAIN = "for (const name of ['pointerdown', 'pointermove']) document.dispatchEvent(new Event(name, { bubbles: true }));"
+OPEN = PLAIN + "omnistereo.viewer.set({ mode: 'side-by-side', grid: true }); omnistereo.act('settings')"
 
 
 class Browser:
@@ -57,7 +62,8 @@ class Browser:
                 return answer["result"]
 
 
-def take_picture(browser, address):
+# is_ready: in the page's words; then what: it does.
+def take_picture(browser, address, is_ready, what):
     target = browser.ask("Target.createTarget", url="about:blank")["targetId"]
     session = browser.ask("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
     browser.ask("Emulation.setDeviceMetricsOverride", session, width=1280, height=720, deviceScaleFactor=1, mobile=False)
@@ -65,17 +71,16 @@ def take_picture(browser, address):
     browser.ask("Emulation.setEmulatedMedia", session, features=dark)
     browser.ask("Page.navigate", session, url=address)
     end = time.monotonic() + PATIENCE
-    while not browser.ask("Runtime.evaluate", session, expression=FINISHED)["result"].get("value"):
-        if time.monotonic() > end:
-            raise SystemExit("the picture is not finished")
+    while not browser.ask("Runtime.evaluate", session, expression=is_ready)["result"].get("value") and time.monotonic() < end:
         time.sleep(1)
-    time.sleep(2)
+    browser.ask("Runtime.evaluate", session, expression=what)
+    time.sleep(1)  # the bar fades after three
     return base64.b64decode(browser.ask("Page.captureScreenshot", session)["data"])
 
 
-def main(scene, look=""):
+def make(image, shown, look, is_ready, what):
     root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-    where, name = os.path.split(os.path.abspath(scene))
+    where, name = os.path.split(os.path.abspath(shown))
     server = subprocess.Popen([root + "/build/release/ods", "view", name, "--no-browser"], cwd=where,
                               stdout=subprocess.PIPE, text=True)
     with tempfile.TemporaryDirectory() as folder:
@@ -84,13 +89,14 @@ def main(scene, look=""):
             address = next(found.group() for line in server.stdout if (found := re.search(r"http://\S+", line)))
             browser = Browser(folder + "/profile")
             with open(folder + "/page.png", "wb") as file:
-                file.write(take_picture(browser, address + look))
+                file.write(take_picture(browser, address + look, is_ready, what))
             subprocess.run(["oiiotool", folder + "/page.png", "--ch", "R,G,B", "--compression", "jpeg:90", "-d", "uint8",
-                            "-o", root + "/docs/images/studio.jpg"], check=True)
+                            "-o", f"{root}/docs/images/{image}"], check=True)
         finally:
             for process in (browser and browser.process, server):
                 if process:
                     process.terminate(), process.wait()
 
 
-main(*sys.argv[1:])
+make("view.jpg", sys.argv[1], sys.argv[2], SHOWN, OPEN)
+make("studio.jpg", sys.argv[3], sys.argv[4], FINISHED, PLAIN)

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// All items, with their thumbnails, to choose one. Loaded when somebody asks for it. Returns what opens and closes it.
+import { make } from './elements.js';
+
+export function makeList({ element, viewer }) {
+  const list = make('div', { id: 'list', popover: 'auto', role: 'group', 'aria-label': 'All pictures' });
+  element.append(list);
+  const cell = ({ name, kind, thumbnail }, i) => {
+    const picture = make('img', { src: thumbnail ? new URL(thumbnail, viewer.base).href : '', alt: '', loading: 'lazy', decoding: 'async' });
+    picture.addEventListener('error', () => picture.removeAttribute('src')); // an empty place is better than a broken sign
+    const button = make('button', { type: 'button', title: name, className: kind, 'aria-current': String(i === viewer.item) }, picture, make('span', {}, name));
+    button.addEventListener('click', () => {
+      list.hidePopover();
+      viewer.open(i, { exposure: viewer.choice.exposure, tone: viewer.choice.tone });
+    });
+    return button;
+  };
+  list.addEventListener('keydown', (event) => {
+    const by = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
+    if (!by) return;
+    event.preventDefault(); // they do not turn the picture meanwhile
+    const cells = [...list.children];
+    cells[cells.indexOf(event.target.closest('button')) + by]?.focus();
+  });
+  return () => {
+    if (list.matches(':popover-open')) return list.hidePopover();
+    list.replaceChildren(...viewer.view.items.map(cell));
+    list.showPopover();
+    list.querySelector('[aria-current="true"]')?.focus();
+  };
+}
