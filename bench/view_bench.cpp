@@ -137,6 +137,8 @@ class Frames {
     if (request.path == "bench.js") return {.type = "text/javascript", .body = kScript};
     if (request.path == "sizes")
       return {.body = fmt::format("{} {} {} {}", kWidth, kHeight, kMovingFrames, kStillFrames)};
+    const PageFile* const module = find_page_file(request.path);  // a site has them as one script
+    if (module) return {.type = std::string(media_type(request.path)), .body = std::string(module->data)};
     return {.type = std::string(media_type(request.path)), .file = site + request.path};
   }
 
