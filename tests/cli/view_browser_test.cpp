@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The viewer's page in real browsers, against ods convert: every projection and every layout, each eye, at five looks.
+// The viewer's page in real browsers, against ods convert: every projection and every layout, each eye, at six looks.
 // Chromium and Firefox run without a screen and are skipped where they are missing. The pages come from the server of
 // `ods view` itself, with its policy of what a page may load.
 #include <fmt/format.h>
@@ -36,9 +36,9 @@ const std::vector<int> kBothEyes{kLeft, kRight};
 struct Look {
   float yaw, pitch, fov;
 };
-using Looks = std::array<Look, 5>;
+using Looks = std::array<Look, 6>;
 
-constexpr Looks kAround = {{{0, 0, 90}, {179, 20, 70}, {100, -75, 90}, {-45, 85, 60}, {30, -10, 25}}};
+constexpr Looks kAround = {{{0, 0, 90}, {179, 20, 70}, {100, -75, 90}, {-45, 85, 60}, {30, -10, 25}, {-45, 88, 20}}};
 
 // Within what the projection shows. Straight behind, where a texel of a mirrored ball is a streak, nobody looks.
 Looks looks_in(const ProjectionSetting& setting) {
@@ -46,7 +46,8 @@ Looks looks_in(const ProjectionSetting& setting) {
   const float across = glm::degrees(static_cast<float>(0.5 / pixels_per_radian(setting, 1.0)));
   const float half = std::min(across, across * static_cast<float>(natural_height(setting, 1000)) / 1000.0f);
   Looks looks = {
-      {{0, 0, 0.7f}, {0.35f, 0.25f, 0.45f}, {-0.35f, -0.25f, 0.5f}, {0.1f, -0.35f, 0.4f}, {0.2f, 0.1f, 0.25f}}};
+      {{0, 0, 0.7f}, {0.35f, 0.25f, 0.45f}, {-0.35f, -0.25f, 0.5f}, {0.1f, -0.35f, 0.4f}, {0.2f, 0.1f, 0.25f},
+       {-0.1f, 0.2f, 0.3f}}};
   for (Look& look : looks) {
     look = {setting.pan + look.yaw * half, setting.tilt + look.pitch * half, look.fov * half};
   }
@@ -370,6 +371,40 @@ TEST_F(ViewBrowser, LaysThePictureOutForAHeadsetsCompositor) {
     EXPECT_GE(likeness(drawn(folder_.path("layer"), eye * size.width, size), wanted), kAlike) << eye;
     EXPECT_LT(likeness(drawn(folder_.path("layer"), (1 - eye) * size.width, size), wanted), kAlike) << eye;
   }
+}
+
+// Where a browser has cube layers, cubes are given as such; a GPU looks faces up by direction, and interpolates linearly.
+TEST_F(ViewBrowser, LaysACubeOutAsACube) {
+  const std::vector<std::string> browser = chromium(folder_.path("profile"));
+  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  const size_t item = add("picture.png", camera_of(projection_named("cube-3x2")), Layout::kTopBottom);
+  jobs_.push_back({{"item", item}, {"layers", "layer"}, {"cube", true}});
+  ASSERT_EQ(run(browser), "ok");
+  const Json asked = Json::parse(folder_.read("layer.json"));
+  EXPECT_EQ(asked["layout"], "stereo");
+  EXPECT_EQ(asked["viewPixelWidth"], asked["viewPixelHeight"]);
+  EXPECT_EQ(3 * asked["viewPixelWidth"].get<int>(), extent_of(projection_named("cube-3x2")).width);
+  EXPECT_NEAR(asked["orientation"][1].get<double>(), std::sqrt(0.5), 1e-6);
+  EXPECT_NEAR(asked["orientation"][3].get<double>(), std::sqrt(0.5), 1e-6);
+  const int side = asked["viewPixelWidth"];
+  ConvertTarget target = same_format(pictures_[item]);
+  target.camera.projection = projection_named("lat-long");
+  target.eye = {4 * side, 2 * side};
+  target.eyes = {kMono};
+  for (const int eye : kBothEyes) {
+    target.mono_from = eye;
+    const Image wanted = shown(images_of(convert(pictures_[item], target).rows)[0], ToneCurve::kLinear);
+    EXPECT_GE(likeness(drawn(folder_.path("layer"), eye * target.eye.width, target.eye), wanted), kAlikeMoving) << eye;
+    EXPECT_LT(likeness(drawn(folder_.path("layer"), (1 - eye) * target.eye.width, target.eye), wanted), kAlikeMoving);
+  }
+}
+
+TEST(Layers, KnowTheKernelsCubes) {
+  std::string list;
+  for (int kind = 0; kind < kProjectionCount; kind++) {
+    if (is_cube(kind)) list += fmt::format("{}{}", list.empty() ? "" : ", ", kind);
+  }
+  EXPECT_NE(find_page_file("layers.js")->data.find("CUBES = [" + list + "]"), std::string_view::npos) << list;
 }
 
 TEST_F(ViewBrowser, ShowsTheSameInFirefox) {
