@@ -48,6 +48,7 @@ class ViewSite {
   std::vector<ods::ViewItem> items_;
   std::vector<std::vector<std::string>> files_;  // of each, behind all links
   std::unique_ptr<Studio> studio_;
+  std::string script_;  // the page's
   Share share_;
   std::mutex of_small_;  // they are made one at a time, beside the others
   std::map<std::string, std::pair<std::filesystem::file_time_type::rep, std::string>>

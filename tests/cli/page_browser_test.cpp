@@ -5,14 +5,15 @@
 // (tests/web/page-test.js); exported pages from disk; how much of it goes over the wire.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <libdeflate.h>
 
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "cli/http/http_server.h"
 #include "cli/view/export_site.h"
+#include "cli/view/view_site.h"
 #include "ods/base/base64.h"
+#include "ods/base/gzip.h"
 #include "ods/convert/convert.h"
 #include "ods/image/image_file.h"
 #include "ods/video/make_video.h"
@@ -220,24 +221,50 @@ TEST_F(PageBrowser, ThreeExamplesOpenFromDisk) {
             "ok");
 }
 
-size_t gzipped(std::string_view text) {
-  libdeflate_compressor* const compressor = libdeflate_alloc_compressor(9);
-  std::string bytes(libdeflate_gzip_compress_bound(compressor, text.size()), '\0');
-  const size_t size = libdeflate_gzip_compress(compressor, text.data(), text.size(), bytes.data(), bytes.size());
-  libdeflate_free_compressor(compressor);
-  return size;
+// What ods view sends of its page, over a real connection and in one script.
+TEST_F(PageBrowser, TheServedPageIsSmallOnTheWire) {
+  ViewSite site({open_view_item(picture_)}, {});
+  const auto answer = [&](const WebRequest& request) -> WebAnswer {
+    if (request.path == "check.js") {
+      return {.type = "text/javascript", .body = R"(
+setInterval(() => {
+  if (!window.omnistereo?.viewer.picture) return;
+  const pages = ({ name }) => !/item.|view.json|alive|check.js/.test(name);
+  const files = [...performance.getEntriesByType('navigation'), ...performance.getEntriesByType('resource').filter(pages)];
+  const body = `${files.reduce((sum, { encodedBodySize }) => sum + encodedBodySize, 0)} ${files.map(({ name }) => name.split('/').pop())}`;
+  fetch('done', { method: 'POST', body });
+}, 500);)"};
+    }
+    WebAnswer sent = site.answer(request);
+    if (request.path.empty()) sent.body += "<script src=\"check.js\"></script>";
+    return sent;
+  };
+  const std::string end = run_in_browser({browser_, folder_.path("home"), "", answer, kPatience});
+  const int bytes = std::atoi(end.c_str());
+  fmt::print("{}\n", end);
+  EXPECT_GT(bytes, 20'000) << end;
+  EXPECT_LE(bytes, 60'000) << end;
 }
 
-// As web hosts send it: an exported page with everything that it loads later, and the element.
+// As web hosts send it: an exported page with everything that it loads later, and the element; and that of ods view.
 TEST(Page, IsSmallOnTheWire) {
-  size_t page = gzipped(bundle("main.js", {{"view.json", "{}"}}));
-  for (const char* const name : {"index.html", "style.css", "player.css"}) page += gzipped(find_page_file(name)->data);
-  const size_t element = gzipped(bundle("stereo-360.js", {{"view.json", "{}"}}));
-  RecordProperty("page", static_cast<int>(page));
-  RecordProperty("element", static_cast<int>(element));
-  fmt::print("page {} bytes, element {} bytes, gzipped\n", page, element);
+  const auto size_of = [](const std::string& script, const std::vector<const char*>& files) {
+    size_t size = gzip(script).size();
+    for (const char* const name : files) size += gzip(find_page_file(name)->data).size();
+    return size;
+  };
+  const std::vector<const char*> beside = {"index.html", "style.css", "player.css"};
+  std::vector<const char*> studios = beside;
+  studios.insert(studios.end(), {"studio.css", "merge-curve.frag"});
+  const size_t page = size_of(bundle("main.js", {{"view.json", "{}"}}), beside),
+               element = size_of(bundle("stereo-360.js", {{"view.json", "{}"}}), {}),
+               view = size_of(bundle("main.js", {}, PageHost::kView), beside),
+               studio = size_of(bundle("main.js", {}, PageHost::kStudio), studios);
+  fmt::print("gzipped: page {} bytes, element {}, page of ods view {}, studio {}\n", page, element, view, studio);
   EXPECT_LE(page, 60'000u);
   EXPECT_LE(element, 60'000u);
+  EXPECT_LE(view, 60'000u);
+  EXPECT_LE(studio, 78'000u);  // the same, and what renders
 }
 
 }  // namespace ods::page_browser_test
