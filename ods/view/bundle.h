@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The page without ES modules, which browsers load from no disk, and one by one elsewhere: a module and all that it imports as one classic
-// script, with the files that they fetch in it (web/bundle.js).
+// The page without ES modules, which browsers load from no disk, and one by one elsewhere: a module and all that it
+// imports as one classic script, with the files that they fetch in it (web/bundle.js).
 #pragma once
 #include <map>
 #include <string>

@@ -45,9 +45,12 @@ Looks looks_in(const ProjectionSetting& setting) {
   if (is_full_lat_long(setting) || is_cube(setting.kind)) return kAround;
   const float across = glm::degrees(static_cast<float>(0.5 / pixels_per_radian(setting, 1.0)));
   const float half = std::min(across, across * static_cast<float>(natural_height(setting, 1000)) / 1000.0f);
-  Looks looks = {
-      {{0, 0, 0.7f}, {0.35f, 0.25f, 0.45f}, {-0.35f, -0.25f, 0.5f}, {0.1f, -0.35f, 0.4f}, {0.2f, 0.1f, 0.25f},
-       {-0.1f, 0.2f, 0.3f}}};
+  Looks looks = {{{0, 0, 0.7f},
+                  {0.35f, 0.25f, 0.45f},
+                  {-0.35f, -0.25f, 0.5f},
+                  {0.1f, -0.35f, 0.4f},
+                  {0.2f, 0.1f, 0.25f},
+                  {-0.1f, 0.2f, 0.3f}}};
   for (Look& look : looks) {
     look = {setting.pan + look.yaw * half, setting.tilt + look.pitch * half, look.fov * half};
   }
@@ -373,7 +376,8 @@ TEST_F(ViewBrowser, LaysThePictureOutForAHeadsetsCompositor) {
   }
 }
 
-// Where a browser has cube layers, cubes are given as such; a GPU looks faces up by direction, and interpolates linearly.
+// Where a browser has cube layers, cubes are given as such; a GPU looks faces up by direction, and interpolates
+// linearly.
 TEST_F(ViewBrowser, LaysACubeOutAsACube) {
   const std::vector<std::string> browser = chromium(folder_.path("profile"));
   if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";

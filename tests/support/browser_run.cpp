@@ -39,6 +39,7 @@ std::string run_in_browser(const BrowserRun& run) {
                           run.page.starts_with("file:") ? run.page + "?" + address : address + run.page);
     if (run.started) run.started(running.pid());
     is_done.wait_for(lock, run.patience, [&end] { return !end.empty(); });
+    if (run.ends) run.ends(running.pid());
   }
   server.stop();
   thread.join();
