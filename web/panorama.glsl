@@ -411,12 +411,6 @@ vec4 quick_light_of(int which, vec3 label) {
   vec2 size = eyes[which].size;
   vec2 dx = moved(dFdx(place.at), label, dFdx(label), size);
   vec2 dy = moved(dFdy(place.at), label, dFdy(label), size);
-  if (kKind == kLatLong) {
-    // Towards a pole rows have ever more texels than the world has detail, and GPUs filter no such streaks.
-    float level = min(3.0 * length(label.xz) / length(label), 1.0);
-    dx.x *= level;
-    dy.x *= level;
-  }
   float large = max(dot(dx, dx), dot(dy, dy));
   float inset = sqrt(clamp(large, 1.0, 256.0));
   if (is_cube(kKind)) place.at = clamp(place.at, place.low + inset - 0.5, place.high - inset + 0.5);
