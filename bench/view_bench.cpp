@@ -2,15 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What a frame of the viewer costs, in CPU milliseconds of a Chromium whose GPU is software: while it moves, at rest,
-// and beside both the plainest shader for a lat-long picture, one bilinear look-up, in the same run.
+// and beside both the plainest shader for a lat-long picture, one bilinear look-up, in the same run. How soon a large
+// picture is seen, and is sharp, and what memory the page and its server take.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
 #include <atomic>
 #include <map>
+#include <mutex>
 
 #include "bench/measure.h"
 #include "cli/view/export_site.h"
+#include "cli/view/view_site.h"
 #include "ods/view/page.h"
 #include "tests/support/browser.h"
 #include "tests/support/browser_run.h"
@@ -137,6 +140,8 @@ class Frames {
     if (request.path == "bench.js") return {.type = "text/javascript", .body = kScript};
     if (request.path == "sizes")
       return {.body = fmt::format("{} {} {} {}", kWidth, kHeight, kMovingFrames, kStillFrames)};
+    const PageFile* const module = find_page_file(request.path);  // a site has them as one script
+    if (module) return {.type = std::string(media_type(request.path)), .body = std::string(module->data)};
     return {.type = std::string(media_type(request.path)), .file = site + request.path};
   }
 
@@ -160,7 +165,71 @@ void frame(benchmark::State& state, const std::string& projection, Extent eye, b
   }
 }
 
+// Seconds since the page was asked for: when something of the picture is on the canvas, and when all that the view
+// needs is.
+constexpr const char* kWatch = R"(
+const now = () => (performance.now() / 1000).toFixed(3);
+const post = (path, body = '') => fetch(path, { method: 'POST', body });
+const pixel = new Uint8Array(4);
+post('begin');
+(function wait() {
+  const viewer = window.omnistereo?.viewer;
+  if (!viewer?.picture) return requestAnimationFrame(wait);
+  viewer.addEventListener('settled', () => viewer.picture.isPreview || post('done', now()));
+  requestAnimationFrame(() => {
+    viewer.panorama.gl.readPixels(0, 0, 1, 1, 6408, 5121, pixel);
+    post(`first/${now()}`);
+  });
+})();)";
+
+void large_picture(benchmark::State& state) {
+  const Folder folder;
+  const std::vector<std::string> browser = chromium(folder.path("profile"));
+  if (browser.empty()) return state.SkipWithError("there is no chromium");
+  const std::string path = folder.path("card_360_TB.jpg");
+  if (std::system((ODS_COMMAND " testcard -q --width 8192 -o " + path).c_str()) != 0) {
+    return state.SkipWithError("no test card");
+  }
+  for (auto _ : state) {
+    forget_peak();
+    state.counters["server_before_MB"] = peak_megabytes();
+    ViewSite site({open_view_item(path)}, {});
+    std::atomic<pid_t> process = -1;
+    std::mutex of_counters;
+    const auto count = [&](const std::string& name, double value) {
+      const std::lock_guard lock(of_counters);
+      state.counters[name] = value;
+    };
+    const auto answer = [&](const WebRequest& request) -> WebAnswer {
+      if (request.path == "begin") return count("page_before_MB", megabytes_of(process)), WebAnswer{};
+      if (request.path.starts_with("first/")) {
+        count("first_s", std::atof(request.path.substr(6).c_str()));
+        return count("first_cpu_s", cpu_seconds_of(process)), WebAnswer{};
+      }
+      if (request.path == "watch.js") return {.type = "text/javascript", .body = kWatch};
+      WebAnswer sent;
+      const Seconds took = seconds_of([&] { sent = site.answer(request); });
+      if (request.path.ends_with("/preview.jpg")) {
+        count("preview_s", took.wall);
+        count("preview_cpu_s", took.cpu);
+      }
+      if (request.path.empty()) sent.body += "<script src=\"watch.js\"></script>";
+      return sent;
+    };
+    const std::string end = run_in_browser({browser, folder.path("home"), "", answer, std::chrono::minutes(4),
+                                            [&](pid_t started) { process = started; },
+                                            [&](pid_t running) {
+                                              count("page_MB", megabytes_of(running));
+                                              count("sharp_cpu_s", cpu_seconds_of(running));
+                                            }});
+    if (std::atof(end.c_str()) <= 0.0) return state.SkipWithError(end.c_str());
+    state.counters["sharp_s"] = std::atof(end.c_str());
+    state.counters["server_MB"] = peak_megabytes();
+  }
+}
+
 const bool registered = [] {
+  benchmark::RegisterBenchmark("large_picture", large_picture)->Iterations(1)->Unit(benchmark::kSecond);
   struct Case {
     const char* name;
     const char* projection;

@@ -39,7 +39,7 @@ const std::map<std::string, std::set<std::string>> kHidden = {
     {"webp/", {"ods/image/codec/webp.cpp"}},
     {"libheif/", {"ods/image/codec/heif.cpp"}},
     {"libdeflate.h",
-     {"ods/base/checksum.cpp", "ods/image/color_tags.cpp", "ods/image/codec/exr_rows.cpp",
+     {"ods/base/checksum.cpp", "ods/base/gzip.cpp", "ods/image/color_tags.cpp", "ods/image/codec/exr_rows.cpp",
       "ods/image/codec/tiff_writer.cpp", "ods/video/container/mesh_box.cpp"}},
     {"zstd.h", {"ods/image/ktx2/ktx2.cpp"}},
     {"draco/", {"ods/scene/gltf/draco.cpp"}},

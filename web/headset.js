@@ -60,7 +60,7 @@ export function lookOf({ matrix: m }, turn) {
 const indexOf = ({ eye }) => (eye === 'right' ? 1 : 0);
 
 export class Headset {
-  // wants.layers: equirect layers where the browser has them and the picture's form allows.
+  // wants.layers: layers where the browser has them and the picture's form allows.
   constructor(viewer, wants = {}) {
     Object.assign(this, { viewer, wants, session: null, turn: 0, pose: null, layers: null, panel: null, marker: null });
   }

@@ -1,12 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The picture as WebXR equirect layers, which the headset's compositor samples by itself. The specification never says
-// which half of a stereo-top-bottom layer is the left eye's, and browsers differ; so each eye is asked for by name, and
-// drawn into what the browser answers.
+// The picture as a WebXR layer, which the headset's compositor samples by itself: a cube for cubes where the browser has
+// such, else equirect. The specification never says which half of a stereo-top-bottom layer is the left eye's, and browsers
+// differ; so each eye is asked for by name, and drawn into what the browser answers.
 import { wornEye } from './modes.js';
 
 const LARGEST = 4096; // pixels of a layer around the horizon
+const CUBES = [5, 6, 7, 8]; // of the kernel's projections
+const AROUND = [1, 0, 0, 0, 1, 0, 0, 0, -1];
+// The rays (panorama.js) of a cube's faces, as GL looks them up (OpenGL ES 3.0, table 3.19): +X, -X, +Y, -Y, +Z, -Z.
+const FACES = [
+  [0, 0, -1, 0, -1, 0, 1, 0, 0], [0, 0, 1, 0, -1, 0, -1, 0, 0], [1, 0, 0, 0, 0, 1, 0, 1, 0],
+  [1, 0, 0, 0, 0, -1, 0, -1, 0], [1, 0, 0, 0, -1, 0, 0, 0, 1], [-1, 0, 0, 0, -1, 0, 0, 0, -1],
+];
 
 export function hasLayers(session) {
   return (session.enabledFeatures?.includes('layers') ?? true) && typeof XRWebGLBinding !== 'undefined' &&
@@ -20,18 +27,28 @@ export class EyeLayers {
     this.binding = new XRWebGLBinding(session, gl);
   }
 
-  create(picture) {
+  createCube([width, height]) {
     const { gl } = this;
-    const most = Math.min(LARGEST, gl.getParameter(gl.MAX_TEXTURE_SIZE) / 2);
-    const width = Math.min(most, picture.eyes[0].size[0]);
+    const side = Math.min(LARGEST / 4, gl.getParameter(gl.MAX_CUBE_MAP_TEXTURE_SIZE), Math.round(Math.sqrt((width * height) / 6)));
+    return this.binding.createCubeLayer({ space: this.space, viewPixelWidth: side, viewPixelHeight: side, layout: 'stereo', isStatic: false });
+  }
+
+  createEquirect([across]) {
+    const { gl } = this;
+    const width = Math.min(LARGEST, gl.getParameter(gl.MAX_TEXTURE_SIZE) / 2, across);
+    return this.binding.createEquirectLayer({
+      space: this.space, viewPixelWidth: width, viewPixelHeight: width / 2, layout: 'stereo-left-right', isStatic: false,
+      radius: 0, centralHorizontalAngle: 2 * Math.PI, upperVerticalAngle: Math.PI / 2, lowerVerticalAngle: -Math.PI / 2,
+    });
+  }
+
+  create({ camera, eyes: [{ size }] }) {
     this.layer?.destroy?.();
+    this.isCube = CUBES.includes(camera.projection.kind) && Boolean(this.binding.createCubeLayer);
     try {
-      this.layer = this.binding.createEquirectLayer({
-        space: this.space, viewPixelWidth: width, viewPixelHeight: width / 2, layout: 'stereo-left-right', isStatic: false,
-        radius: 0, centralHorizontalAngle: 2 * Math.PI, upperVerticalAngle: Math.PI / 2, lowerVerticalAngle: -Math.PI / 2,
-      });
+      this.layer = this.isCube ? this.createCube(size) : this.createEquirect(size);
     } catch (error) {
-      console.warn('No equirect layer, so the shader draws:', error.message);
+      console.warn('No layer, so the shader draws:', error.message);
       this.layer = null;
     }
     this.arrange(false);
@@ -59,19 +76,22 @@ export class EyeLayers {
     }
     if (!this.has(this.layer)) return false;
     const [s, c] = [Math.sin(-turn / 2), Math.cos(turn / 2)];
-    this.layer.transform = new XRRigidTransform({ x: 0, y: 0, z: 0 }, { x: 0, y: -s, z: 0, w: c });
+    if (this.isCube) this.layer.orientation = new DOMPointReadOnly(0, -s, 0, c);
+    else this.layer.transform = new XRRigidTransform({ x: 0, y: 0, z: 0 }, { x: 0, y: -s, z: 0, w: c });
     const what = `${state.swap} ${state.worn} ${state.grid} ${picture.frame?.()}`;
     if (this.shown === what && !this.layer.needsRedraw) return true;
     this.shown = what;
     for (const [eye, name] of ['left', 'right'].entries()) {
       const part = this.binding.getSubImage(this.layer, frame, name);
-      gl.bindFramebuffer(gl.FRAMEBUFFER, this.target);
-      gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, part.colorTexture, 0);
       const { x, y, width, height } = part.viewport;
-      panorama.draw(picture, {
-        rays: [1, 0, 0, 0, 1, 0, 0, 0, -1], box: [x, y, width, height], eye: wornEye(state, eye), swap: state.swap, grid: state.grid,
-        target: this.target, all: true, moves: Boolean(picture.video),
-      });
+      for (const [face, rays] of (this.isCube ? FACES : [AROUND]).entries()) {
+        gl.bindFramebuffer(gl.FRAMEBUFFER, this.target);
+        gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, this.isCube ? gl.TEXTURE_CUBE_MAP_POSITIVE_X + face : gl.TEXTURE_2D, part.colorTexture, 0);
+        panorama.draw(picture, {
+          rays, box: [x, y, width, height], eye: wornEye(state, eye), swap: state.swap, grid: state.grid,
+          target: this.target, all: !this.isCube, moves: Boolean(picture.video),
+        });
+      }
     }
     return true;
   }

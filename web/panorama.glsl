@@ -370,9 +370,44 @@ vec3 sampled(sampler2DArray tiles, vec3 at, vec2 dx, vec2 dy, float square) {
   return textureLod(tiles, at, 0.5 * log2(max(square, 1.0))).rgb;
 }
 
+// As place_under() for a cube. A GPU that is software runs every branch: so no cell is looked up but by a constant.
+struct Cell {
+  vec2 corner;  // in cells
+  vec2 aside;   // of the label, along the face's edges
+  float ahead;
+};
+
+Cell nearer(Cell best, int number, vec3 label) {
+  CubeFace face = cube_cell(kKind, number);
+  Cell cell;
+  cell.ahead = dot(label, face.middle);
+  if (cell.ahead <= best.ahead) return best;
+  cell.corner = vec2(float(number % cube_columns(kKind)), float(number / cube_columns(kKind)));
+  cell.aside = vec2(dot(label, face.right), dot(label, face.top));
+  return cell;
+}
+
+Place quick_cube_place(int which, vec3 label) {
+  Cell cell = Cell(vec2(0.0), vec2(0.0), 0.0);
+  cell = nearer(nearer(nearer(cell, 0, label), 1, label), 2, label);
+  cell = nearer(nearer(nearer(cell, 3, label), 4, label), 5, label);
+  vec2 at = clamp(cell.aside / cell.ahead, -1.0, 1.0);
+  if (kKind == kEac) at = atan(at) * (4.0 / kPi);
+  vec2 face = eyes[which].size / vec2(float(cube_columns(kKind)), float(6 / cube_columns(kKind)));
+  Place place;
+  place.label = label;
+  place.at = (cell.corner + 0.5 + vec2(0.5, -0.5) * at) * face;
+  place.low = ceil(cell.corner * face - 0.5);
+  place.high = ceil((cell.corner + 1.0) * face - 0.5);
+  place.seen = true;
+  return place;
+}
+
 // As light_of(), with the GPU's filter.
 vec4 quick_light_of(int which, vec3 label) {
-  Place place = place_under(which, label);
+  Place place;
+  if (is_cube(kKind)) place = quick_cube_place(which, label);
+  else place = place_under(which, label);
   vec2 size = eyes[which].size;
   vec2 dx = moved(dFdx(place.at), label, dFdx(label), size);
   vec2 dy = moved(dFdy(place.at), label, dFdy(label), size);

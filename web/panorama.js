@@ -6,7 +6,7 @@
 import { radians } from './geometry.js';
 
 const TOE_IN = 1; // of the kernel's convergences: the only one whose lines of sight are not linear across the view
-const CELLS = 32; // of the mesh for those, each way
+const CELLS = 16; // of the mesh for those, each way
 const VERTICES = `#version 300 es
 out vec2 screen;
 void main() {

@@ -11,6 +11,7 @@
 #include <charconv>
 
 #include "cli/console/console.h"
+#include "ods/base/gzip.h"
 
 namespace {
 
@@ -72,8 +73,8 @@ bool send_head(const Reply& reply, int status, const std::string& type, uint64_t
       kPatience);
 }
 
-bool send_text(const Reply& reply, int status, const std::string& type, std::string_view body) {
-  const std::string more;
+bool send_text(const Reply& reply, int status, const std::string& type, std::string_view body,
+               const std::string& more = "") {
   return send_head(reply, status, type, body.size(), more) &&
          (!reply.has_body || reply.stream.write(body, kPatience)) && reply.stays;
 }
@@ -101,6 +102,15 @@ bool send_file(const Reply& reply, const WebAnswer& answer, std::string_view ran
     part.first += static_cast<uint64_t>(read), part.count -= static_cast<uint64_t>(read);
   }
   return reply.stays;
+}
+
+bool is_worth_packing(const WebAnswer& answer) {
+  return answer.body.size() > 1000 && (answer.type.starts_with("text/") || answer.type == "application/json");
+}
+
+bool takes_gzip(const RequestHead& head) {
+  const std::string takes = head.field("accept-encoding");
+  return takes.find("gzip") != std::string::npos && takes.find("gzip;q=0") == std::string::npos;
 }
 
 // Behind the secret.
@@ -236,6 +246,9 @@ bool HttpExchange::answer(WebStream& stream, std::string_view head_text, std::st
   if (status != 200) return status != 0 && refuse(stream, status, "there is no room for that file here");
   const WebAnswer answer = ask(request);
   const Reply reply{.stream = stream, .stays = head->stays, .has_body = head->method != "HEAD"};
+  if (answer.file.empty() && is_worth_packing(answer) && takes_gzip(*head)) {
+    return send_text(reply, answer.status, answer.type, ods::gzip(answer.body), "Content-Encoding: gzip\r\n");
+  }
   if (answer.file.empty()) return send_text(reply, answer.status, answer.type, answer.body);
   return send_file(reply, answer, head->fields.contains("if-range") ? "" : head->field("range"));
 }

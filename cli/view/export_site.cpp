@@ -53,13 +53,9 @@ void write_script_beside(const std::string& path) {
 }
 
 void write_page(const std::string& folder, const std::string& view) {
-  constexpr std::string_view kModule = R"(<script type="module" src="main.js">)";
   for (const char* const name :
        {"index.html", "style.css", "player.css", "example.html", "example.css", "example.js"}) {
-    std::string text(ods::find_page_file(name)->data);
-    const size_t at = text.find(kModule);
-    if (at != std::string::npos) text.replace(at, kModule.size(), R"(<script defer src="main.js">)");
-    ods::write_file(folder + "/" + name, text);
+    ods::write_file(folder + "/" + name, std::string(ods::find_page_file(name)->data));
   }
   for (const char* const entry : {"main.js", "stereo-360.js"}) {
     ods::write_file(folder + "/" + entry, ods::bundle(entry, {{"view.json", view}}));

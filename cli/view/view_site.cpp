@@ -12,6 +12,7 @@
 #include "cli/console/console.h"
 #include "cli/options/layout_options.h"
 #include "cli/options/projection_options.h"
+#include "ods/view/bundle.h"
 #include "ods/view/page.h"
 
 using ods::ViewItem, ods::StoredPicture;
@@ -60,7 +61,8 @@ std::optional<size_t> item_number(const std::string& path) {
 
 }  // namespace
 
-ViewSite::ViewSite(std::vector<ViewItem> items, const std::optional<SceneSource>& scene) {
+ViewSite::ViewSite(std::vector<ViewItem> items, const std::optional<SceneSource>& scene)
+    : script_(ods::bundle("main.js", {}, scene ? ods::PageHost::kStudio : ods::PageHost::kView)) {
   for (const ViewItem& item : items) add(item);
   if (!scene) return;
   studio_ =
@@ -166,6 +168,7 @@ WebAnswer ViewSite::answer(const WebRequest& request) {
   }
   if (request.path.starts_with("item/")) return item(request.path, request);
   const std::string name = request.path.empty() ? "index.html" : request.path;
+  if (name == "main.js") return {.type = std::string(ods::media_type(name)), .body = script_};
   const ods::PageFile* const file = ods::find_page_file(name);
   if (!file) return nothing_there();
   return {.type = std::string(ods::media_type(name)), .body = std::string(file->data)};

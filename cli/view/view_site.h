@@ -23,10 +23,10 @@ class ViewSite {
   // scene: for the studio; none: no scene is shown. Throws as Studio.
   ViewSite(std::vector<ods::ViewItem> items, const std::optional<SceneSource>& scene);
 
-  // Thread-safe. "" is the page; alive says that we are, and how many pages share; item/N/left.jpg takes exposure, tone,
-  // width, and layout and projection where the page's user knows better; item/N/preview.jpg and item/N/thumbnail.jpg;
-  // item/N/comfort.json, comfort-left.jpg and comfort-right.jpg are a ComfortLayer. Throws UsageError for a query that
-  // makes no sense.
+  // Thread-safe. "" is the page; alive says that we are, and how many pages share; item/N/left.jpg takes exposure,
+  // tone, width, and layout and projection where the page's user knows better; item/N/preview.jpg and
+  // item/N/thumbnail.jpg; item/N/comfort.json, comfort-left.jpg and comfort-right.jpg are a ComfortLayer. Throws
+  // UsageError for a query that makes no sense.
   WebAnswer answer(const WebRequest& request);
 
   // Of the studio, for studio/drop; null if there is none.
@@ -48,6 +48,7 @@ class ViewSite {
   std::vector<ods::ViewItem> items_;
   std::vector<std::vector<std::string>> files_;  // of each, behind all links
   std::unique_ptr<Studio> studio_;
+  std::string script_;  // the page's
   Share share_;
   std::mutex of_small_;  // they are made one at a time, beside the others
   std::map<std::string, std::pair<std::filesystem::file_time_type::rep, std::string>>

@@ -49,26 +49,27 @@ std::string wrapped(const std::string& name, const std::string& module) {
                      fmt::join(exported, ", "));
 }
 
+bool is_left_out(std::string_view name, PageHost host) {
+  if (name.starts_with("studio") || name.starts_with("merge-curve")) return host != PageHost::kStudio;
+  return name == "share.js" && host == PageHost::kFolder;
+}
+
 // Behind what it imports, at once or later.
-void add(const std::string& name, std::set<std::string>& known, std::string& script) {
-  if (needs_server(name) || !known.insert(name).second) return;
+void add(const std::string& name, PageHost host, std::set<std::string>& known, std::string& script) {
+  if (is_left_out(name, host) || !known.insert(name).second) return;
   const std::string text(find_page_file(name)->data);
   for (const auto& [pattern, group] : {std::pair{&kImport, size_t{2}}, {&kLazyImport, size_t{1}}}) {
-    for (const std::string& other : names_in(text, *pattern, group)) add(other, known, script);
+    for (const std::string& other : names_in(text, *pattern, group)) add(other, host, known, script);
   }
   script += wrapped(name, text);
 }
 
 }  // namespace
 
-bool needs_server(std::string_view name) {
-  return name.starts_with("studio") || name.starts_with("merge-curve") || name == "share.js";
-}
-
-std::string bundle(const std::string& entry, std::map<std::string, std::string> files) {
+std::string bundle(const std::string& entry, std::map<std::string, std::string> files, PageHost host) {
   std::set<std::string> known;
   std::string modules;
-  add(entry, known, modules);
+  add(entry, host, known, modules);
   for (const char* const name : {"panorama.glsl", "player.css"}) {
     if (modules.find(name) != std::string::npos) files[name] = find_page_file(name)->data;
   }

@@ -373,6 +373,41 @@ TEST_F(ViewBrowser, LaysThePictureOutForAHeadsetsCompositor) {
   }
 }
 
+// Where a browser has cube layers, cubes are given as such; a GPU looks faces up by direction, and interpolates
+// linearly.
+TEST_F(ViewBrowser, LaysACubeOutAsACube) {
+  const std::vector<std::string> browser = chromium(folder_.path("profile"));
+  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  const size_t item = add("picture.png", camera_of(projection_named("cube-3x2")), Layout::kTopBottom);
+  jobs_.push_back({{"item", item}, {"layers", "layer"}, {"cube", true}});
+  ASSERT_EQ(run(browser), "ok");
+  const Json asked = Json::parse(folder_.read("layer.json"));
+  EXPECT_EQ(asked["layout"], "stereo");
+  EXPECT_EQ(asked["viewPixelWidth"], asked["viewPixelHeight"]);
+  EXPECT_EQ(3 * asked["viewPixelWidth"].get<int>(), extent_of(projection_named("cube-3x2")).width);
+  EXPECT_NEAR(asked["orientation"][1].get<double>(), std::sqrt(0.5), 1e-6);
+  EXPECT_NEAR(asked["orientation"][3].get<double>(), std::sqrt(0.5), 1e-6);
+  const int side = asked["viewPixelWidth"];
+  ConvertTarget target = same_format(pictures_[item]);
+  target.camera.projection = projection_named("lat-long");
+  target.eye = {4 * side, 2 * side};
+  target.eyes = {kMono};
+  for (const int eye : kBothEyes) {
+    target.mono_from = eye;
+    const Image wanted = shown(images_of(convert(pictures_[item], target).rows)[0], ToneCurve::kLinear);
+    EXPECT_GE(likeness(drawn(folder_.path("layer"), eye * target.eye.width, target.eye), wanted), kAlikeMoving) << eye;
+    EXPECT_LT(likeness(drawn(folder_.path("layer"), (1 - eye) * target.eye.width, target.eye), wanted), kAlikeMoving);
+  }
+}
+
+TEST(Layers, KnowTheKernelsCubes) {
+  std::string list;
+  for (int kind = 0; kind < kProjectionCount; kind++) {
+    if (is_cube(kind)) list += fmt::format("{}{}", list.empty() ? "" : ", ", kind);
+  }
+  EXPECT_NE(find_page_file("layers.js")->data.find("CUBES = [" + list + "]"), std::string_view::npos) << list;
+}
+
 TEST_F(ViewBrowser, ShowsTheSameInFirefox) {
   const std::vector<std::string> browser = firefox(folder_.path("profile"));
   if (browser.empty()) GTEST_SKIP() << "skipped: there is no firefox";

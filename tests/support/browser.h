@@ -93,8 +93,8 @@ class Browser {
   pid_t pid_ = -1;
 };
 
-// CPU seconds that a process and all that it has started have taken so far.
-inline double cpu_seconds_of(pid_t root) {
+// A process and all that it has started, with the CPU seconds that each has taken so far.
+inline std::map<pid_t, double> processes_of(pid_t root) {
   struct Process {
     pid_t parent;
     double seconds;
@@ -115,13 +115,31 @@ inline double cpu_seconds_of(pid_t root) {
     process.seconds = (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
     all[pid] = process;
   }
-  double sum = 0.0;
+  std::map<pid_t, double> found;
   for (const auto& [pid, process] : all) {
     pid_t above = pid;
     while (above != root && all.contains(above)) above = all[above].parent;
-    if (above == root) sum += process.seconds;
+    if (above == root) found[pid] = process.seconds;
   }
+  return found;
+}
+
+inline double cpu_seconds_of(pid_t root) {
+  double sum = 0.0;
+  for (const auto& [pid, seconds] : processes_of(root)) sum += seconds;
   return sum;
+}
+
+// Their memory, where what several share counts once.
+inline double megabytes_of(pid_t root) {
+  double kilobytes = 0.0;
+  for (const auto& [pid, seconds] : processes_of(root)) {
+    std::ifstream parts("/proc/" + std::to_string(pid) + "/smaps_rollup");
+    for (std::string line; std::getline(parts, line);) {
+      if (line.starts_with("Pss:")) kilobytes += std::stod(line.substr(4));
+    }
+  }
+  return kilobytes / 1024.0;
 }
 
 }  // namespace ods

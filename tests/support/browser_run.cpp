@@ -25,18 +25,21 @@ std::string run_in_browser(const BrowserRun& run) {
   options.secret = "secret";
   options.most_body = size_t{16} << 20;
   HttpServer server(options, [&](const WebRequest& request) -> WebAnswer {
-    if (!request.is_post || request.path != "done") return run.answer(request);
+    if (request.path != "done") return run.answer(request);
     const std::lock_guard lock(mutex);
-    end = request.body;
+    end = request.is_post ? request.body : value_of(request, "text");
     is_done.notify_all();
     return {};
   });
   std::thread thread([&server] { server.run(); });
   {
     std::unique_lock lock(mutex);
-    const Browser running(run.browser, run.home, fmt::format("http://127.0.0.1:{}/secret/{}", server.port(), run.page));
+    const std::string address = fmt::format("http://127.0.0.1:{}/secret/", server.port());
+    const Browser running(run.browser, run.home,
+                          run.page.starts_with("file:") ? run.page + "?" + address : address + run.page);
     if (run.started) run.started(running.pid());
     is_done.wait_for(lock, run.patience, [&end] { return !end.empty(); });
+    if (run.ends) run.ends(running.pid());
   }
   server.stop();
   thread.join();

@@ -19,13 +19,15 @@ using Answer = std::function<WebAnswer(const WebRequest& request)>;  // called f
 struct BrowserRun {
   std::vector<std::string> browser;  // the words that start it: chromium() of browser.h
   std::string home;                  // its folder
-  std::string page;                  // what it opens
-  Answer answer;                     // all but the POST to `done`
+  std::string page;  // what it opens: of the server, or file://PAGE, whose query is the server's address
+  Answer answer;     // all but `done`
   std::chrono::seconds patience;
   std::function<void(pid_t browser)> started = {};
+  std::function<void(pid_t browser)> ends = {};  // it has said so, and still runs
 };
 
-// Serves a page to a browser until the page posts to `done`. Returns what it posted, or that it did not.
+// Serves a page to a browser until the page posts to `done`, or asks for it with a `text`, which is all that a page
+// from disk may do. Returns what it said, or that it did not.
 std::string run_in_browser(const BrowserRun& run);
 
 // tests/web/harness.html, which gets jobs.json, the modules of tests/web, and the emulated headset that ODS_IWER names.

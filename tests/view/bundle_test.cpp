@@ -22,6 +22,18 @@ TEST(Bundle, IsNoModule) {
   }
 }
 
+// A server's script has what only a server answers.
+TEST(Bundle, HasWhatItsHostAnswers) {
+  const auto has = [](PageHost host, const char* module) {
+    return bundle("main.js", {}, host).find(std::string("$modules['") + module + "'] = (") != std::string::npos;
+  };
+  for (const PageHost host : {PageHost::kFolder, PageHost::kView, PageHost::kStudio}) {
+    EXPECT_TRUE(has(host, "viewer.js"));
+    EXPECT_EQ(has(host, "share.js"), host != PageHost::kFolder);
+    EXPECT_EQ(has(host, "studio.js"), host == PageHost::kStudio);
+  }
+}
+
 // What a module imports is made before it.
 TEST(Bundle, ModulesComeBehindWhatTheyImport) {
   const std::string script = bundle("main.js", {});

@@ -7,13 +7,14 @@
 // A job may have `paging` (pages.js), as if its picture were too large for the GPU. The job { item, rest: true } throws
 // where the viewer does not become exact at rest.
 // Looks at a video may have its `frame`, and `step` where it is to be reached by so many steps from the last one.
-// The job { item, layers: NAME } sends the equirect layer of a picture, as a headset's browser would be given it.
+// The job { item, layers: NAME } sends the layer of a picture, as a headset's browser would be given it; `cube` is for a
+// browser that has cube layers, which are sent as lat-long pictures.
 // A job with `headset` shows its looks in an emulated headset instead; both eyes are sent, side by side. Its looks may
 // have `press` and `stick`: what a hand does to its controller first. The job { studio: true } runs studio-test.js instead,
 // { page: NAME } a test of page-test.js, { panel: NAME } a part of headset-test.js.
 import { Headset } from './headset.js';
 import { Pace } from './pace.js';
-import { Panorama, loadShader, raysOf } from './panorama.js';
+import { Panorama, compile, loadShader, raysOf } from './panorama.js';
 import { openPicture } from './picture.js';
 import { Viewer } from './viewer.js';
 
@@ -61,8 +62,36 @@ async function reach(picture, frame, step) {
   await new Promise((done) => setTimeout(done, 500));
 }
 
-// Plays the browser's part of the WebXR Layers API, which no browser has without a headset: one texture for both eyes.
-async function layOut(view, shader, { item, layers: name }) {
+// What a compositor shows of a cube map in each direction.
+const CUBE = `#version 300 es
+precision highp float;
+uniform samplerCube cube;
+in vec2 screen;
+out vec4 color;
+void main() {
+  vec2 a = screen * vec2(3.14159265, 1.57079633);
+  color = texture(cube, vec3(sin(a.x) * cos(a.y), sin(a.y), -cos(a.x) * cos(a.y)));
+}`;
+
+// Draws cube maps side by side as lat-long pictures.
+function flatten(gl, cubes, target, [width, height]) {
+  gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+  const flat = gl.getParameter(gl.TEXTURE_BINDING_2D);
+  gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA8, 2 * width, height);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, target);
+  gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, flat, 0);
+  gl.useProgram(compile(gl, CUBE));
+  gl.activeTexture(gl.TEXTURE0);
+  for (const [i, cube] of cubes.entries()) {
+    gl.bindTexture(gl.TEXTURE_CUBE_MAP, cube);
+    gl.viewport(i * width, 0, width, height);
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+  }
+}
+
+// Plays the browser's part of the WebXR Layers API, which no browser has without a headset: one texture for both eyes, or a
+// cube map for each.
+async function layOut(view, shader, { item, layers: name, cube }) {
   const { EyeLayers } = await import('./layers.js');
   const panorama = new Panorama(makeCanvas({ width: 64, height: 64 }), shader);
   const { gl } = panorama;
@@ -82,13 +111,30 @@ async function layOut(view, shader, { item, layers: name }) {
       return { colorTexture: texture, viewport: { x: eye === 'left' ? 0 : width, y: 0, width, height } };
     }
   };
+  const cubes = [gl.createTexture(), gl.createTexture()];
+  if (cube) {
+    XRWebGLBinding.prototype.createCubeLayer = (init) => {
+      asked = init;
+      for (const each of cubes) {
+        gl.bindTexture(gl.TEXTURE_CUBE_MAP, each);
+        gl.texStorage2D(gl.TEXTURE_CUBE_MAP, 1, gl.RGBA8, init.viewPixelWidth, init.viewPixelHeight);
+        gl.texParameteri(gl.TEXTURE_CUBE_MAP, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
+      }
+      return { needsRedraw: true };
+    };
+    XRWebGLBinding.prototype.getSubImage = (layer, frame, eye) => ({
+      colorTexture: cubes[eye === 'left' ? 0 : 1], viewport: { x: 0, y: 0, width: asked.viewPixelWidth, height: asked.viewPixelHeight },
+    });
+  }
   const session = { renderState: { baseLayer: null }, updateRenderState: (state) => Object.assign(session.renderState, state) };
   const picture = await openPicture(panorama, view, view.items[item], {});
   const layer = new EyeLayers(session, gl, 'local');
   if (!layer.show(null, { panorama, picture, state: { swap: false, grid: false } }, Math.PI / 2)) throw new Error('no layer');
-  const { x, y, z, w } = session.renderState.layers[0].transform.orientation;
+  const [shown] = session.renderState.layers;
+  const { x, y, z, w } = cube ? shown.orientation : shown.transform.orientation;
   await post(`result/${name}.json`, JSON.stringify({ ...asked, orientation: [x, y, z, w] }));
-  const [width, height] = [2 * asked.viewPixelWidth, asked.viewPixelHeight];
+  const [width, height] = cube ? [8 * asked.viewPixelWidth, 2 * asked.viewPixelWidth] : [2 * asked.viewPixelWidth, asked.viewPixelHeight];
+  if (cube) flatten(gl, cubes, layer.target, [width / 2, height]);
   const pixels = new Uint8ClampedArray(4 * width * height);
   gl.bindFramebuffer(gl.FRAMEBUFFER, layer.target); // has the texture
   gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(pixels.buffer));

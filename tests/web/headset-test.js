@@ -494,7 +494,7 @@ async function openPage() {
   document.body.append(...page.body.childNodes);
   const canvas = document.querySelector('canvas#picture, #player canvas');
   if (canvas) Object.assign(canvas.style, { width: '160px', height: '90px' });
-  await import('./main.js');
+  document.body.append(Object.assign(document.createElement('script'), { src: 'main.js' })); // no module
   await until(() => window.omnistereo?.viewer.picture, 'opens the page');
   return window.omnistereo;
 }
