@@ -434,12 +434,6 @@ TEST_F(ViewBrowser, KeepsTheStudiosSettings) {
 }
 
 // The page finds the kernel's numbers of the merges by a list of their names.
-TEST(StudioPage, KnowsTheKernelsMerges) {
-  std::string list;
-  for (int mode = 0; mode < kMergeCount; mode++) list += fmt::format("{}'{}'", mode ? ", " : "", merge_name(mode));
-  EXPECT_NE(find_page_file("merge-curve.js")->data.find("[" + list + "]"), std::string_view::npos) << list;
-}
-
 // In an emulated headset: each eye has its own picture in the direction in which its view points, wherever the head is.
 TEST_F(ViewBrowser, ShowsEachEyeItsPictureInAHeadset) {
   if (!std::getenv("ODS_IWER")) GTEST_SKIP() << "skipped: ODS_IWER does not name iwer.module.js (npm install iwer)";
