@@ -12,7 +12,8 @@
 #include "ods/sequence/render_video.h"
 
 int main(int argc, char** argv) try {
-  ods::Scene scene = ods::load_scene(argc > 1 ? argv[1] : "room");
+  const std::string name = argc > 1 ? argv[1] : "room";
+  ods::Scene scene = ods::load_scene(name);
   ods::play(scene.animation, "");  // whatever the file animates
 
   ods::StereoCamera camera;
@@ -28,8 +29,9 @@ int main(int argc, char** argv) try {
   ods::VideoOptions video;
   video.frames.resize(4);
   std::iota(video.frames.begin(), video.frames.end(), 0);
+  video.settings = {{"scene", name, ""}};  // the frames of another scene are refused
   ods::Progress progress;
-  progress.report = [](double done) { std::fprintf(stderr, "%3.0f %%\n", 100.0 * done); };
+  progress.report = [](double done) { std::fprintf(stderr, "%3.0f %%\r", 100.0 * done); };
   ods::render_video(scene, options, video, argc > 2 ? argv[2] : "room_360_TB.mp4", progress);
 } catch (const ods::Error& error) {
   std::fprintf(stderr, "%s\n", error.what());

@@ -26,11 +26,10 @@ constexpr const char* kComfortExamples =
     "  ods comfort scene.glb --rules google || echo move the camera";
 
 constexpr const char* kComfortSummary =
-    "Judges what a stereo 360 picture does to its viewer's eyes: by its depth layer, by matching its eyes where it "
-    "has\n"
-    "none, or in a scene before it is rendered. Lists the things that strain most, where they are, and what would "
-    "help. docs/comfort.md explains\n"
-    "the strains and their limits. Exit code 1: something is an error; cautions and warnings do not count.";
+    "Judges how a stereo 360 picture strains its viewer's eyes: by its depth layer, or, if it has none, by matching\n"
+    "its eyes. Judges a scene before it is rendered, too. Lists what strains most, where it is, and what would help.\n"
+    "docs/comfort.md explains the strains and their limits. Exit code 1: something is an error; cautions and warnings\n"
+    "do not count.";
 
 // Where the lenses of headsets focus.
 struct FocusRow {

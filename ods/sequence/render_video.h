@@ -20,15 +20,17 @@ struct VideoOptions {
   std::vector<int> frames;        // numbers, rising
   std::optional<float> exposure;  // stops; none: what suits the light of all frames
   ToneCurve tone = DisplayTransform{}.tone;
-  EncodeOptions encode;  // its rate is that of the sequence, too
-  Settings settings;     // what the frames depend on: those of an interrupted call with others are not continued
+  EncodeOptions encode;  // its rate replaces SequenceOptions::fps
+  // All that the frames depend on, listed by the caller: scene, size, samples, camera. Frames that an interrupted call
+  // with other settings has left are refused. Two calls that list none count as one.
+  Settings settings;
   bool restart = false, keep_frames = false;
 };
 
 // Renders the frames that are missing, each denoised with those beside it, and encodes all. options.camera is required;
-// where frames are shown with the chosen exposure, noise is judged at it. Throws Error: kUsage (frames made with other
-// settings, a foreign folder in their place), kInput, kOutput (also if another process works on this video), kMemory,
-// kCancelled.
+// where frames are shown with the chosen exposure, noise is judged at it. Calls progress.report hundreds of times a
+// second. Throws Error: kUsage (frames made with other settings, a foreign folder in their place), kInput, kOutput
+// (also if another process works on this video), kMemory, kCancelled.
 void render_video(Scene& scene, SequenceOptions options, const VideoOptions& video, const std::string& path,
                   const Progress& progress = {});
 

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The camera in a picture file's header, written and read: our attributes in EXR files, and Google's "Photo Sphere XMP
-// Metadata" (GPano) in display-referred formats.
+// Metadata" (GPano) in display-referred formats, which says nothing of eyes, merges and depth. save_picture() and
+// tag_picture() write it, find_format() reads it (stereo_format.h).
 //
 // The attributes are those of ods/camera/camera_fields.cpp where they matter to the picture, ods:projection,
 // ods:mirrored, ods:headTilt and ods:mergeCurve. All round-trip bit for bit, except head-tilt maps and merge maps that
