@@ -12,6 +12,7 @@
 #include <ctime>
 
 #include "ods/base/angles.h"
+#include "ods/comfort/areas.h"
 #include "ods/comfort/matched.h"
 #include "ods/convert/reproject.h"
 #include "ods/picture/load_eyes.h"

@@ -3,6 +3,7 @@
 //
 // The controls of the headset's panel, and how they are painted. A control has its box in pixels, a text or an icon, and
 // either run() or, as a slider, its part of the way 0..1 and drag(part, isLast).
+import { clamp } from './geometry.js';
 import { WORN } from './modes.js';
 
 export const WIDE = 1024; // pixels
@@ -21,7 +22,7 @@ const SOLID = ['play', 'pause'];
 
 const clock = (seconds) => `${Math.floor(seconds / 60)}:${String(Math.floor(seconds % 60)).padStart(2, '0')}`;
 const signed = (value) => (value > 0 ? '+' : value < 0 ? '−' : '') + Math.abs(value).toFixed(1);
-const stepped = (part) => Math.round(Math.min(Math.max(part, 0), 1) * STEPS) / STEPS;
+const stepped = (part) => Math.round(clamp(part, 0, 1) * STEPS) / STEPS;
 
 // Boxes for the cells of rows; a cell is as wide as its share of the row, 1 unless it says.
 function lay(rows) {
@@ -54,7 +55,7 @@ function listRows(panel, entries) {
   if (entries.length < 2) return [];
   const last = Math.max(entries.length - LISTED, 0);
   panel.first = Math.min(panel.first, last);
-  const by = (count) => () => (panel.first = Math.min(Math.max(panel.first + count, 0), last));
+  const by = (count) => () => (panel.first = clamp(panel.first + count, 0, last));
   const turns = [{ id: 'up', icon: 'up', run: by(-LISTED) }, { text: `${Math.ceil(panel.first / LISTED) + 1}/${Math.ceil(entries.length / LISTED)}` }, { id: 'down', icon: 'down', run: by(LISTED) }];
   return entries.slice(panel.first, panel.first + LISTED).map(({ name, thumbnail, on, run }, i) => {
     const row = [{ id: `item-${panel.first + i}`, text: name, image: panel.thumbnail(thumbnail), on, run, share: 9, isName: true }];

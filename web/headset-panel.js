@@ -4,7 +4,7 @@
 // The panel in the headset, and what points at it: the rays of controllers and hands, the look of those who pinch what
 // they look at, and where nothing else points, the head, which chooses by staying. While the panel is away, a handle low
 // in front opens it. Neither is fixed to the head: the panel stands in the room until the wearer has turned away from it.
-import { radians } from './geometry.js';
+import { clamp, radians } from './geometry.js';
 import { TEXT, WIDE, controlsOf, paint } from './headset-controls.js';
 import { Sheets, facing, headingOf, meet, plus, poseOf, sheetAhead, thread } from './headset-room.js';
 import { directionAt } from './places.js';
@@ -165,7 +165,7 @@ export class HeadsetPanel {
     const control = this.content.controls.find((each) => each.id === id);
     if (!control) return;
     const [left, , width] = control.box;
-    control.drag(Math.min(Math.max((this.pixel(hit)[0] - left - 16) / (width - 32), 0), 1), isLast);
+    control.drag(clamp((this.pixel(hit)[0] - left - 16) / (width - 32), 0, 1), isLast);
   }
 
   // A source's press. False where it means something else.

@@ -4,7 +4,7 @@
 // The picture in a headset, by WebXR. Only the orientation of each eye's view counts: every direction shows exactly the
 // line of sight that the picture has there, wherever the head is. The panel (headset-panel.js) comes with the session. The
 // page's canvas shows what the left eye sees.
-import { degrees } from './geometry.js';
+import { clamp, degrees } from './geometry.js';
 import { wornEye } from './modes.js';
 import { raysOf } from './panorama.js';
 import { Pace } from './pace.js';
@@ -50,7 +50,7 @@ export function raysOfView({ transform, projectionMatrix: p }, turn) {
 
 // Where a head looks in the picture: yaw, pitch, roll in degrees.
 export function lookOf({ matrix: m }, turn) {
-  const [yaw, pitch] = [Math.atan2(-m[8], m[10]), Math.asin(Math.min(Math.max(-m[9], -1), 1))];
+  const [yaw, pitch] = [Math.atan2(-m[8], m[10]), Math.asin(clamp(-m[9], -1, 1))];
   const [s, c] = [Math.sin(yaw), Math.cos(yaw)];
   const above = -m[0] * s * Math.sin(pitch) + m[1] * Math.cos(pitch) + m[2] * c * Math.sin(pitch);
   const roll = Math.atan2(-above, m[0] * c + m[2] * s);

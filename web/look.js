@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Mouse, touch, wheel and the device's own orientation turn the viewer's look.
-import { degrees, radians } from './geometry.js';
+import { clamp, degrees, dot, radians } from './geometry.js';
 import { fovOf, halfWidth } from './panorama.js';
-
 
 // Dragging takes the picture along: what is in the middle of the view follows the pointer exactly.
 // hasWheel(): whether the wheel is the picture's now, and not the page's around it.
@@ -56,10 +55,9 @@ export function lookOfDevice(alpha, beta, gamma, screenTurn) {
   const ahead = [-(ca * sg + sa * sb * cg), -(sa * sg - ca * sb * cg), -cb * cg];
   const right = x.map((value, i) => value * Math.cos(s) - y[i] * Math.sin(s));
   const yaw = Math.atan2(ahead[0], ahead[1]);
-  const pitch = Math.asin(Math.min(Math.max(ahead[2], -1), 1));
+  const pitch = Math.asin(clamp(ahead[2], -1, 1));
   const level = [Math.cos(yaw), -Math.sin(yaw), 0];
   const top = [-Math.sin(pitch) * Math.sin(yaw), -Math.sin(pitch) * Math.cos(yaw), Math.cos(pitch)];
-  const dot = (p, q) => p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
   return { yaw: degrees(yaw), pitch: degrees(pitch), roll: degrees(Math.atan2(-dot(right, top), dot(right, level))) };
 }
 

@@ -3,7 +3,7 @@
 //
 // The merge as a curve: how much of the eye distance is left from straight down to straight up. Its ends can be dragged.
 // The formula is the kernel's, run on the GPU by merge-curve.frag.
-import { radians } from './geometry.js';
+import { clamp, radians } from './geometry.js';
 import { compile } from './panorama.js';
 
 const COUNT = 181;
@@ -84,7 +84,7 @@ export class MergeCurve {
       const box = this.svg.getBoundingClientRect();
       const x = ((event.clientX - box.left) / box.width) * SIZE[0];
       const at = ((x - BOX[0]) / (BOX[1] - BOX[0])) * 180 - 90;
-      return Math.min(Math.max(Math.round(which === 'top' ? at : -at), 0), 90);
+      return clamp(Math.round(which === 'top' ? at : -at), 0, 90);
     };
     let gesture = null;
     circle.addEventListener('pointerdown', (event) => {

@@ -4,6 +4,7 @@
 // What somebody says of a picture: its caption, and hotspots, each a button where a direction is, with a card of text.
 // view.json has them as { caption, hotspots: [{ yaw, pitch, title, text }] } (docs/view.md). They are text, never HTML.
 import { make } from './elements.js';
+import { clamp } from './geometry.js';
 import { partsOf, placeOf } from './places.js';
 
 export function showNotes(viewer) {
@@ -52,7 +53,7 @@ export function showNotes(viewer) {
     const at = open && parts[0] && placeOf(viewer, open.spot, parts[0]);
     card.hidden = !at;
     if (!at) return;
-    const left = Math.min(Math.max(at[0] - card.offsetWidth / 2, 8), viewer.canvas.clientWidth - card.offsetWidth - 8);
+    const left = clamp(at[0] - card.offsetWidth / 2, 8, viewer.canvas.clientWidth - card.offsetWidth - 8);
     const above = at[1] - card.offsetHeight - 26;
     card.style.translate = `${left}px ${above > 8 ? above : at[1] + 26}px`;
   };

@@ -4,6 +4,7 @@
 // A viewer with everything over its picture: bar, settings, help, keys. The page and <stereo-360> are one of these each.
 import { ACTIONS, actionOf, applies } from './actions.js';
 import { Controls } from './controls.js';
+import { clamp } from './geometry.js';
 import { Headset, hasHeadset } from './headset.js';
 import { followPointer } from './look.js';
 import { MARKUP } from './markup.js';
@@ -123,7 +124,7 @@ export class Player {
     const step = (now) => {
       if (!this.turning) return;
       const { viewer } = this;
-      if (!viewer.session) viewer.set({ yaw: viewer.state.yaw + (TURN * Math.min(Math.max(now - this.turning, 0), 100)) / 1000 });
+      if (!viewer.session) viewer.set({ yaw: viewer.state.yaw + (TURN * clamp(now - this.turning, 0, 100)) / 1000 });
       this.turning = Math.max(now, 1);
       requestAnimationFrame(step);
     };

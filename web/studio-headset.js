@@ -3,7 +3,7 @@
 //
 // The studio in the headset: the stick moves where the merge starts and ends, the trigger swaps A and B, and a line of
 // text in view says so. headset.js calls it.
-import { dot, wrapDegrees } from './geometry.js';
+import { clamp, dot, wrapDegrees } from './geometry.js';
 import { EyeTexture } from './tiles.js';
 
 const DEAD = 0.25; // of the stick's way
@@ -37,7 +37,7 @@ export class VrSteering {
     const { merge_top: top } = session.settings.sidecar;
     if (!this.gesture) Object.assign(this, { gesture: {}, values: { start: top.start, end: top.end } });
     const { values } = this;
-    if (right) values.start = Math.min(Math.max(values.start + right * SPEED * time, 0), values.end - 1);
+    if (right) values.start = clamp(values.start + right * SPEED * time, 0, values.end - 1);
     if (up) values.end = Math.max(Math.min(values.end + up * SPEED * time, 90), values.start + 1);
     this.merge(values, this.gesture, true);
     this.say(`Merge ${halves(values.start).toFixed(1)}° – ${halves(values.end).toFixed(1)}°`);

@@ -3,6 +3,8 @@
 //
 // Tooltips: data-tip says what a control does, data-key the key that does it, too. One for the whole root, above
 // everything, so that nothing cuts it off. It appears when a mouse rests or the keyboard arrives, and goes with Escape.
+import { clamp } from './geometry.js';
+
 const REST = 500; // milliseconds
 const GAP = 8; // pixels
 
@@ -24,7 +26,7 @@ export function watchTips(root) {
     tip.showPopover();
     const of = owner.getBoundingClientRect();
     const [width, height] = [tip.offsetWidth, tip.offsetHeight];
-    const left = Math.min(Math.max(of.left + (of.width - width) / 2, GAP), innerWidth - width - GAP);
+    const left = clamp(of.left + (of.width - width) / 2, GAP, innerWidth - width - GAP);
     const above = of.top - height - GAP;
     Object.assign(tip.style, { left: `${left}px`, top: `${above > GAP ? above : of.bottom + GAP}px` });
   };

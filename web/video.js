@@ -4,6 +4,7 @@
 // A video as a picture whose eyes change. The browser decodes; times that are asked for are the middles of frames, so
 // that rounding cannot show a neighbour.
 import { cropOf, isRound, same } from './form.js';
+import { clamp } from './geometry.js';
 import { EyeTexture, FrameCutter } from './tiles.js';
 
 const SETTLE = 150; // milliseconds
@@ -100,13 +101,13 @@ export async function openVideo(gl, item, form, url, signal) {
     },
     toggle: () => (video.paused ? video.play().catch(() => {}) : video.pause()),
     seek(seconds) {
-      wanted = Math.min(Math.max(Math.floor(seconds * fps), 0), frames - 1);
+      wanted = clamp(Math.floor(seconds * fps), 0, frames - 1);
       video.currentTime = (wanted + 0.5) / fps;
     },
     step(count) {
       video.pause();
       const from = video.seeking ? wanted : picture.frame();
-      wanted = Math.min(Math.max(from + count, 0), frames - 1);
+      wanted = clamp(from + count, 0, frames - 1);
       video.currentTime = (wanted + 0.5) / fps;
     },
     free() {

@@ -13,6 +13,7 @@
 #include "cli/comfort/first_look.h"
 #include "cli/console/console.h"
 #include "ods/camera/pixel.h"
+#include "ods/comfort/areas.h"
 #include "ods/convert/reproject.h"
 #include "ods/convert/unwrap.h"
 #include "ods/depth/floor.h"

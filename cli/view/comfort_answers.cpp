@@ -8,6 +8,7 @@
 
 #include "cli/comfort/heat.h"
 #include "cli/view/comfort_layer.h"
+#include "ods/comfort/areas.h"
 #include "ods/comfort/merge_from_depth.h"
 
 namespace {

@@ -46,12 +46,7 @@ ComfortLayer comfort_layer(const ods::ViewItem& item) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
   const std::string path = (folder / fmt::format("ods-view-{}-heat-%V.jpg", getpid())).string();
   const std::vector<std::string> files = ods::save_picture(heat_picture(looked, reports), looked.camera, {}, path);
-  const auto bytes_of = [](const std::string& name) {
-    const ods::FileInput file(name);
-    return file.read(0, file.size());
-  };
-  layer.left = bytes_of(files.front());
-  layer.right = bytes_of(files.back());
-  for (const std::string& file : files) std::filesystem::remove(file);
+  layer.left = ods::take_file(files.front());
+  layer.right = files.size() == 2 ? ods::take_file(files.back()) : layer.left;
   return layer;
 }

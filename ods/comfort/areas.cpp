@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "ods/comfort/comfort.h"
 #include "ods/picture/picture.h"
 
 namespace ods {

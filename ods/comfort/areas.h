@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Connected areas of a picture: pixels that touch and are about as far away.
+// Areas of a picture's depth: those that are connected, whose pixels touch and are about as far away, and blocks.
 #pragma once
 #include <vector>
+
+#include "ods/image/image.h"
 
 namespace ods {
 
@@ -16,5 +18,9 @@ struct AreaGrid {
 
 // The number of each pixel's area, from 0 on; -1: in none.
 std::vector<int> connected_areas(const AreaGrid& grid);
+
+// The depth of a picture that is at most `most_width` wide: the nearest of each block of pixels. Blocks without a depth
+// are NaN. chosen: gets the index of each block's nearest pixel.
+Image nearest_of_blocks(const Image& depth, int most_width, std::vector<size_t>* chosen = nullptr);
 
 }  // namespace ods

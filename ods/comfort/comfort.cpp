@@ -120,6 +120,7 @@ class Judge {
   double rank_of(const Point& point) const;
   double circle_for(size_t pixel) const;
   double circle_by_steps(const Point& point) const;
+  size_t most_converged(int y) const;
   double circle_for_row(int y) const;
   double roll_for_row(int y) const;
   StrainedPlace describe(size_t pixel, double share) const;
@@ -305,26 +306,27 @@ double Judge::circle_by_steps(const Point& point) const {
   return share;
 }
 
-// On an even row, the pixel for which the eyes converge most has the most of all but steps.
-double Judge::circle_for_row(int y) const {
-  size_t worst = pixel(0, y);
-  double share = 1.0;
-  for (size_t i = pixel(0, y); i < pixel(0, y + 1); i++) {
-    share = std::min(share, is_even_ ? circle_by_steps(points_[i]) : circle_for(i));
-    if (points_[i].vergence > points_[worst].vergence) worst = i;
-  }
-  return std::min(share, circle_for(worst));
+// The pixel for which the eyes converge most. On an even row it has the most of all but steps.
+size_t Judge::most_converged(int y) const {
+  const auto row = points_.begin() + static_cast<std::ptrdiff_t>(pixel(0, y));
+  return static_cast<size_t>(std::ranges::max_element(row, row + width_, {}, &Point::vergence) - points_.begin());
 }
 
-// Up to which it is no more than a caution. On an even row, of the pixel for which the eyes converge most.
+double Judge::circle_for_row(int y) const {
+  double share = circle_for(most_converged(y));
+  for (size_t i = pixel(0, y); i < pixel(0, y + 1); i++) {
+    share = std::min(share, is_even_ ? circle_by_steps(points_[i]) : circle_for(i));
+  }
+  return share;
+}
+
+// Up to which it is no more than a caution.
 double Judge::roll_for_row(int y) const {
   const double most = limit(Strain::kVertical) * kArcMinute;
-  const auto begin = points_.begin() + static_cast<std::ptrdiff_t>(pixel(0, y));
-  const auto worst =
-      std::max_element(begin, begin + width_, [](const Point& a, const Point& b) { return a.vergence < b.vergence; });
+  const size_t worst = most_converged(y);
   double least = 0.5 * pi;
   for (int x = 0; x < width_; x++) {
-    if ((is_even_ && begin + x != worst) || !(begin[x].vergence > 0.0f)) continue;
+    if ((is_even_ && pixel(x, y) != worst) || !(points_[pixel(x, y)].vergence > 0.0f)) continue;
     const View view = view_of(x, y);
     const double half = place_at(x, y, view).half_parallax;
     if (worst_vertical_disparity(half, view.elevation, {reach_.gaze, least}) <= most) continue;

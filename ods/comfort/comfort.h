@@ -87,8 +87,4 @@ double azimuth_of(vec3 direction);
 // "23 degrees right, 12 down".
 std::string direction_text(double azimuth, double elevation);
 
-// The depth of a picture that is at most `most_width` wide: the nearest of each block of pixels. Blocks without a depth
-// are NaN. chosen: gets the index of each block's nearest pixel.
-Image nearest_of_blocks(const Image& depth, int most_width, std::vector<size_t>* chosen = nullptr);
-
 }  // namespace ods

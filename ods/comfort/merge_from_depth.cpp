@@ -11,6 +11,7 @@
 
 #include "ods/base/angles.h"
 #include "ods/camera/pixel.h"
+#include "ods/comfort/areas.h"
 #include "ods/convert/reproject.h"
 #include "ods/picture/picture.h"
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 
 #include "ods/base/error.h"
@@ -94,6 +95,13 @@ void FileInput::give_mode(AtomicFile& file) const {
     const int ignored = fchmod(fileno(file.stream()), status.st_mode & 0777);  // some file systems have no modes
     static_cast<void>(ignored);
   }
+}
+
+std::string take_file(const std::string& path) {
+  const FileInput file(path);
+  std::string bytes = file.read(0, file.size());
+  std::remove(path.c_str());
+  return bytes;
 }
 
 }  // namespace ods

@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <utility>
 
 #include "ods/base/bytes.h"
 #include "ods/base/error.h"
@@ -45,11 +44,7 @@ PartsFile::PartsFile(const std::string& path, const Settings& settings, bool res
 }
 
 PartsFile::~PartsFile() {
-  if (stream_ != nullptr) std::fclose(stream_);
-  if (count_ == 0 && stream_ != nullptr) {
-    std::remove(path_.c_str());
-    forget_unfinished(path_.c_str());
-  }
+  if (count_ == 0) remove();
 }
 
 void PartsFile::check(bool is_well) const {
@@ -64,78 +59,72 @@ void PartsFile::open_old(const Settings& settings, bool restart) {
   if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path_))) {
     throw Error(ErrorKind::kOutput, fmt::format("'{}' is no file of parts: remove it, or choose another name", path_));
   }
-  stream_ = std::fopen(path_.c_str(), "r+be");
+  stream_.reset(std::fopen(path_.c_str(), "r+be"));
   check(stream_ != nullptr);
-  const std::string head = read_bytes(stream_, kHead.size()), length = read_bytes(stream_, 4);
+  const std::string head = read_bytes(stream_.get(), kHead.size()), length = read_bytes(stream_.get(), 4);
   if (head != kHead || length.size() != 4) {
-    std::fclose(std::exchange(stream_, nullptr));
     throw Error(ErrorKind::kOutput,
                 fmt::format("'{}' was not written by this version of ods: remove it, or choose another name", path_));
   }
-  const Settings then = parse_settings(read_bytes(stream_, get_number(length, 0, 4)));
-  begin_ = end_ = place_in(stream_);
+  const Settings then = parse_settings(read_bytes(stream_.get(), get_number(length, 0, 4)));
+  begin_ = end_ = place_in(stream_.get());
   find_end();
   if (restart || count_ == 0) return remove();
-  try {
-    expect_same_settings(path_, then, settings);
-  } catch (const Error&) {
-    std::fclose(std::exchange(stream_, nullptr));
-    throw;
-  }
+  expect_same_settings(path_, then, settings);
 }
 
 void PartsFile::find_end() {
   for (;;) {
-    const uint64_t at = place_in(stream_);
-    const std::string length = read_bytes(stream_, 4);
+    const uint64_t at = place_in(stream_.get());
+    const std::string length = read_bytes(stream_.get(), 4);
     if (length.size() < 4) return;
     const uint64_t size = get_number(length, 0, 4);
     if (size != kCheckpoint) {
-      check(fseeko(stream_, static_cast<off_t>(size), SEEK_CUR) == 0);
+      check(fseeko(stream_.get(), static_cast<off_t>(size), SEEK_CUR) == 0);
       continue;
     }
-    const std::string place = read_bytes(stream_, 8);
+    const std::string place = read_bytes(stream_.get(), 8);
     if (place.size() < 8 || get_number(place, 0, 8) != at) return;
-    end_ = place_in(stream_);
+    end_ = place_in(stream_.get());
     count_++;
   }
 }
 
 void PartsFile::read(const std::function<void(std::string_view record)>& take) {
   if (count_ == 0) return;
-  check(fseeko(stream_, static_cast<off_t>(begin_), SEEK_SET) == 0);
-  while (place_in(stream_) < end_) {
-    const size_t size = get_number(read_bytes(stream_, 4), 0, 4);
-    const std::string record = read_bytes(stream_, size == kCheckpoint ? 8 : size);
+  check(fseeko(stream_.get(), static_cast<off_t>(begin_), SEEK_SET) == 0);
+  while (place_in(stream_.get()) < end_) {
+    const size_t size = get_number(read_bytes(stream_.get(), 4), 0, 4);
+    const std::string record = read_bytes(stream_.get(), size == kCheckpoint ? 8 : size);
     if (size != kCheckpoint) take(record);
   }
-  check(ftruncate(fileno(stream_), static_cast<off_t>(end_)) == 0 &&
-        fseeko(stream_, static_cast<off_t>(end_), SEEK_SET) == 0);
+  check(ftruncate(fileno(stream_.get()), static_cast<off_t>(end_)) == 0 &&
+        fseeko(stream_.get(), static_cast<off_t>(end_), SEEK_SET) == 0);
 }
 
 void PartsFile::add(std::string_view record) {
   if (stream_ == nullptr) {
     remember_unfinished(path_.c_str());  // before it exists, so that no signal falls between
-    stream_ = std::fopen(path_.c_str(), "wbxe");
-    check(stream_ != nullptr && std::fwrite(head_.data(), 1, head_.size(), stream_) == head_.size());
+    stream_.reset(std::fopen(path_.c_str(), "wbxe"));
+    check(stream_ != nullptr && std::fwrite(head_.data(), 1, head_.size(), stream_.get()) == head_.size());
   }
   const std::string length = number(record.size(), 4);
-  check(std::fwrite(length.data(), 1, 4, stream_) == 4 &&
-        std::fwrite(record.data(), 1, record.size(), stream_) == record.size());
+  check(std::fwrite(length.data(), 1, 4, stream_.get()) == 4 &&
+        std::fwrite(record.data(), 1, record.size(), stream_.get()) == record.size());
 }
 
 // A mark is written only when all before it is on the disk.
 void PartsFile::end_part() {
-  check(std::fflush(stream_) == 0 && fsync(fileno(stream_)) == 0);
-  const std::string mark = number(kCheckpoint, 4) + number(place_in(stream_), 8);
-  check(std::fwrite(mark.data(), 1, mark.size(), stream_) == mark.size() && std::fflush(stream_) == 0);
+  check(std::fflush(stream_.get()) == 0 && fsync(fileno(stream_.get())) == 0);
+  const std::string mark = number(kCheckpoint, 4) + number(place_in(stream_.get()), 8);
+  check(std::fwrite(mark.data(), 1, mark.size(), stream_.get()) == mark.size() && std::fflush(stream_.get()) == 0);
   forget_unfinished(path_.c_str());
   count_++;
 }
 
 void PartsFile::remove() {
   if (stream_ == nullptr) return;
-  std::fclose(std::exchange(stream_, nullptr));
+  stream_.reset();
   std::remove(path_.c_str());
   forget_unfinished(path_.c_str());
   count_ = 0;

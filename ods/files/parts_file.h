@@ -53,7 +53,7 @@ class PartsFile {
 
   std::unique_ptr<Claim> claim_;
   std::string path_, head_;
-  std::FILE* stream_ = nullptr;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream_{nullptr, std::fclose};
   uint64_t begin_ = 0, end_ = 0;  // of the finished parts
   int count_ = 0;
 };

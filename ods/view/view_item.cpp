@@ -205,10 +205,7 @@ static std::string jpeg_of(const StoredPicture& picture, const ConvertTarget& ta
   const Conversion conversion = convert(picture, target);
   const std::string path = momentary_path(".jpg");
   save_picture(conversion.rows, nullptr, save, path);
-  const FileInput file(path);
-  std::string bytes = file.read(0, file.size());
-  std::filesystem::remove(path);
-  return bytes;
+  return take_file(path);
 }
 
 // Means of the file's code values over whole pixels; `part`: 0..1 of the file, x, y, width, height.

@@ -11,6 +11,7 @@
 
 #include "ods/base/error.h"
 #include "ods/camera/pixel.h"
+#include "ods/comfort/areas.h"
 #include "ods/comfort/merge_from_depth.h"
 #include "ods/picture/picture.h"
 

@@ -33,16 +33,26 @@ float noise_at(vec3 p, float size, uint32_t seed) {
 
 namespace {
 
-// A room with a window, pictures on the walls and tiles on the floor; the eyes are 1.5 m above it.
-vec3 hall_at(vec3 origin, vec3 direction) {
-  const vec3 low(-2.2f, -1.5f, -3.1f), high(2.9f, 1.4f, 3.6f);
+// Where a ray from within a box meets it, and the axis across the wall.
+struct WallHit {
+  vec3 point;
+  int axis;
+};
+
+WallHit wall_of_box(vec3 low, vec3 high, vec3 origin, vec3 direction) {
   float t = std::numeric_limits<float>::max();
-  int wall = 0;
+  int axis = 0;
   for (int i = 0; i < 3; i++) {
     const float d = direction[i], edge = d > 0.0f ? high[i] : low[i];
-    if (d != 0.0f && (edge - origin[i]) / d < t) t = (edge - origin[i]) / d, wall = 2 * i + (d > 0.0f ? 1 : 0);
+    if (d != 0.0f && (edge - origin[i]) / d < t) t = (edge - origin[i]) / d, axis = i;
   }
-  const vec3 p = origin + t * direction;
+  return {origin + t * direction, axis};
+}
+
+// A room with a window, pictures on the walls and tiles on the floor; the eyes are 1.5 m above it.
+vec3 hall_at(vec3 origin, vec3 direction) {
+  const auto [p, axis] = wall_of_box(vec3(-2.2f, -1.5f, -3.1f), vec3(2.9f, 1.4f, 3.6f), origin, direction);
+  const int wall = 2 * axis + (direction[axis] > 0.0f ? 1 : 0);
   const std::array<vec3, 6> paint = {vec3(0.6f, 0.3f, 0.2f),  vec3(0.3f, 0.5f, 0.6f), vec3(0.25f), vec3(0.85f),
                                      vec3(0.5f, 0.55f, 0.3f), vec3(0.7f, 0.6f, 0.5f)};
   vec3 color = paint[static_cast<size_t>(wall)] * (0.5f + 0.9f * noise_at(p, 0.6f, static_cast<uint32_t>(wall)));
@@ -94,14 +104,8 @@ vec3 cave_at(vec3 origin, vec3 direction) {
 
 // A test room: checks of half a metre on all six sides, and its four walls are alike.
 vec3 tiles_at(vec3 origin, vec3 direction) {
-  const vec3 low(-2.5f, -1.5f, -2.5f), high(2.5f, 1.5f, 2.5f);
-  float t = std::numeric_limits<float>::max();
-  int wall = 0;
-  for (int i = 0; i < 3; i++) {
-    const float d = direction[i], edge = d > 0.0f ? high[i] : low[i];
-    if (d != 0.0f && (edge - origin[i]) / d < t) t = (edge - origin[i]) / d, wall = i;
-  }
-  const vec3 p = (origin + t * direction) * 2.0f;
+  const auto [point, wall] = wall_of_box(vec3(-2.5f, -1.5f, -2.5f), vec3(2.5f, 1.5f, 2.5f), origin, direction);
+  const vec3 p = point * 2.0f;
   int sum = 0;
   for (int i = 0; i < 3; i++) sum += i == wall ? 0 : static_cast<int>(std::floor(p[i]));
   return vec3(sum % 2 == 0 ? 0.6f : 0.15f) * (wall == 1 ? 0.8f : 1.0f);
