@@ -31,15 +31,15 @@ struct Step {
   int samples;
 };
 constexpr Step kSteps[] = {
-    {false, 160, 2}, {false, 512, 2},  {true, 0.4f, 2}, {true, 0.7f, 2},  {true, 1, 4},
-    {false, 768, 4}, {true, 1, 8},     {true, 1, 16},   {false, 768, 16}, {true, 1, 32},
-    {true, 1, 64},   {false, 768, 64}, {true, 1, 128},
+    {false, 128, 2}, {true, 0.2f, 2}, {false, 512, 2},  {true, 0.4f, 2}, {true, 0.7f, 2},
+    {true, 1, 4},    {false, 768, 4}, {true, 1, 8},     {true, 1, 16},   {false, 768, 16},
+    {true, 1, 32},   {true, 1, 64},   {false, 768, 64}, {true, 1, 128},
 };
-constexpr size_t kFirstOfPatch = 2;
+constexpr size_t kFirstOfPatch = 1;
 static_assert(kSteps[kFirstOfPatch].is_patch);
 
 // From this step on a light cache pays: it takes a second or two of a core to fill.
-constexpr size_t kFirstCached = 4;
+constexpr size_t kFirstCached = 5;
 constexpr int kCachePaths = 1 << 18;
 
 constexpr float kScreen = 1280.0f;      // pixels across a view

@@ -124,10 +124,12 @@ TEST_F(LiveRendering, AnotherExposureShowsTheSameSamplesAtOnce) {
   live.set(settings, {});
   const Frame before = wait_for(live, 0, [](const LiveFrame& frame) { return frame.is_patch; });
   ASSERT_TRUE(before);
+  const Frame finer =
+      wait_for(live, 0, [](const LiveFrame& frame) { return !frame.is_patch && frame.eye.width > 192; });
+  ASSERT_TRUE(finer);
   settings.exposure = 1.0f;
   const int revision = live.set(settings, {});
-  const Frame after =
-      wait_for(live, before->number, [&](const LiveFrame& frame) { return frame.revision == revision; });
+  const Frame after = wait_for(live, finer->number, [&](const LiveFrame& frame) { return frame.revision == revision; });
   ASSERT_TRUE(after);
   EXPECT_GT(after->eye.width, 192) << "it began anew";
   const Frame patch = wait_for(live, before->number,
