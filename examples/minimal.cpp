@@ -9,7 +9,8 @@
 int main() {
   ods::Scene scene = ods::load_scene("room");  // or the path of a .glb file
   ods::StereoCamera camera;
-  camera.position = ods::default_view(scene).position;
+  const ods::ViewPoint view = ods::default_view(scene);
+  camera.position = view.position, camera.yaw = view.yaw;
   ods::RenderOptions options;
   options.width = 512;
   ods::save_picture(ods::render_cpu(scene, camera, options), camera, {}, "room_360_TB.png");

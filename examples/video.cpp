@@ -17,7 +17,8 @@ int main(int argc, char** argv) try {
   ods::play(scene.animation, "");  // whatever the file animates
 
   ods::StereoCamera camera;
-  camera.position = ods::default_view(scene).position;
+  const ods::ViewPoint view = ods::default_view(scene);
+  camera.position = view.position, camera.yaw = view.yaw;
   ods::CameraMove move;
   move.seconds = 1.0, move.fly_to = {camera.position + ods::vec3(0.5f, 0.0f, 0.0f)};
 

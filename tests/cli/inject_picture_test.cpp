@@ -9,6 +9,8 @@
 
 #include "ods/image/format/xmp_file.h"
 #include "ods/picture/metadata/metadata.h"
+#include "ods/picture/metadata/sidecar.h"
+#include "ods/picture/metadata/stereo_format.h"
 #include "ods/picture/save.h"
 #include "tests/support/cli_runner.h"
 
@@ -110,6 +112,23 @@ TEST_F(InjectPicture, AProjectionThatIsAskedForKeepsTheOrientation) {
     EXPECT_NEAR(now->pitch, said->pitch, 1e-3f);
     EXPECT_NEAR(now->roll, said->roll, 1e-3f);
   }
+}
+
+// Commands believe the sidecar before GPano.
+TEST_F(InjectPicture, TheSidecarSaysTheSame) {
+  const std::string path = folder.path("seen_360.png"), beside = "seen_360.camera.json";
+  ASSERT_EQ(run("render axis --eyes mono --width 32 --samples 1 --quiet --sidecar -o " + path), 0) << err;
+  ASSERT_EQ(run("inject " + path + " --yaw 30 --pitch -10"), 0) << err;
+  std::vector<std::string> warnings;
+  const StereoCamera now = ods::open_camera(path, warnings).camera;
+  EXPECT_EQ(now.yaw, 30.0f);
+  EXPECT_EQ(now.pitch, -10.0f);
+  // That of another picture of the same name stays.
+  const std::string other = folder.read(beside);
+  ASSERT_EQ(run("render axis --eyes mono --width 64 --samples 1 --quiet -o " + folder.path("seen_360.tif")), 0) << err;
+  folder.write(beside, other);
+  ASSERT_EQ(run("inject " + folder.path("seen_360.tif") + " --yaw 60"), 0) << err;
+  EXPECT_EQ(folder.read(beside), other);
 }
 
 }  // namespace ods::inject_picture_test

@@ -158,8 +158,7 @@ LayoutGuess guess_layout(const FileInfo& info, const std::string& path,
 
 // --- everything together ---------------------------------------------------------------------------------------------
 
-// A sidecar may belong to another picture of the same name: picture.exr and picture.png share one.
-static bool belongs_to(const Sidecar& sidecar, const FileInfo& info) {
+bool belongs_to(const Sidecar& sidecar, const FileInfo& info) {
   const int count = static_cast<int>(sidecar.eyes.size());
   if (count == 2 && sidecar.layout == Layout::kMultiview && !has_view(info, "right")) return false;
   if (sidecar.eye.width == 0) return true;

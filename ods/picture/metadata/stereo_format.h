@@ -94,6 +94,9 @@ struct StereoFormat {
 // sidecar, unless the caller knows the layout or the projection.
 StereoFormat find_format(const FileInfo& info, const std::string& path, const FormatHint& known);
 
+// False: the sidecar belongs to another picture of the same name. picture.exr and picture.png share one.
+bool belongs_to(const Sidecar& sidecar, const FileInfo& info);
+
 // The camera of a file: a camera sidecar, or a picture with its camera in its header or in a sidecar beside it. Guesses
 // about a picture are added to `warnings`. Throws Error(kInput): neither kind of file, or a picture without a camera.
 Sidecar open_camera(const std::string& path, std::vector<std::string>& warnings);

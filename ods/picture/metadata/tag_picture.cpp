@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "ods/base/error.h"
 #include "ods/base/suggest.h"
@@ -16,6 +17,7 @@
 #include "ods/image/format/xmp_file.h"
 #include "ods/image/orientation.h"
 #include "ods/picture/metadata/metadata.h"
+#include "ods/picture/metadata/sidecar.h"
 
 namespace ods {
 
@@ -223,6 +225,27 @@ static void tag_exr(const FileInput& file, AtomicFile& to, const std::optional<P
   write_exr_header(file, to, header);
 }
 
+// --- sidecar ---------------------------------------------------------------------------------------------------------
+
+// Commands that open the picture believe its sidecar first: it must not say otherwise.
+static void retag_sidecar(const std::string& picture, const PictureTag& tag) {
+  const std::string path = sidecar_path(picture);
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) return;
+  Sidecar sidecar;
+  try {
+    std::vector<std::string> unknown_keys;
+    sidecar = load_sidecar(path, unknown_keys);
+  } catch (const Error&) {
+    return;  // complete_tag() has said so
+  }
+  if (!belongs_to(sidecar, read_picture_header(picture))) return;
+  const std::string before = write_sidecar(sidecar);
+  sidecar.camera.projection = tag.camera.projection;
+  sidecar.camera.yaw = tag.camera.yaw, sidecar.camera.pitch = tag.camera.pitch, sidecar.camera.roll = tag.camera.roll;
+  if (write_sidecar(sidecar) != before) save_sidecar(sidecar, path);
+}
+
 void tag_picture(const std::string& path, const std::string& to, const std::optional<PictureTag>& tag) {
   const FileInput file(path);
   const FileFormat format = format_of(file);
@@ -234,6 +257,7 @@ void tag_picture(const std::string& path, const std::string& to, const std::opti
   }
   file.give_mode(output);
   output.commit();
+  if (tag) retag_sidecar(to, *tag);
 }
 
 }  // namespace ods
