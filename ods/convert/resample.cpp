@@ -90,19 +90,15 @@ static Four read_light(const float* table, const std::byte* texel) {
   return value * share;
 }
 
-namespace {
-
-// Texels as a picture stores them.
-struct Block {
+// Texels as a picture stores them. Not of an unnamed namespace: g++ 14 cannot compile Resampler::Group then.
+struct StoredTexels {
   const std::byte* first;
   ptrdiff_t pixel_stride;
   ptrdiff_t row_stride;
 };
 
-}  // namespace
-
 template <class Samples, int kCount, bool kAlpha>
-static void read_lights(const Block& block, int width, int height, Four* out) {
+static void read_lights(const StoredTexels& block, int width, int height, Four* out) {
   const float* table = Samples::table();
   const std::byte* start = block.first;
   for (int y = 0; y < height; y++, start += block.row_stride) {
@@ -137,7 +133,7 @@ static void read_numbers(const std::byte* texel, int count, float* out) {
   for (int c = 0; c < count; c++) out[c] = Samples::number(sample_at<Samples>(texel, c));
 }
 
-using ReadLights = void (*)(const Block& block, int width, int height, Four* out);
+using ReadLights = void (*)(const StoredTexels& block, int width, int height, Four* out);
 
 template <class Samples>
 static ReadLights light_reader(int count, bool alpha) {
@@ -189,7 +185,7 @@ struct Resampler::Group {
   int count;
   ptrdiff_t size;  // of the group in a texel, bytes
 
-  Block block(const Source& source, int source_eye, int x, int y) const {
+  StoredTexels block(const Source& source, int source_eye, int x, int y) const {
     const LayerPixels& from = source.picture->eyes[static_cast<size_t>(source_eye)].layers[layer];
     return {from.first + y * from.row_stride + x * from.pixel_stride + offset, from.pixel_stride, from.row_stride};
   }

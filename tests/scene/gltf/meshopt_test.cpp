@@ -97,7 +97,11 @@ TEST(GltfMeshopt, ExponentialPositions) {
   std::vector<float> positions;
   for (const Vertex& v : plain.vertices) positions.insert(positions.end(), {v.position.x, v.position.y, v.position.z});
   Binary bytes(positions.size() * 4);
+#if MESHOPTIMIZER_VERSION < 190
   meshopt_encodeFilterExp(bytes.data(), plain.vertices.size(), 12, 20, positions.data());
+#else
+  meshopt_encodeFilterExp(bytes.data(), plain.vertices.size(), 12, 20, positions.data(), meshopt_EncodeExpSharedVector);
+#endif
   file.json["accessors"][0]["bufferView"] = file.add_view(bytes);
   compress_meshopt(file, 5, "ATTRIBUTES", 12, "EXPONENTIAL");
   const Scene packed = file.load();
