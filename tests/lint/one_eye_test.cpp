@@ -17,17 +17,17 @@
 
 namespace ods::one_eye_test {
 
-constexpr Extent kSize{1024, 512};
+constexpr Extent kUsual{1024, 512};
 constexpr float kPi2 = 6.2831853f;
 
 class LintOneEye : public ::testing::Test {
  protected:
-  LintReport lint_of(const std::function<vec3(vec3 direction)>& shown) const {
-    Image image(kSize.width, kSize.height, 3);
+  LintReport lint_of(const std::function<vec3(vec3 direction)>& shown, Extent size = kUsual) const {
+    Image image(size.width, size.height, 3);
     const Projection sphere = make_projection({});
-    for (int y = 0; y < kSize.height; y++) {
-      for (int x = 0; x < kSize.width; x++) {
-        const vec2 uv((static_cast<float>(x) + 0.5f) / kSize.width, (static_cast<float>(y) + 0.5f) / kSize.height);
+    for (int y = 0; y < size.height; y++) {
+      for (int x = 0; x < size.width; x++) {
+        const vec2 uv = (vec2(x, y) + 0.5f) / vec2(size.width, size.height);
         const vec3 code = shown(look_of(sphere, uv, uv).direction);
         for (int c = 0; c < 3; c++) image.at(x, y)[c] = srgb_decode(std::clamp(code[c], 0.0f, 1.0f));
       }
@@ -78,6 +78,11 @@ TEST_F(LintOneEye, WithVerticalPostsIsLevelOrNot) {
 
 TEST_F(LintOneEye, WithoutLinesIsNotJudgedToBeLevel) {
   EXPECT_FALSE(judged(lint_of([&](vec3 d) { return vec3(world(d)); }), Check::kHorizon));
+}
+
+// A level room of 256 pixels around was found tilted by 14 degrees.
+TEST_F(LintOneEye, OfFewPixelsIsNotJudgedToBeLevel) {
+  EXPECT_FALSE(judged(lint_of(posts, {256, 128}), Check::kHorizon));
 }
 
 TEST_F(LintOneEye, HasDeadPolesOrNot) {
