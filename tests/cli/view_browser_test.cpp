@@ -70,13 +70,16 @@ Extent extent_of(const ProjectionSetting& projection) {
   return {rounded, natural_height(projection, rounded)};
 }
 
-void save_world(const StereoCamera& stereo, Layout layout, const std::string& path) {
+enum class Edges { kSoft, kSharp };
+
+void save_world(const StereoCamera& stereo, Layout layout, const std::string& path, Edges edges) {
   MadePicture made = make_picture(stereo, extent_of(stereo.projection), kBothEyes);
   const Camera camera = make_camera(stereo);
-  add_colour(made, [&camera](int eye, vec2 uv, float* out) {
+  add_colour(made, [&camera, edges](int eye, vec2 uv, float* out) {
     const vec3 direction = camera_ray(camera, eye, uv).direction;
     out[0] = out[1] = out[2] = 0.0f;
     if (direction != vec3(0.0f)) world(eye, direction, out);
+    if (edges == Edges::kSharp) std::for_each(out, out + 3, [](float& each) { each = each > 0.4f ? 0.8f : 0.1f; });
   });
   made.picture.is_float = true;
   SaveOptions save;
@@ -121,9 +124,9 @@ Image drawn(const std::string& path, int column = 0, Extent size = {kWindow, kWi
 class ViewBrowser : public ::testing::Test {
  protected:
   // Adds a picture of the world as an item of the page; returns its index.
-  size_t add(const std::string& name, const StereoCamera& stereo, Layout layout) {
+  size_t add(const std::string& name, const StereoCamera& stereo, Layout layout, Edges edges = Edges::kSoft) {
     const std::string path = folder_.path(name);
-    save_world(stereo, layout, path);
+    save_world(stereo, layout, path, edges);
     FormatHint known;
     known.layout = layout;
     if (!keeps_layers(path)) known.projection = stereo.projection;
@@ -214,6 +217,16 @@ TEST_F(ViewBrowser, ShowsEveryProjectionAsConvertDoes) {
   for (const NamedProjection& named : named_projections()) {
     expect_looks(item++, looks_in(named.setting), std::string(named.name));
   }
+}
+
+// Rows towards a pole of a lat-long have ever more texels for a pixel, while columns have less than one.
+TEST_F(ViewBrowser, ShowsSharpEdgesAtAPole) {
+  const std::vector<std::string> browser = chromium(folder_.path("profile"));
+  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  constexpr Looks kPoles = {{{0, 90, 16}, {30, 88, 16}, {10, 87, 20}, {0, -90, 20}, {-40, -87, 16}}};
+  ask(add("poles.png", camera_of(projection_named("lat-long")), Layout::kTopBottom, Edges::kSharp), kPoles);
+  ASSERT_EQ(run(browser), "ok");
+  expect_looks(0, kPoles, "a pole");
 }
 
 // Browsers read some layouts themselves; the others come as a JPEG of each eye.
