@@ -30,7 +30,6 @@ constexpr int kWindow = 128;     // pixels
 constexpr int kPerRadian = 163;  // of the pictures: 1024 around
 constexpr double kAlike = 38.0;  // dB, at rest
 constexpr double kAlikeMoving = 34.0;
-constexpr double kAlikeMovingInMesa = 30.0;  // whose GPU in software filters more coarsely
 constexpr auto kPatience = std::chrono::seconds(400);
 const std::vector<int> kBothEyes{kLeft, kRight};
 
@@ -71,6 +70,7 @@ Extent extent_of(const ProjectionSetting& projection) {
 }
 
 enum class Edges { kSoft, kSharp };
+enum class Filters { kBoth, kCheap };  // of pace.js, for frames that move
 
 void save_world(const StereoCamera& stereo, Layout layout, const std::string& path, Edges edges) {
   MadePicture made = make_picture(stereo, extent_of(stereo.projection), kBothEyes);
@@ -142,7 +142,7 @@ class ViewBrowser : public ::testing::Test {
   }
 
   // At both speeds.
-  void ask(size_t item, const Looks& looks) {
+  void ask(size_t item, const Looks& looks, Filters filters = Filters::kBoth) {
     Json asked = Json::array();
     for (size_t i = 0; i < looks.size(); i++) {
       for (const int eye : kBothEyes) {
@@ -150,7 +150,7 @@ class ViewBrowser : public ::testing::Test {
         for (const bool moves : {false, true}) {
           look["name"] = name_of(item, i, eye, moves);
           look["moves"] = moves;
-          look["cheap"] = moves && i % 2 == 1;
+          look["cheap"] = moves && (i % 2 == 1 || filters == Filters::kCheap);
           asked.push_back(look);
         }
       }
@@ -167,12 +167,12 @@ class ViewBrowser : public ::testing::Test {
   }
 
   // Both eyes of every look are what ods convert makes, and not the other eye's, at rest and moving.
-  void expect_looks(size_t item, const Looks& looks, const std::string& what, double moving = kAlikeMoving) {
+  void expect_looks(size_t item, const Looks& looks, const std::string& what) {
     for (size_t i = 0; i < looks.size(); i++) {
       const Image wanted[] = {converted(pictures_[item], kLeft, looks[i]),
                               converted(pictures_[item], kRight, looks[i])};
       for (const bool moves : {false, true}) {
-        const double enough = moves ? moving : kAlike;
+        const double enough = moves ? kAlikeMoving : kAlike;
         for (const int eye : kBothEyes) {
           const Image got = drawn(folder_.path(name_of(item, i, eye, moves)));
           const std::string which = fmt::format("{}, look {}, eye {}{}", what, i, eye, moves ? ", moving" : "");
@@ -421,19 +421,22 @@ TEST(Layers, KnowTheKernelsCubes) {
   EXPECT_NE(find_page_file("layers.js")->data.find("CUBES = [" + list + "]"), std::string_view::npos) << list;
 }
 
+// Its GPU, Mesa's in software, says that it filters anisotropically, but takes the level of the longer derivative:
+// frames of the fine filter have 30 dB. It is slow, so the page soon draws with the cheap one there.
 TEST_F(ViewBrowser, ShowsTheSameInFirefox) {
   const std::vector<std::string> browser = firefox(folder_.path("profile"));
   if (browser.empty()) GTEST_SKIP() << "skipped: there is no firefox";
   std::filesystem::create_directories(folder_.path("home"));
   const std::vector<std::string> names = {"lat-long", "eac", "fisheye"};
   for (const std::string& name : names) {
-    ask(add(name + ".png", camera_of(projection_named(name)), Layout::kTopBottom), looks_in(projection_named(name)));
+    const size_t item = add(name + ".png", camera_of(projection_named(name)), Layout::kTopBottom);
+    ask(item, looks_in(projection_named(name)), Filters::kCheap);
   }
   const std::string end = run(browser);
   if (end.find("no WebGL 2") != std::string::npos) GTEST_SKIP() << "skipped: this firefox has no WebGL 2";
   ASSERT_EQ(end, "ok");
   for (size_t i = 0; i < names.size(); i++) {
-    expect_looks(i, looks_in(projection_named(names[i])), names[i], kAlikeMovingInMesa);
+    expect_looks(i, looks_in(projection_named(names[i])), names[i]);
   }
 }
 
