@@ -7,7 +7,23 @@
 const $base = document.currentScript.src;
 const $modules = {};
 const $given = (window.stereo360Files ??= {}); // by address: base64
-const $load = async (name) => $modules[name];
+let $later;
+
+// A server has some modules in a script of their own (ods/view/bundle.h).
+async function $load(name) {
+  if ($modules[name]) return $modules[name];
+  $later ??= new Promise((done, fail) => {
+    const script = Object.assign(document.createElement('script'), { src: new URL('later.js', $base) });
+    script.onload = () => done(window.omnistereoLater($modules, $load, $base, fetch));
+    script.onerror = () => fail(new Error('A part of this page did not load. Is the server still running?'));
+    document.head.append(script);
+  });
+  await $later.catch((error) => {
+    $later = null; // the next one tries again
+    throw error;
+  });
+  return $modules[name];
+}
 
 async function fetch(address, options) {
   const url = new URL(address, document.baseURI);

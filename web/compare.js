@@ -226,13 +226,14 @@ async function judge({ about, base, scene, panorama, view }) {
 }
 
 // The colours' meanings instead of the difference, which would say nothing; and the way to the worst place.
-function explain({ element, viewer }, worst) {
+function explain({ element, player, viewer }, { worst, text }) {
   const difference = element.querySelector('[data-way="difference"]');
   if (worst) {
     const button = make('button', { type: 'button', 'data-tip': 'Look at what strains the eyes most' }, 'Worst place');
     button.addEventListener('click', (event) => {
       event.stopPropagation();
       viewer.set(worst);
+      player.toast(text);
     });
     difference.before(button);
   }
@@ -245,10 +246,11 @@ function explain({ element, viewer }, worst) {
 export async function showComfort(player) {
   const { viewer, studio } = player;
   const { item } = viewer;
-  const { text, level, worst, other } = await judge(viewer);
+  const verdict = await judge(viewer);
+  const { text, level, other } = verdict;
   if (viewer.compare || viewer.item !== item) return other.free(); // meanwhile somebody has done something else
   const compare = new Pinned(player, other, `Comfort: ${level}`, null);
-  explain(compare, worst);
+  explain(compare, verdict);
   compare.moveTo(0);
   viewer.addEventListener('loading', () => viewer.compare === compare && compare.end(), { once: true });
   if (viewer.scene) compare.judgeAgain(studio.session);

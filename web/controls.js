@@ -5,12 +5,25 @@
 import { ACTIONS, applies, keysOf } from './actions.js';
 import { make } from './elements.js';
 import { hasOtherLayouts } from './form.js';
-import { BUTTONS } from './headset.js';
 import { followDevice, hasDevice } from './look.js';
 import { MODES } from './modes.js';
 import { widest } from './viewer.js';
 
 const GAP = 8; // pixels
+// What the buttons of a headset do (headset.js).
+const BUTTONS = [
+  ['Look down', 'the menu’s handle: point at it and press, or look at it until its ring is full'],
+  ['Hold the grip', 'the menu: files, seek bar, exposure, recentre and the rest; a press beside it closes it'],
+  ['Trigger or pinch', 'play or pause; with a picture: next'],
+  ['Hold trigger or pinch', 'recentre'],
+  ['Stick left, right', 'back or ahead by 10 s; with a picture: previous, next'],
+  ['Stick up, down', 'exposure, of HDR and EXR'],
+  ['In the studio', 'stick left, right: where the merge starts; up, down: where it ends; trigger: settings A or B'],
+  ['Press the stick', 'recentre'],
+  ['Grip', 'next; of the left hand: previous'],
+  ['A or X', 'swap the eyes'],
+  ['B or Y', 'leave'],
+];
 const isTouch = () => matchMedia('(pointer: coarse)').matches;
 
 function fill(select, rows) {
@@ -75,21 +88,24 @@ export class Controls {
     on('speed', 'change', (select) => video() && (video().playbackRate = Number(select.value)));
     find('device').addEventListener('change', () => this.device());
     find('settings').addEventListener('submit', (event) => event.preventDefault());
-    find('settings').addEventListener('toggle', () => this.placeSettings());
+    find('settings').addEventListener('beforetoggle', () => this.update()); // the studio's picture comes without a word
+    for (const id of ['settings', 'why']) find(id).addEventListener('toggle', () => this.placeSettings());
     addEventListener('pointerdown', () => (this.byPointer = true), true);
     addEventListener('keydown', () => (this.byPointer = false), true);
   }
 
-  // Above the right end of the bar, wherever that is; as high as there is room.
+  // Above the right end of the bar, wherever that is, or below it; over it where there is no room for everything.
   placeSettings() {
     const [settings, bar] = [this.find('settings'), this.find('bar').getBoundingClientRect()];
     if (!settings.matches(':popover-open')) return;
     const { style } = settings;
     const room = Math.max(bar.top, innerHeight - bar.bottom);
-    style.maxHeight = `${room - 2 * GAP}px`;
     style.left = `${Math.max(Math.min(bar.right, innerWidth - GAP) - settings.offsetWidth, GAP)}px`;
-    const isAbove = bar.top >= room;
-    style.bottom = isAbove ? `${innerHeight - bar.top + GAP}px` : 'auto'; // it grows with what is in it
+    const isOver = settings.scrollHeight > room - 2 * GAP;
+    style.maxHeight = `${(isOver ? innerHeight : room) - 2 * GAP}px`;
+    style.minHeight = isOver ? `${Math.min(innerHeight - bar.top, innerHeight - 2 * GAP)}px` : ''; // all of it
+    const isAbove = isOver || bar.top >= room;
+    style.bottom = isAbove ? `${isOver ? GAP : innerHeight - bar.top + GAP}px` : 'auto'; // it grows with what is in it
     style.top = isAbove ? 'auto' : `${bar.bottom + GAP}px`;
   }
 
@@ -128,7 +144,8 @@ export class Controls {
     const name = player.nameOf(about);
     find('folder').hidden = !isOneOfMany;
     find('title').classList.toggle('bare', !name && !isOneOfMany);
-    find('name').textContent = name + (!viewer.scene && isOneOfMany ? `  ${item + 1} / ${view.items.length}` : '');
+    find('name').textContent = name;
+    find('count').textContent = !viewer.scene && isOneOfMany ? `${item + 1} / ${view.items.length}` : '';
     find('name').title = name;
     if (player.isPage) document.title = `${about.name} – Omnistereo`;
     find('picture').ariaLabel = `${name || 'A panorama'}. Look around with the arrow keys; ? lists all keys.`;

@@ -9,30 +9,12 @@ import { wornEye } from './modes.js';
 import { raysOf } from './panorama.js';
 import { Pace } from './pace.js';
 
-// What the buttons do, for the page's help.
-export const BUTTONS = [
-  ['Look down', 'the menu’s handle: point at it and press, or look at it until its ring is full'],
-  ['Hold the grip', 'the menu: files, seek bar, exposure, recentre and the rest; a press beside it closes it'],
-  ['Trigger or pinch', 'play or pause; with a picture: next'],
-  ['Hold trigger or pinch', 'recentre'],
-  ['Stick left, right', 'back or ahead by 10 s; with a picture: previous, next'],
-  ['Stick up, down', 'exposure, of HDR and EXR'],
-  ['In the studio', 'stick left, right: where the merge starts; up, down: where it ends; trigger: settings A or B'],
-  ['Press the stick', 'recentre'],
-  ['Grip', 'next; of the left hand: previous'],
-  ['A or X', 'swap the eyes'],
-  ['B or Y', 'leave'],
-];
 const RATE = 90; // frames per second, where the headset offers it
 const FOVEATION = 0.5; // how much coarser the edge of the view may be, 0..1: the middle is drawn pixel by pixel
 const HOLD = 800; // milliseconds until a trigger or a pinch counts as held
 const STICK = 0.7; // of its way
 const MIRROR = 100; // milliseconds between pictures for the page
 const MARKED = 4000; // milliseconds that a mark of the desk stays
-
-export async function hasHeadset() {
-  return (await navigator.xr?.isSessionSupported('immersive-vr').catch(() => false)) ?? false;
-}
 
 // Directions turned to the right about the vertical axis.
 function turned([x, y, z], angle) {

@@ -3,6 +3,7 @@
 //
 // All items, with their thumbnails, to choose one. Loaded when somebody asks for it. Returns what opens and closes it.
 import { make } from './elements.js';
+import { icon } from './icons.js';
 
 export function makeList({ element, viewer }) {
   const list = make('div', { id: 'list', popover: 'auto', role: 'group', 'aria-label': 'All pictures' });
@@ -10,7 +11,8 @@ export function makeList({ element, viewer }) {
   const cell = ({ name, kind, thumbnail }, i) => {
     const picture = make('img', { src: thumbnail ? new URL(thumbnail, viewer.base).href : '', alt: '', loading: 'lazy', decoding: 'async' });
     picture.addEventListener('error', () => picture.removeAttribute('src')); // an empty place is better than a broken sign
-    const button = make('button', { type: 'button', title: name, className: kind, 'aria-current': String(i === viewer.item) }, picture, make('span', {}, name));
+    const button = make('button', { type: 'button', title: name, 'aria-current': String(i === viewer.item) }, picture, make('span', {}, name));
+    if (kind === 'video') button.insertAdjacentHTML('beforeend', icon('play'));
     button.addEventListener('click', () => {
       list.hidePopover();
       viewer.open(i, { exposure: viewer.choice.exposure, tone: viewer.choice.tone });

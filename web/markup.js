@@ -16,7 +16,7 @@ export const MARKUP = `
 <p id="message" role="alert" hidden></p>
 <div id="spinner" hidden></div>
 <progress id="loading" max="1" aria-label="Loading" hidden></progress>
-<div id="title"><span id="folder" hidden>${button('previous')}${button('next')}${button('list')}</span><span id="name"></span><output id="look" aria-label="Where you look" hidden></output></div>
+<div id="title"><span id="folder" hidden>${button('previous')}${button('next')}${button('list')}</span><span id="name"></span><span id="count"></span><output id="look" aria-label="Where you look" hidden></output></div>
 <div id="foot"><p id="toast" role="status"></p><p id="hint" hidden></p><div id="bar" role="toolbar" aria-label="Viewer">
   <div id="film" hidden>
     ${button('play')}${button('step-back')}${button('step')}

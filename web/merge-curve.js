@@ -9,6 +9,8 @@ import { compile } from './panorama.js';
 const COUNT = 181;
 const SIZE = [280, 92]; // of the drawing
 const BOX = [8, 272, 10, 82]; // of the curve in it: left, right, top, bottom
+const ENDS = [['top', 'start'], ['top', 'end'], ['bottom', 'start'], ['bottom', 'end']];
+const REACH = 24; // of a handle, for fingers
 const SVG = 'http://www.w3.org/2000/svg';
 
 const xOf = (elevation) => BOX[0] + ((elevation + 90) / 180) * (BOX[1] - BOX[0]);
@@ -65,10 +67,11 @@ export class MergeCurve {
     this.auto = shape('polyline', { class: 'auto' }, svg);
     shape('title', {}, this.auto).textContent = 'What the depth allows: --merge auto';
     this.line = shape('polyline', { class: 'curve-line' }, svg);
+    this.gaze = shape('line', { class: 'gaze', y1: BOX[2] - 6, y2: BOX[3] + 6 }, svg);
     const words = shape('text', { x: SIZE[0] / 2, y: yOf(0.7), 'text-anchor': 'middle' }, svg);
     words.textContent = 'full eye distance';
-    this.gaze = shape('line', { class: 'gaze', y1: BOX[2] - 6, y2: BOX[3] + 6 }, svg);
-    this.handles = [['top', 'start'], ['top', 'end'], ['bottom', 'start'], ['bottom', 'end']].map((names) => this.handle(...names));
+    this.handles = ENDS.map(([which, end]) => ({ which, end, circle: shape('circle', { class: 'handle', r: 6 }, svg) }));
+    this.drag();
     const caption = document.createElement('figcaption');
     caption.append(...['straight down', 'horizon', 'straight up'].map((text) => Object.assign(document.createElement('span'), { textContent: text })));
     this.element.append(caption);
@@ -78,28 +81,34 @@ export class MergeCurve {
     }).catch((error) => console.warn(error.message));
   }
 
-  handle(which, end) {
-    const circle = shape('circle', { class: 'handle', r: 6 }, this.svg);
-    const elevation = (event) => {
-      const box = this.svg.getBoundingClientRect();
-      const x = ((event.clientX - box.left) / box.width) * SIZE[0];
-      const at = ((x - BOX[0]) / (BOX[1] - BOX[0])) * 180 - 90;
-      return clamp(Math.round(which === 'top' ? at : -at), 0, 90);
+  // Fingers need not hit a handle: the nearest one is meant.
+  drag() {
+    const { svg } = this;
+    let held = null;
+    const place = (event) => {
+      const box = svg.getBoundingClientRect();
+      return [((event.clientX - box.left) / box.width) * SIZE[0], ((event.clientY - box.top) / box.height) * SIZE[1]];
     };
-    let gesture = null;
-    circle.addEventListener('pointerdown', (event) => {
-      circle.setPointerCapture(event.pointerId);
-      gesture = {};
+    const give = (event, isDragging) => {
+      const at = ((place(event)[0] - BOX[0]) / (BOX[1] - BOX[0])) * 180 - 90;
+      this.onDrag(held.which, held.end, clamp(Math.round(held.which === 'top' ? at : -at), 0, 90), held.gesture, isDragging);
+    };
+    svg.addEventListener('pointerdown', (event) => {
+      const [x, y] = place(event);
+      const far = ({ circle }) => Math.hypot(circle.getAttribute('cx') - x, circle.getAttribute('cy') - y);
+      const [nearest] = this.handles.filter(({ circle }) => !circle.hasAttribute('hidden')).sort((a, b) => far(a) - far(b));
+      if (!nearest || far(nearest) > REACH) return;
+      svg.setPointerCapture(event.pointerId);
+      held = { ...nearest, gesture: {} };
       event.preventDefault();
     });
-    circle.addEventListener('pointermove', (event) => gesture && this.onDrag(which, end, elevation(event), gesture, true));
+    svg.addEventListener('pointermove', (event) => held && give(event, true));
     for (const name of ['pointerup', 'pointercancel']) {
-      circle.addEventListener(name, (event) => {
-        if (gesture && name === 'pointerup') this.onDrag(which, end, elevation(event), gesture, false);
-        gesture = null;
+      svg.addEventListener(name, (event) => {
+        if (held && name === 'pointerup') give(event, false);
+        held = null;
       });
     }
-    return { circle, which, end };
   }
 
   // merges: { top, bottom } of a sidecar; other: the same of the other side, or null.

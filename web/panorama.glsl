@@ -296,7 +296,7 @@ vec3 filtered(int which, Place place, vec2 dx, vec2 dy) {
   float middle = 0.5 * (xx + yy);
   float spread = sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy);
   float large = max(middle + spread, 1.0);
-  float square = max(max(middle - spread, 1.0), large / 9.0);
+  float square = max(max(middle - spread, 1.0), large / 400.0);
   float rest = large - square;
   int count = 1 + int(ceil(2.0 * sqrt(rest / square) - 0.1));
   // A tent of points, as make_tent() in ods/convert/texel_filter.cpp.
@@ -415,23 +415,36 @@ vec4 quick_light_of(int which, vec3 label) {
   float inset = sqrt(clamp(large, 1.0, 256.0));
   if (is_cube(kKind)) place.at = clamp(place.at, place.low + inset - 0.5, place.high - inset + 0.5);
   float square = max(min(dot(dx, dx), dot(dy, dy)), large / 9.0);
+  int count = 1;
+  if (kKind == kLatLong) {
+    // However the view is turned, a pixel covers a part of a row, ever longer towards a pole: then it is some points of it.
+    float row = length(vec2(dx.x, dy.x));
+    float high = length(vec2(dx.y, dy.y));
+    count = int(clamp(ceil(0.4 * row / max(high, 1.0)), 1.0, 16.0));
+    dx = vec2(row / float(count), 0.0);
+    dy = vec2(0.0, high);
+    square = max(high * high, 0.16 * dx.x * dx.x);
+  }
   if (kAsk) {
     vec2 cell = cell_of(which, clamp(place.at, vec2(0.0), eyes[which].size));
     return vec4(cell / 255.0, place.seen && !is_coarse(which, square * ask_scale * ask_scale) ? 1.0 : 0.0, 1.0);
   }
-  Spot spot = spot_at(which, place, vec2(0.0), square);
-  bool is_of_coarse = kPaged && spot.down > 0;
-  vec2 layer = is_of_coarse ? coarse_size(which) : layer_size(which);
-  vec3 at = vec3(spot.at / layer, float(spot.layer));
-  float part = kPaged ? exp2(-float(spot.down)) : 1.0;
-  dx *= part / layer;
-  dy *= part / layer;
-  square *= part * part;
-  vec3 light;
-  if (is_of_coarse && kBoth && which == 1) light = sampled(coarse_1, at, dx, dy, square);
-  else if (is_of_coarse) light = sampled(coarse_0, at, dx, dy, square);
-  else if (kBoth && which == 1) light = sampled(tiles_1, at, dx, dy, square);
-  else light = sampled(tiles_0, at, dx, dy, square);
+  vec3 light = vec3(0.0);
+  for (int i = 0; i < count; i++) {
+    Spot spot = spot_at(which, place, dx * (float(i) + 0.5 - 0.5 * float(count)), square);
+    bool is_of_coarse = kPaged && spot.down > 0;
+    vec2 layer = is_of_coarse ? coarse_size(which) : layer_size(which);
+    vec3 at = vec3(spot.at / layer, float(spot.layer));
+    float part = kPaged ? exp2(-float(spot.down)) : 1.0;
+    vec2 along = dx * part / layer;
+    vec2 down = dy * part / layer;
+    float under = square * part * part;
+    if (is_of_coarse && kBoth && which == 1) light += sampled(coarse_1, at, along, down, under);
+    else if (is_of_coarse) light += sampled(coarse_0, at, along, down, under);
+    else if (kBoth && which == 1) light += sampled(tiles_1, at, along, down, under);
+    else light += sampled(tiles_0, at, along, down, under);
+  }
+  light /= float(count);
   return place.seen ? vec4(developed(light), cover_of(which, place)) : vec4(vec3(kNothing), kOver ? 0.0 : 1.0);
 }
 

@@ -6,7 +6,6 @@
 // one's `pager`, one of light `light` and develop(). It calls changed() when there is something new to draw.
 import { cropOf, formOf, hasOtherLayouts, isRound, same } from './form.js';
 import { EyeTexture, FrameCutter } from './tiles.js';
-import { openVideo } from './video.js';
 
 const LARGE = 40e6; // texels of both eyes: with mip levels, 213 MB
 
@@ -156,7 +155,10 @@ export async function openPicture(panorama, view, item, { base, choice = {}, ...
     for (const [name, value] of Object.entries(query)) if (value !== undefined) address.searchParams.set(name, value);
     return address;
   };
-  if (item.kind === 'video') return openVideo(panorama.gl, item, form, url(item.image), how.signal);
+  if (item.kind === 'video') {
+    const { openVideo } = await import('./video.js');
+    return openVideo(panorama.gl, item, form, url(item.image), how.signal);
+  }
   if (item.light && panorama.hasLight) return openLight(panorama, item, form, url, choice, how);
   const layout = !item.image && hasOtherLayouts(view, item) ? choice.layout : undefined;
   const { exposure, tone } = item.live ? choice : {};

@@ -5,7 +5,6 @@
 import { ACTIONS, actionOf, applies } from './actions.js';
 import { Controls } from './controls.js';
 import { clamp } from './geometry.js';
-import { Headset, hasHeadset } from './headset.js';
 import { followPointer } from './look.js';
 import { MARKUP } from './markup.js';
 import { watchTips } from './tips.js';
@@ -20,6 +19,8 @@ const EXTRAS = {
   sound: () => import('./ambisonics.js'),
 };
 
+const hasHeadset = async () => Boolean(await navigator.xr?.isSessionSupported('immersive-vr').catch(() => false));
+
 export class Player {
   // element: holds the canvas #picture and gets the rest. root: its document or shadow root. keys: what hears keys.
   // isPage: the whole page is for the picture, so the wheel is, too. nameOf(item): what to call it, if anything; isSingle():
@@ -28,7 +29,7 @@ export class Player {
     Object.assign(this, { element, root, wanted, isPage, keys, nameOf, isSingle });
     element.insertAdjacentHTML('beforeend', MARKUP);
     const viewer = new Viewer(this.find('picture'), view, shader, base);
-    Object.assign(this, { viewer, headset: new Headset(viewer, { layers: wanted.layers }) });
+    this.viewer = viewer;
     this.controls = new Controls(this);
     followPointer(viewer, viewer.canvas, () => isPage || root.activeElement === viewer.canvas || this.isFullscreen());
     viewer.addEventListener('open', () => this.fail(''));
@@ -37,7 +38,10 @@ export class Player {
     this.watchIdle();
     this.watchExtras();
     watchTips(root);
-    hasHeadset().then((has) => (root.querySelector('#tools [data-action="headset"]').hidden = !has));
+    hasHeadset().then((has) => {
+      root.querySelector('#tools [data-action="headset"]').hidden = !has;
+      if (has) this.loadHeadset().catch(() => {}); // the click that enters it need not wait
+    });
   }
 
   find(id) {
@@ -74,10 +78,15 @@ export class Player {
     Promise.resolve(said).then((words) => this.toast(words), (error) => this.toast(error.message));
   }
 
+  async loadHeadset() {
+    const { Headset } = await import('./headset.js');
+    return (this.headset ??= new Headset(this.viewer, { layers: this.wanted.layers }));
+  }
+
   async enterHeadset() {
     if (this.viewer.state.planet) this.act('planet'); // which is for flat screens
     try {
-      await this.headset.toggle();
+      await (await this.loadHeadset()).toggle();
     } catch (error) {
       this.toast(error.name === 'NotSupportedError' || !navigator.xr ? 'No headset is connected' : `The headset says: ${error.message}`);
     }

@@ -35,8 +35,9 @@ const FIELDS = {
 };
 
 export class Share {
-  constructor({ viewer, headset }) {
-    Object.assign(this, { viewer, headset, id: Math.random().toString(36).slice(2, 12), clock: 0, known: {}, number: 0, spoke: 0, others: {} });
+  constructor(player) {
+    const { viewer } = player;
+    Object.assign(this, { player, viewer, id: Math.random().toString(36).slice(2, 12), clock: 0, known: {}, number: 0, spoke: 0, others: {} });
     Object.assign(this, { follows: true, reel: {}, point: null, heard: new AbortController() });
     const { canvas } = viewer;
     const on = (event, run) => canvas.addEventListener(event, run, { signal: this.heard.signal });
@@ -134,7 +135,7 @@ export class Share {
       if (known?.text !== JSON.stringify(value)) FIELDS[name].take(this, value, time);
       this.note(name, clock, by);
     }
-    if (JSON.stringify(point) !== JSON.stringify(this.others[id]?.point)) this.headset.mark(point ?? null);
+    if (JSON.stringify(point) !== JSON.stringify(this.others[id]?.point)) this.player.headset?.mark(point ?? null);
     this.others[id] = { look, point, at: performance.now() };
     if (look && !this.viewer.session) this.watch(look);
   }

@@ -46,10 +46,11 @@ export function pickWithClicks(studio) {
     element.addEventListener('click', run);
     return element;
   };
+  const close = make('button', { type: 'button', className: 'small close', innerHTML: icon('close'), 'aria-label': 'Close', 'data-tip': 'Close', 'data-key': 'Esc' });
+  close.addEventListener('click', hide);
+  const say = (textContent) => card.replaceChildren(make('p', { textContent }), close);
   const tell = (found) => {
-    const close = make('button', { type: 'button', className: 'small close', innerHTML: icon('close'), 'aria-label': 'Close', 'data-tip': 'Close', 'data-key': 'Esc' });
-    close.addEventListener('click', hide);
-    if (found.nothing) return card.replaceChildren(make('p', { textContent: 'Nothing is there: the sky.' }), close);
+    if (found.nothing) return say('Nothing is there: the sky.');
     const pixel = (place) => (place ? `${place.map((value) => value.toFixed(1)).join(', ')} px` : 'not seen');
     const metres = Number(found.distance.toPrecision(4));
     const { comfort } = found;
@@ -69,14 +70,14 @@ export function pickWithClicks(studio) {
     const direction = directionAt(viewer, x, y);
     if (!direction) return;
     where = direction;
-    card.replaceChildren(make('p', { textContent: '…' }));
+    say('…');
     follow();
     try {
       await studio.session.settle();
       const found = await ask('pick', direction);
       if (where === direction) tell(found);
     } catch (error) {
-      if (where === direction) card.replaceChildren(make('p', { textContent: error.message }));
+      if (where === direction) say(error.message);
     }
     follow();
   };

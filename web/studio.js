@@ -4,7 +4,6 @@
 // The studio: the viewer shows a scene that the server renders while one looks, and a panel beside it changes every
 // option. Two settings, A and B, can be compared. main.js starts it where view.json has `studio`.
 import { ACTIONS } from './actions.js';
-import { Compare } from './compare.js';
 import { nameButtons } from './controls.js';
 import { icon } from './icons.js';
 import { modeOf } from './modes.js';
@@ -217,16 +216,18 @@ class Studio {
     return isNew ? `Settings ${SIDES[i]}: a copy of ${SIDES[1 - i]} to change` : `Settings ${SIDES[i]}`;
   }
 
-  compare() {
+  async compare() {
     if (this.comparing) {
       this.comparing.end();
       this.comparing = null;
       this.update();
       return 'One picture';
     }
+    const { Compare } = await import('./compare.js');
+    if (this.comparing) return ''; // the key was pressed twice
     const isNew = !this.session.sides[1];
     this.page.viewer.compare?.end(); // comfort
-    this.comparing = new Compare(this.page, () => this.page.toast(this.compare()));
+    this.comparing = new Compare(this.page, async () => this.page.toast(await this.compare()));
     if (isNew) this.session.swap(1);
     this.update();
     return `A left, B right${isNew ? ': B is a copy of A, change it' : ''}`;

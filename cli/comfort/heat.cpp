@@ -38,7 +38,7 @@ ods::Image heat_of(const Judged& judged, const ods::ComfortReport& report) {
   ods::Image heat(judged.light.width, judged.light.height, 3);
   for (size_t k = 0; k < report.level.pixels.size(); k++) {
     const float grey = exposure * grey_of(judged.light, k);
-    const float light = grey > 0.0f ? 0.6f * std::min(grey, 1.0f) : 0.0f;
+    const float light = grey > 0.0f ? 0.6f * grey / (grey + 0.3f) : 0.0f;  // so that shade is not black
     const auto color = static_cast<size_t>(report.level.pixels[k]);
     for (int c = 0; c < 3; c++) {
       const float hot = (1.0f - kHot) * light + kHot * kColors[color][c];

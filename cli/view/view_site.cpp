@@ -62,7 +62,7 @@ std::optional<size_t> item_number(const std::string& path) {
 }  // namespace
 
 ViewSite::ViewSite(std::vector<ViewItem> items, const std::optional<SceneSource>& scene)
-    : script_(ods::bundle("main.js", {}, scene ? ods::PageHost::kStudio : ods::PageHost::kView)) {
+    : host_(scene ? ods::PageHost::kStudio : ods::PageHost::kView), script_(ods::bundle("main.js", {}, host_)) {
   for (const ViewItem& item : items) add(item);
   if (!scene) return;
   studio_ =
@@ -169,6 +169,7 @@ WebAnswer ViewSite::answer(const WebRequest& request) {
   if (request.path.starts_with("item/")) return item(request.path, request);
   const std::string name = request.path.empty() ? "index.html" : request.path;
   if (name == "main.js") return {.type = std::string(ods::media_type(name)), .body = script_};
+  if (name == "later.js") return {.type = std::string(ods::media_type(name)), .body = ods::bundle_later(host_)};
   const ods::PageFile* const file = ods::find_page_file(name);
   if (!file) return nothing_there();
   return {.type = std::string(ods::media_type(name)), .body = std::string(file->data)};

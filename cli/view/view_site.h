@@ -16,6 +16,7 @@
 #include "cli/view/comfort_layer.h"
 #include "cli/view/share.h"
 #include "cli/view/studio.h"
+#include "ods/view/bundle.h"
 #include "ods/view/view_item.h"
 
 class ViewSite {
@@ -48,6 +49,7 @@ class ViewSite {
   std::vector<ods::ViewItem> items_;
   std::vector<std::vector<std::string>> files_;  // of each, behind all links
   std::unique_ptr<Studio> studio_;
+  ods::PageHost host_;
   std::string script_;  // the page's
   Share share_;
   std::mutex of_small_;  // they are made one at a time, beside the others

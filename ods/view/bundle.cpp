@@ -54,28 +54,59 @@ bool is_left_out(std::string_view name, PageHost host) {
   return name == "share.js" && host == PageHost::kFolder;
 }
 
-// Behind what it imports, at once or later.
-void add(const std::string& name, PageHost host, std::set<std::string>& known, std::string& script) {
-  if (is_left_out(name, host) || !known.insert(name).second) return;
+struct Modules {
+  std::set<std::string> known;
+  std::string script;
+  std::vector<std::string> later;  // what they import when it is wanted
+};
+
+// Behind what it imports.
+void add(const std::string& name, PageHost host, Modules& modules) {
+  if (is_left_out(name, host) || !modules.known.insert(name).second) return;
   const std::string text(find_page_file(name)->data);
-  for (const auto& [pattern, group] : {std::pair{&kImport, size_t{2}}, {&kLazyImport, size_t{1}}}) {
-    for (const std::string& other : names_in(text, *pattern, group)) add(other, host, known, script);
+  for (const std::string& other : names_in(text, kImport, 2)) add(other, host, modules);
+  for (const std::string& other : names_in(text, kLazyImport, 1)) modules.later.push_back(other);
+  modules.script += wrapped(name, text);
+}
+
+void add_later(PageHost host, Modules& modules) {
+  while (!modules.later.empty()) {
+    const std::string name = modules.later.back();
+    modules.later.pop_back();
+    add(name, host, modules);
   }
-  script += wrapped(name, text);
+}
+
+// What is there at first sight.
+Modules first_of(const std::string& entry, PageHost host) {
+  Modules modules;
+  if (host == PageHost::kStudio) add("studio.js", host, modules);
+  add(entry, host, modules);
+  return modules;
 }
 
 }  // namespace
 
 std::string bundle(const std::string& entry, std::map<std::string, std::string> files, PageHost host) {
-  std::set<std::string> known;
-  std::string modules;
-  add(entry, host, known, modules);
+  Modules all = first_of(entry, host);
+  if (host == PageHost::kFolder) add_later(host, all);
+  const std::string& modules = all.script;
   for (const char* const name : {"panorama.glsl", "player.css"}) {
     if (modules.find(name) != std::string::npos) files[name] = find_page_file(name)->data;
   }
   return fmt::format("// Made by ods view from its modules.\n(() => {{\n'use strict';\nconst $files = {};{}{}}})();\n",
                      Json(files).dump(-1, ' ', true, Json::error_handler_t::replace),
                      "\n" + std::string(find_page_file("bundle.js")->data), modules);
+}
+
+std::string bundle_later(PageHost host) {
+  Modules modules = first_of("main.js", host);
+  modules.script.clear();
+  add_later(host, modules);
+  return fmt::format(
+      "// Made by ods view from its modules.\nwindow.omnistereoLater = ($modules, $load, $base, fetch) => {{\n"
+      "'use strict';\n{}}};\n",
+      modules.script);
 }
 
 std::string script_of_file(std::string_view name, std::string_view bytes) {

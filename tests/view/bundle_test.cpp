@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <regex>
+#include <set>
 
 #include "ods/view/page.h"
 
@@ -29,8 +30,28 @@ TEST(Bundle, HasWhatItsHostAnswers) {
   };
   for (const PageHost host : {PageHost::kFolder, PageHost::kView, PageHost::kStudio}) {
     EXPECT_TRUE(has(host, "viewer.js"));
-    EXPECT_EQ(has(host, "share.js"), host != PageHost::kFolder);
+    EXPECT_EQ(has(host, "list.js"), host == PageHost::kFolder) << "servers send it later";
     EXPECT_EQ(has(host, "studio.js"), host == PageHost::kStudio);
+  }
+}
+
+// A server's page is in two scripts, a folder's in one.
+TEST(Bundle, WhatIsWantedLaterIsInAScriptOfItsOwn) {
+  const auto modules_in = [](const std::string& script) {
+    const std::regex made(R"(\$modules\['([\w.-]+)'\] = \()");
+    std::set<std::string> names;
+    for (std::sregex_iterator each(script.begin(), script.end(), made), end; each != end; ++each) {
+      EXPECT_TRUE(names.insert((*each)[1]).second) << (*each)[1] << " twice";
+    }
+    return names;
+  };
+  const std::set<std::string> folder = modules_in(bundle("main.js", {}));
+  for (const PageHost host : {PageHost::kView, PageHost::kStudio}) {
+    const std::set<std::string> first = modules_in(bundle("main.js", {}, host)), later = modules_in(bundle_later(host));
+    for (const std::string& name : folder) EXPECT_EQ(first.count(name) + later.count(name), 1u) << name;
+    EXPECT_TRUE(first.contains("viewer.js") && later.contains("compare.js") && later.contains("headset-panel.js") &&
+                later.contains("share.js"));
+    EXPECT_EQ(first.contains("studio.js"), host == PageHost::kStudio);
   }
 }
 

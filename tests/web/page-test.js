@@ -26,6 +26,21 @@ const load = (tag, properties) => new Promise((done, fail) => {
   document.head.append(element);
 });
 
+const boxOf = (element) => element.getBoundingClientRect();
+
+// None lies over another, and each is in the box of what holds them.
+function testApart(holder, elements) {
+  const hull = boxOf(holder);
+  const boxes = elements.filter((each) => each.checkVisibility()).map((each) => [each, boxOf(each)]);
+  expect(boxes.length > 1, 'nothing to compare');
+  for (const [i, [one, a]] of boxes.entries()) {
+    expect(a.left >= hull.left - 1 && a.right <= hull.right + 1 && a.top >= hull.top - 1 && a.bottom <= hull.bottom + 1, `${one.outerHTML.slice(0, 60)} sticks out`);
+    for (const [other, b] of boxes.slice(i + 1)) {
+      expect(a.right <= b.left + 0.5 || b.right <= a.left + 0.5 || a.bottom <= b.top + 0.5 || b.bottom <= a.top + 0.5, `${one.outerHTML.slice(0, 60)} lies over ${other.outerHTML.slice(0, 60)}`);
+    }
+  }
+}
+
 const press = (key, target = document) => target.dispatchEvent(new KeyboardEvent('keydown', { key, bubbles: true, composed: true, cancelable: true }));
 
 // A pixel of a canvas, 0..1 from its upper left corner.
@@ -195,7 +210,7 @@ async function testTurn(player) {
 // All items with their thumbnails: chosen by keys and by clicks, as dark as the rest.
 async function testList({ viewer, element }) {
   const { items } = viewer.view;
-  items.push({ ...items[0], name: 'Again.png' }, { ...items[0], name: 'No thumbnail.png', thumbnail: 'nothing.jpg' });
+  items.push({ ...items[0], name: 'Again.png' }, { ...items[0], name: 'No thumbnail.png', thumbnail: 'nothing.jpg', kind: 'video' });
   viewer.say('open');
   element.querySelector('[data-action="list"]').click();
   await until(() => find('list')?.matches(':popover-open'), 'opens the list');
@@ -204,6 +219,7 @@ async function testList({ viewer, element }) {
   await until(() => images[1].naturalWidth === 256 && !images[2].hasAttribute('src'), 'has thumbnails, and none where there is none');
   expect(cells.length === 3 && cells[0].ariaCurrent === 'true' && document.activeElement === cells[0], 'the list does not begin with what is open');
   expect(testContrast(find('list')) >= 3, 'the list has no names');
+  expect(cells.map((cell) => cell.querySelectorAll('svg').length).join() === '0,0,1', 'not the film alone has a sign');
   const { yaw } = viewer.state;
   press('ArrowRight', cells[0]);
   expect(document.activeElement === cells[1] && viewer.state.yaw === yaw, 'the keys do not lead to the next picture');
@@ -292,7 +308,27 @@ function testTouch(player) {
     const { left, right } = each.getBoundingClientRect();
     expect(left >= 0 && right <= 360, `${each.id || each.dataset.action} is wider than the phone: ${left} to ${right}`);
   }
+  // A folder of pictures with long names: the buttons, the name and the count beside each other.
+  const { items } = player.viewer.view;
+  items.push({ ...items[0] });
+  items[0].name = 'a long name of a panorama from the harbour in the evening.png';
+  player.viewer.say('open');
+  testApart(find('title'), [...find('folder').children, find('name'), find('count')]);
+  expect(find('count').textContent === '1 / 2' && find('count').scrollWidth <= find('count').offsetWidth, 'the count is cut off');
   document.documentElement.style.removeProperty('--side');
+}
+
+// Where there is no room above or below the bar, the settings cover it, all of it.
+async function testLowWindow(player) {
+  find('player').style.bottom = '46vh';
+  await frame();
+  player.act('settings');
+  await until(() => find('settings').style.maxHeight, 'places the settings');
+  const [settings, bar] = [boxOf(find('settings')), boxOf(find('bar'))];
+  expect(find('settings').scrollHeight <= find('settings').clientHeight, 'settings are cut off');
+  expect(settings.top >= 0 && settings.bottom <= innerHeight, `the settings end at ${settings.bottom}`);
+  expect(settings.top >= bar.bottom || settings.bottom <= bar.top || (settings.top <= bar.top && settings.bottom >= bar.bottom), 'the settings cover a part of the bar');
+  player.act('settings');
 }
 
 const isScheme = (scheme) => expect(matchMedia(`(prefers-color-scheme: ${scheme})`).matches, `the browser is not ${scheme}`);
@@ -319,7 +355,9 @@ async function testLight() {
 }
 
 async function testPhone() {
-  testTouch(await openPage());
+  const player = await openPage();
+  testTouch(player);
+  await testLowWindow(player);
 }
 
 // The bar of a video, and its subtitles.
@@ -337,7 +375,7 @@ async function testVideo() {
 }
 
 // The studio's page against the server that studio-test.js plays.
-async function testStudioPage() {
+async function openStudio() {
   const { CAMERA, STUDIO, Server } = await import('./studio-test.js');
   const view = { ...(await (await fetch('view.json')).json()), items: [], live: true, studio: STUDIO };
   const server = new Server();
@@ -358,7 +396,71 @@ async function testStudioPage() {
   };
   const player = await openPage();
   await until(() => player.studio && find('studio').checkVisibility() && getComputedStyle(find('studio')).position === 'fixed', 'has its panel');
+  return { player, verdict, heats: () => heats };
+}
+
+// The merge's curve: the nearest handle is dragged, where a finger need not be on it.
+function testCurve({ session }) {
+  const svg = document.querySelector('.curve svg');
+  svg.setPointerCapture = () => {}; // there is no such pointer
+  const box = boxOf(document.querySelectorAll('.handle')[0]); // where the upper merge starts
+  const [x, y] = [box.left + box.width / 2, box.top + box.height / 2];
+  const send = (type, by, down) => svg.dispatchEvent(new PointerEvent(type, { clientX: x + by, clientY: y + down, bubbles: true }));
+  const degree = boxOf(svg).width * (264 / 280) / 180;
+  const { start } = session.settings.sidecar.merge_top;
+  send('pointerdown', 0, 14);
+  send('pointermove', -20 * degree, 14);
+  send('pointerup', -20 * degree, 14);
+  expect(Math.abs(session.settings.sidecar.merge_top.start - start + 20) <= 1, `a handle that a finger nearly hits went from ${start} to ${session.settings.sidecar.merge_top.start}`);
+  session.step(-1);
+  send('pointerdown', 0, 60);
+  send('pointermove', -20 * degree, 60);
+  expect(session.settings.sidecar.merge_top.start === start, 'a handle moves that nobody meant');
+}
+
+// The fields' right edges are one line.
+function testFields() {
+  document.querySelectorAll('.rows details').forEach((each) => (each.open = true));
+  const fields = [...document.querySelectorAll('.rows .row-of > :is(input, select)')].filter((each) => each.checkVisibility());
+  const edges = new Set(fields.filter((each) => !each.closest('.parts') || each.parentElement === each.closest('.parts').lastElementChild).map((each) => Math.round(boxOf(each).right)));
+  expect(fields.length > 8 && edges.size === 1, `fields end at ${[...edges]}`);
+}
+
+async function testStudioPhone() {
+  const { player } = await openStudio();
   const { viewer, studio } = player;
+  testFields();
+  testCurve(studio);
+  studio.session.edit({ 'sidecar.yaw': 3, 'sidecar.position.0': 2, 'sidecar.ipd': 0.07 });
+  for (const button of document.querySelectorAll('#studio :is(button, summary, select, .check)')) {
+    const { width, height } = boxOf(button);
+    expect(!button.checkVisibility() || Math.min(width, height) >= 44, `${button.outerHTML.slice(0, 80)} is ${width} x ${height}`);
+  }
+  for (const row of document.querySelectorAll('.many')) {
+    if (row.checkVisibility()) testApart(row, [...row.querySelectorAll('input, .reset')]);
+  }
+  const { top, bottom } = boxOf(document.querySelector('#studio .primary'));
+  expect(top > boxOf(find('player')).bottom && bottom <= innerHeight, 'what renders is out of sight');
+  press('q');
+  await until(() => viewer.compare, 'shows what strains the eyes');
+  const ways = find('ways');
+  testApart(ways, [...ways.querySelectorAll('button, .legend')]);
+  expect(boxOf(ways.querySelector('.legend')).top >= boxOf(ways.lastElementChild).bottom, 'the cross is among the colours');
+  expect(boxOf(ways).bottom <= boxOf(find('divider').children[1]).top, 'the verdict is below its panel');
+  viewer.compare.end();
+  press('Enter');
+  await until(() => find('pick').textContent.includes('2.00 m'), 'picks');
+  testApart(find('pick'), [...find('pick').querySelectorAll('button')]);
+  press('i');
+  await frame();
+  testApart(find('player'), [find('bar'), document.querySelector('.fold')]);
+}
+
+async function testStudioPage() {
+  const { player, verdict, heats } = await openStudio();
+  const { viewer, studio } = player;
+  testFields();
+  testCurve(studio);
   const foot = find('studio').querySelector('footer');
   const code = foot.querySelector('code');
   expect(foot.offsetHeight < 64 && !code.checkVisibility(), `the foot is ${foot.offsetHeight} high`);
@@ -382,13 +484,13 @@ async function testStudioPage() {
   press('x');
   expect(!viewer.compare && viewer.picture, 'the comparison does not end');
   press('q');
-  await until(() => viewer.compare && heats === 2, 'shows what strains the eyes');
+  await until(() => viewer.compare && heats() === 2, 'shows what strains the eyes');
   expect(viewer.compare.split === 0 && /Comfort: caution/.test(find('divider').textContent), 'the layer of comfort does not say its verdict');
   find('ways').querySelector('button:not([data-way]):not([aria-label])').click();
   expect(viewer.state.pitch === -80 && find('ways').querySelectorAll('.legend > span').length === 3, 'the worst place, or what colours mean, is not there');
   verdict.level = 'warn';
   studio.session.edit({ 'sidecar.yaw': 3 });
-  await until(() => heats >= 4 && /Comfort: warn/.test(find('divider').textContent), 'judges again what is changed');
+  await until(() => heats() >= 4 && /Comfort: warn/.test(find('divider').textContent), 'judges again what is changed');
   press('x');
   await until(() => studio.comparing && !/Comfort/.test(find('divider').textContent), 'leaves comfort to compare A and B');
   press('q');
@@ -529,6 +631,6 @@ async function testSound() {
   expect(Math.abs(10 * Math.log10(power(fromLeft) / power(fromAhead))) < 4, 'directions differ in loudness');
 }
 
-const TESTS = { page: testThePage, light: testLight, phone: testPhone, video: testVideo, studio: testStudioPage, element: testElement, aframe: testAframe, three: testThree, sound: testSound };
+const TESTS = { page: testThePage, light: testLight, phone: testPhone, video: testVideo, studio: testStudioPage, 'studio-phone': testStudioPhone, element: testElement, aframe: testAframe, three: testThree, sound: testSound };
 
 export const testPage = (job) => TESTS[job.page](job);
