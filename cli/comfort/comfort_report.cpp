@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "cli/options/eye_options.h"
+
 using ods::ComfortLevel, ods::ComfortReport, ods::ComfortRules, ods::Strain, ods::StrainedPlace;
 using Json = nlohmann::ordered_json;
 
@@ -74,6 +76,18 @@ std::string cure_text(const StrainedPlace& place) {
   return text;
 }
 
+std::string measured_text(const ods::MeasuredEyes& eyes) {
+  std::string text = "No word says how the eyes were placed; measured from the pixels: ";
+  const ods::StereoCamera& camera = eyes.camera;
+  text += camera.convergence == ods::kParallel
+              ? fmt::format("eyes {:.3g} m apart", camera.ipd)
+              : fmt::format("eyes {:.3g} m apart that converge at {:.3g} m", camera.ipd, camera.convergence_distance);
+  if (!eyes.is_known) return text;
+  text += eyes.is_merged ? ", a pole merge with " + merge_curve_text(*camera.merge_map) : ", no pole merge";
+  return text + fmt::format(" (+-{:.0f} %, measured up to {:.0f} degrees up and {:.0f} down)",
+                            std::max(1.0, 100.0 * eyes.error), eyes.up, eyes.down);
+}
+
 std::vector<std::string> cure_lines(const ComfortJob& job, const Looked& looked, const ComfortReport& report) {
   std::vector<std::string> lines;
   for (const std::string& name : looked.hidden) {
@@ -99,6 +113,7 @@ void print_text(const ComfortJob& job, const Looked& looked, const ComfortReport
   fmt::print("{}: {}; eyes {:.3g} m apart, nearest {:.2f} m\n", job.scene.name,
              comfort_level_name(verdict(job, looked, report)), looked.camera.ipd, report.nearest);
   if (!looked.why_matched.empty()) fmt::print("{}: judged by matching them\n", looked.why_matched);
+  if (looked.measured) fmt::print("{}\n", measured_text(*looked.measured));
   if (looked.match) {
     fmt::print("by matching: +-{:.0f} minutes of arc; {:.0f} % of the picture could be matched\n",
                looked.match->precision, 100.0 * looked.match->share);
@@ -129,6 +144,19 @@ void print_json(const ComfortJob& job, const Looked& looked, const ComfortReport
     json["matched"] = {
         {"share", looked.match->share}, {"precision", looked.match->precision}, {"apart", looked.match->apart}};
     if (!looked.why_matched.empty()) json["matched"]["why"] = looked.why_matched;
+  }
+  if (looked.measured) {
+    const ods::MeasuredEyes& eyes = *looked.measured;
+    json["measured"] = {{"merged", eyes.is_known ? Json(eyes.is_merged) : Json()},
+                        {"convergence", ods::convergence_name(eyes.camera.convergence)},
+                        {"error", eyes.error},
+                        {"up", eyes.up},
+                        {"down", eyes.down}};
+    if (eyes.is_merged) {
+      for (int row = 0; row < eyes.camera.merge_map->height; row++) {
+        json["measured"]["shares"].push_back(*eyes.camera.merge_map->at(0, row));
+      }
+    }
   }
   json["largest_ipd"] = report.largest_ipd;
   json["head_roll"] = report.head_roll;

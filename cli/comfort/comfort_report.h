@@ -23,4 +23,6 @@ std::string share_text(double share);
 
 // What would help against it: empty for a caution, which may stay; against all of it.
 std::string cure_text(const ods::StrainedPlace& place);
+// How a picture's eyes were placed, as its pixels tell.
+std::string measured_text(const ods::MeasuredEyes& eyes);
 std::vector<std::string> cure_lines(const ComfortJob& job, const Looked& looked, const ods::ComfortReport& report);

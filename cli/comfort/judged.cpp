@@ -12,8 +12,10 @@
 
 #include "cli/comfort/first_look.h"
 #include "cli/console/console.h"
+#include "cli/options/eye_options.h"
 #include "ods/camera/pixel.h"
 #include "ods/comfort/areas.h"
+#include "ods/comfort/measured_eyes.h"
 #include "ods/convert/reproject.h"
 #include "ods/convert/unwrap.h"
 #include "ods/depth/floor.h"
@@ -117,6 +119,7 @@ struct Opened {
   std::optional<ods::Cryptomatte> matte;
   bool shows = false;      // its colours are there
   bool lacks_map = false;  // without which depth does not tell what its eyes show
+  bool is_foreign = false;  // it has two eyes and depth, but no word of how the eyes were placed
 };
 
 Opened open_to_judge(const ComfortJob& job) {
@@ -131,9 +134,11 @@ Opened open_to_judge(const ComfortJob& job) {
   if (layer) {
     const ods::FileInfo info = info_of(name);
     opened.matte = ods::find_cryptomatte(info);
-    opened.lacks_map = header.eyes.size() == 2 && ods::lacks_merge_map(info, header.camera);
+    const bool has_two = header.eyes.size() == 2;
+    opened.lacks_map = has_two && ods::lacks_merge_map(info, header.camera);
+    opened.is_foreign = has_two && !header.has_ipd;
   }
-  opened.shows = !layer || opened.lacks_map || !job.heat.empty() || !job.html.empty();
+  opened.shows = !layer || opened.lacks_map || opened.is_foreign || !job.heat.empty() || !job.html.empty();
   const std::string depth = layer ? header.eyes[0].layers[*layer].channels[0] : "";
   const std::string matte = opened.matte ? ods::matte_channel(header, *opened.matte) : "";
   const std::vector<std::string> colors = header.eyes[0].layers[0].channels;
@@ -199,6 +204,20 @@ Looked look_at_scene(const ComfortJob& job) {
   return looked;
 }
 
+// Where the pixels tell how the eyes were placed.
+void measure_camera(Looked& looked, const ods::StoredPicture& picture, const std::string& name) {
+  const std::optional<ods::MeasuredEyes> found =
+      ods::measure_eyes(ods::grey_eyes(picture), looked.eyes[0].seen, picture.is_float);
+  if (!found || !found->is_known) {
+    note(fmt::format("'{}': no word says whether it has a pole merge, and its pixels do not tell: judged as if it had none",
+                     name));
+  }
+  if (!found) return;
+  looked.camera = found->camera;
+  for (Judged& judged : looked.eyes) judged.seen.camera = found->camera;
+  looked.measured = found;
+}
+
 Looked look_at_picture(const ComfortJob& job) {
   const std::string& name = job.scene.name;
   const Opened opened = open_to_judge(job);
@@ -226,6 +245,7 @@ Looked look_at_picture(const ComfortJob& job) {
     if (opened.shows) judged.light = colors_of(picture, i, depth.width, depth.height);
     if (picture.memory) picture.memory->release();
   }
+  if (opened.is_foreign) measure_camera(looked, picture, name);
   return looked;
 }
 

@@ -9,6 +9,7 @@
 
 #include "cli/comfort/comfort_job.h"
 #include "ods/comfort/matched.h"
+#include "ods/comfort/measured_eyes.h"
 
 struct Judged {
   ods::SeenDepth seen;
@@ -26,6 +27,7 @@ struct Looked {
   std::optional<MatchQuality> match;  // of a picture without depth
   std::string why_matched;            // instead of judged by the depth that it has; may be empty
   std::vector<std::string> hidden;    // of a scene: what stands within the viewing circle, where no ray begins
+  std::optional<ods::MeasuredEyes> measured{};  // of a picture with depth, but without a word of its eyes
 };
 
 // Throws UsageError and ods::Error.

@@ -72,6 +72,7 @@ ComfortPage page_of(const ComfortJob& job, const Looked& looked, const ComfortRe
   page.lines.push_back(
       fmt::format("Eyes {:.3g} m apart; the nearest thing is {:.2f} m away.", looked.camera.ipd, report.nearest));
   if (!looked.why_matched.empty()) page.lines.push_back(looked.why_matched + ".");
+  if (looked.measured) page.lines.push_back(measured_text(*looked.measured) + ".");
   if (looked.match) {
     page.lines.push_back(
         fmt::format("Judged by matching the eyes: +-{:.0f} minutes of arc; {:.0f} % of the picture "

@@ -225,15 +225,18 @@ static std::shared_ptr<const ods::Image> read_map(const std::string& path, float
   return map;
 }
 
-std::string merge_by_depth_text(const ods::Image& map) {
+std::string merge_curve_text(const ods::Image& map) {
   const auto full = [&](int from, int step) {
     int row = from;
     while (row > 0 && row + 1 < map.height && map.at(0, row)[0] == 1.0f) row += step;
     return std::abs(90 - row);
   };
-  return fmt::format(
-      "merge by depth: full stereo up to {} degrees up and {} down, {:.0f} % straight up, {:.0f} % straight down",
-      full(89, -1), full(90, 1), 100.0f * map.at(0, 0)[0], 100.0f * map.at(0, map.height - 1)[0]);
+  return fmt::format("full stereo up to {} degrees up and {} down, {:.0f} % straight up, {:.0f} % straight down",
+                     full(89, -1), full(90, 1), 100.0f * map.at(0, 0)[0], 100.0f * map.at(0, map.height - 1)[0]);
+}
+
+std::string merge_by_depth_text(const ods::Image& map) {
+  return "merge by depth: " + merge_curve_text(map);
 }
 
 void finish_eye_options(CameraOptions& camera) {

@@ -14,7 +14,9 @@ void add_eye_options(Options& options, CameraOptions& camera);
 // `auto[,MINUTES]`: the limit in minutes of arc; nothing if it is another merge. Throws UsageError.
 std::optional<float> parse_auto_merge(const std::string& text);
 
-// What a merge that follows from depth allows, for a note.
+// How much stereo a merge map leaves that is the same all around: "full stereo up to 41 degrees up and ...".
+std::string merge_curve_text(const ods::Image& merge_map);
+// Of a merge that follows from depth, for a note.
 std::string merge_by_depth_text(const ods::Image& merge_map);
 
 // Reads the pictures that --merge-map and --head-tilt-map name. Throws UsageError and ods::Error.

@@ -103,15 +103,23 @@ void check_matchable(const ProjectionSetting& projection, int width, const std::
       fmt::format("'{}' has no depth, and its eyes have {:.0f} pixels around: too few to be matched", name, around));
 }
 
-MatchedEyes match_eyes_for_depth(const std::vector<Image>& eyes, const StereoCamera& camera, bool is_float, int width) {
-  std::vector<GrayView> views = make_gray_views(eyes, camera.projection, is_float, width);
+AlignedEyes align_eyes(const std::vector<Image>& eyes, const ProjectionSetting& projection, bool is_float, int width) {
+  AlignedEyes aligned{make_gray_views(eyes, projection, is_float, width)};
+  std::vector<GrayView>& views = aligned.views;
   const Alignment alignment = find_alignment(smaller_views(views), !(seen_around(views[0]) > 0.8));
   if (const EyeCorrection correction = correction_of(alignment); moves_pixels(correction)) {
     views[1] = corrected_view(views[1], correction);
   }
-  MatchedEyes matched = match_views_for_depth(std::move(views), camera);
-  matched.apart = 60.0 * height_apart(alignment);
-  if (alignment.matches < kLeastMatches) {
+  aligned.apart = 60.0 * height_apart(alignment);
+  aligned.are_one_picture = alignment.matches >= kLeastMatches;
+  return aligned;
+}
+
+MatchedEyes match_eyes_for_depth(const std::vector<Image>& eyes, const StereoCamera& camera, bool is_float, int width) {
+  AlignedEyes aligned = align_eyes(eyes, camera.projection, is_float, width);
+  MatchedEyes matched = match_views_for_depth(std::move(aligned.views), camera);
+  matched.apart = aligned.apart;
+  if (!aligned.are_one_picture) {
     for (SeenDepth& seen : matched.seen) std::ranges::fill(seen.depth.pixels, std::numeric_limits<float>::quiet_NaN());
     matched.share = matched.apart = 0.0;
   }

@@ -18,6 +18,15 @@ inline constexpr int kMatchedWidth = 1024;  // of the views that are matched: 21
 // Throws Error(kInput) if an eye this wide has too few pixels to be matched. name: of the file.
 void check_matchable(const ProjectionSetting& projection, int width, const std::string& name);
 
+// Both eyes as small views that are as high as each other.
+struct AlignedEyes {
+  std::vector<GrayView> views;
+  double apart = 0.0;            // as MatchedEyes::apart
+  bool are_one_picture = false;  // enough of one eye is in the other
+};
+AlignedEyes align_eyes(const std::vector<Image>& eyes, const ProjectionSetting& projection, bool is_float,
+                       int width = kMatchedWidth);
+
 inline constexpr double kLeastMatched = 0.02;  // MatchedEyes::share: with less, nothing is judged
 
 struct MatchedEyes {
