@@ -47,11 +47,6 @@ struct Kept {
 
 // --- what becomes of what --------------------------------------------------------------------------------------------
 
-static bool can_hold(Container container, AVCodecID codec) {
-  const AVOutputFormat* format = av_guess_format(format_name(container), nullptr, nullptr);
-  return avformat_query_codec(format, codec, FF_COMPLIANCE_NORMAL) == 1;
-}
-
 static std::string tag_of(const AVStream& stream, const char* key) {
   const AVDictionaryEntry* entry = av_dict_get(stream.metadata, key, nullptr, 0);
   return entry == nullptr ? "" : entry->value;

@@ -122,15 +122,10 @@ struct SoundForm {
 
 }  // namespace
 
-static bool holds(Container container, AVCodecID codec) {
-  const AVOutputFormat* format = av_guess_format(format_name(container), nullptr, nullptr);
-  return avformat_query_codec(format, codec, FF_COMPLIANCE_NORMAL) == 1;
-}
-
 // Null: this encoder cannot take it, or the container cannot hold it.
 static Owned<AVCodecContext> try_encoder(const char* name, Container container, const SoundForm& form) {
   const AVCodec* codec = name == nullptr ? nullptr : avcodec_find_encoder_by_name(name);
-  if (codec == nullptr || !holds(container, codec->id)) return nullptr;
+  if (codec == nullptr || !can_hold(container, codec->id)) return nullptr;
   // AAC of other numbers of channels filters one of them as a subwoofer's.
   if (form.is_ambisonic && codec->id == AV_CODEC_ID_AAC && form.layout.nb_channels != 4) return nullptr;
   const bool is_opus = codec->id == AV_CODEC_ID_OPUS;
@@ -396,6 +391,13 @@ std::unique_ptr<SideTracks> pack_sound(const SoundSource& source, Container cont
 
 const char* format_name(Container container) {
   return container == Container::kMatroska ? "matroska" : container_name(container).data();
+}
+
+bool can_hold(Container container, int codec) {
+  const bool is_pcm = codec >= AV_CODEC_ID_PCM_S16LE && codec < AV_CODEC_ID_ADPCM_IMA_QT;
+  if (is_pcm && container == Container::kMp4) return false;
+  const AVOutputFormat* format = av_guess_format(format_name(container), nullptr, nullptr);
+  return avformat_query_codec(format, static_cast<AVCodecID>(codec), FF_COMPLIANCE_NORMAL) == 1;
 }
 
 }  // namespace ods

@@ -39,4 +39,7 @@ std::unique_ptr<SideTracks> pack_sound(const SoundSource& source, Container cont
 // libavformat's name for it.
 const char* format_name(Container container);
 
+// Whether players of the container take a track with this AVCodecID. Not PCM in mp4, which FFmpeg writes since 6.1.
+bool can_hold(Container container, int codec);
+
 }  // namespace ods
