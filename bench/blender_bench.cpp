@@ -23,13 +23,14 @@
 #include "bench/measure.h"
 #include "ods/image/image_file.h"
 #include "ods/kernel/surface.h"
+#include "tests/support/places.h"
 
 namespace {
 
 using namespace ods;
 namespace fs = std::filesystem;
 
-constexpr const char* kInterior = SHARED_SCENES "/../tools/interior.py";
+const std::string kInterior = shared_scenes() + "/../tools/interior.py";
 constexpr int kWidth = 384, kSamples = 192;         // of the picture
 constexpr int kFilmWidth = 192, kFilmSamples = 16;  // of a frame
 constexpr int kFilmFrames = 24;                     // of 60

@@ -30,6 +30,7 @@
 #include "ods/render/cpu/render.h"
 #include "ods/stage/exposure.h"
 #include "tests/support/flip.h"
+#include "tests/support/places.h"
 
 namespace {
 
@@ -38,7 +39,7 @@ namespace fs = std::filesystem;
 
 struct Row {
   const char* name;
-  const char* file = "";  // in the folder or below SHARED_SCENES; empty: the built-in scene
+  const char* file = "";  // in the folder or below shared_scenes(); empty: the built-in scene
   int width;
   int samples;  // of A and B
 };
@@ -63,7 +64,7 @@ struct Opened {
 std::string path_of(const Row& row, const fs::path& folder) {
   if (!*row.file) return row.name;
   const fs::path here = folder / row.file;
-  return fs::exists(here) ? here : fs::path(SHARED_SCENES) / row.file;
+  return fs::exists(here) ? here : fs::path(shared_scenes()) / row.file;
 }
 
 std::optional<Opened> opened(const Row& row, const fs::path& folder, const std::string& file, int samples,

@@ -23,6 +23,7 @@
 #include "ods/kernel/camera/project.h"
 #include "ods/render/cpu/render.h"
 #include "ods/scene/load/load.h"
+#include "tests/support/places.h"
 #include "tests/support/stored_pictures.h"
 
 namespace {
@@ -212,7 +213,7 @@ int main(int argc, char** argv) {
                                                       {"8_bits", DepthCase::kCodes},
                                                       {"8_bits_blurred", DepthCase::kBlurred},
                                                       {"8_bits_blurred_as_is", DepthCase::kBlurredAsIs}};
-  for (const std::string scene : {"room", "toys", SHARED_SCENES "/atrium.glb"}) {
+  for (const std::string& scene : {std::string("room"), std::string("toys"), shared_scenes() + "/atrium.glb"}) {
     for (const auto& [name, how] : kCases) {
       const std::string shown = std::filesystem::path(scene).stem().native();
       benchmark::RegisterBenchmark((shown + "/" + name).c_str(), [=, how = how](benchmark::State& state) {

@@ -3,8 +3,8 @@
 //
 // How long a compressed scene of a million triangles takes to load, over the same scene without compression, and how
 // much memory, over the scene it becomes: in turn, five times, of which the median counts. Targets: at most 1.5 and 2.
-// A single primitive takes 2.9 times the scene's memory, all of it libdraco's own: corner tables of the mesh and of each
-// attribute. Primitives of a usual size are below the target.
+// A single primitive takes 2.9 times the scene's memory, all of it libdraco's own: corner tables of the mesh and of
+// each attribute. Primitives of a usual size are below the target.
 #include <draco/compression/expert_encode.h>
 #include <malloc.h>
 

@@ -18,15 +18,16 @@
 #include "ods/picture/picture.h"
 #include "ods/render/render_options.h"
 #include "ods/scene/load/load.h"
+#include "tests/support/places.h"
 
 struct Subject {
   const char* name;
-  const char* file = "";  // below SHARED_SCENES; empty: the built-in scene of that name
+  const char* file = "";  // below shared_scenes(); empty: the built-in scene of that name
   ods::vec3 position{0.0f};
   double noise = 0.0;  // RMSE that the equal-noise figure aims at
 
   bool is_builtin() const { return !*file; }
-  std::string path() const { return std::string(SHARED_SCENES "/") + file; }
+  std::string path() const { return ods::shared_scenes() + "/" + file; }
 };
 
 inline constexpr Subject kAtrium{"atrium", "atrium.glb", {0.0f, 1.6f, 0.0f}, 0.005};

@@ -17,6 +17,7 @@
 #include "ods/view/page.h"
 #include "tests/support/browser.h"
 #include "tests/support/browser_run.h"
+#include "tests/support/places.h"
 #include "tests/support/stored_pictures.h"
 #include "tests/support/worlds.h"
 
@@ -187,7 +188,7 @@ void large_picture(benchmark::State& state) {
   const std::vector<std::string> browser = chromium(folder.path("profile"));
   if (browser.empty()) return state.SkipWithError("there is no chromium");
   const std::string path = folder.path("card_360_TB.jpg");
-  if (std::system((ODS_COMMAND " testcard -q --width 8192 -o " + path).c_str()) != 0) {
+  if (std::system((ods_command() + " testcard -q --width 8192 -o " + path).c_str()) != 0) {
     return state.SkipWithError("no test card");
   }
   for (auto _ : state) {

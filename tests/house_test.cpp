@@ -14,9 +14,12 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/places.h"
+
 namespace {
 
 namespace fs = std::filesystem;
+using ods::source_folder;
 
 // Libraries that few .cpp hide from all the others, by how their headers start.
 const std::set<std::string> kAvFiles = {"ods/video/decode.cpp",       "ods/video/encode.cpp",
@@ -74,7 +77,7 @@ std::vector<std::string> read_lines(const fs::path& path) {
 }
 
 std::vector<Source> read_sources(const std::vector<std::string>& folders) {
-  const fs::path root = ODS_SOURCE_DIR;
+  const fs::path root = source_folder();
   std::vector<Source> sources;
   for (const std::string& folder : folders) {
     if (!fs::exists(root / folder)) continue;
@@ -119,7 +122,7 @@ std::vector<std::string> cells_of(const std::string& line) {
 // The table of tests/rooms.md, in its order.
 std::vector<Room> read_rooms() {
   std::vector<Room> rooms;
-  for (const std::string& line : read_lines(fs::path(ODS_SOURCE_DIR) / "tests/rooms.md")) {
+  for (const std::string& line : read_lines(fs::path(source_folder()) / "tests/rooms.md")) {
     if (!line.starts_with("| ods/") && !line.starts_with("| cli/")) continue;
     const std::vector<std::string> cells = cells_of(line);
     Room& room = rooms.emplace_back(Room{cells.at(0), {}});
@@ -133,7 +136,7 @@ std::vector<Room> read_rooms() {
 // Which storey of ARCHITECTURE.md a folder is in.
 std::map<std::string, int> read_storeys() {
   std::map<std::string, int> storeys;
-  for (const std::string& line : read_lines(fs::path(ODS_SOURCE_DIR) / "ARCHITECTURE.md")) {
+  for (const std::string& line : read_lines(fs::path(source_folder()) / "ARCHITECTURE.md")) {
     if (line.size() < 4 || !line.starts_with("| ") || !std::isdigit(static_cast<unsigned char>(line[2]))) continue;
     const std::vector<std::string> cells = cells_of(line);
     std::istringstream names(std::regex_replace(cells.at(2), std::regex("`"), " "));
@@ -169,7 +172,7 @@ TEST(House, EveryRoomIncludesOnlyStoreysBelow) {
     for (const std::string& other : room.includes)
       EXPECT_LE(storey_of(storeys, other), own) << room.path << ", " << other;
   }
-  for (const auto& [folder, storey] : storeys) EXPECT_TRUE(fs::exists(fs::path(ODS_SOURCE_DIR) / folder)) << folder;
+  for (const auto& [folder, storey] : storeys) EXPECT_TRUE(fs::exists(fs::path(source_folder()) / folder)) << folder;
 }
 
 TEST(House, EveryRoomIncludesWhatTheTableSays) {
@@ -325,7 +328,7 @@ TEST(House, EveryFileSaysItsLicense) {
 }
 
 TEST(House, TheBuildIsShort) {
-  const fs::path root = ODS_SOURCE_DIR;
+  const fs::path root = source_folder();
   size_t total = read_lines(root / "CMakeLists.txt").size();
   for (const char* folder : {"cmake", "examples", "tests"}) {
     for (const fs::directory_entry& entry : fs::directory_iterator(root / folder)) {
@@ -356,7 +359,7 @@ TEST(House, TestsStandWhereTheirSourcesDo) {
 
 // NAME and ROOM stand for any.
 TEST(House, PathsThatThePagesNameExist) {
-  const fs::path root = ODS_SOURCE_DIR;
+  const fs::path root = source_folder();
   std::vector<fs::path> pages = {root / "README.md", root / "ARCHITECTURE.md", root / "CONTRIBUTING.md"};
   for (const fs::directory_entry& entry : fs::directory_iterator(root / "docs")) {
     if (entry.path().extension() == ".md") pages.push_back(entry.path());
@@ -380,7 +383,7 @@ TEST(House, PathsThatThePagesNameExist) {
 std::set<std::string> files_of_recipe(const std::string& name) {
   const std::regex path("`((ods|cli|web|tests|docs)/[A-Za-z0-9_/.-]+)`");
   std::set<std::string> files;
-  for (const std::string& line : read_lines(fs::path(ODS_SOURCE_DIR) / "CONTRIBUTING.md")) {
+  for (const std::string& line : read_lines(fs::path(source_folder()) / "CONTRIBUTING.md")) {
     if (!line.starts_with("| " + name + " |")) continue;
     for (std::sregex_iterator match(line.begin(), line.end(), path), end; match != end; ++match) {
       files.insert((*match)[1].str());
@@ -394,7 +397,7 @@ std::set<std::string> files_of_recipe(const std::string& name) {
 std::set<std::string> files_that_name(const std::string& member, const std::string& word) {
   const std::regex either("(^|[^A-Za-z0-9_])" + member + "($|[^A-Za-z0-9_])|(^|[^A-Za-z0-9_])" + word +
                           "($|[^A-Za-z0-9_])");
-  const fs::path root = ODS_SOURCE_DIR;
+  const fs::path root = source_folder();
   std::set<std::string> files;
   for (const char* folder : {"ods", "cli", "web", "tests", "docs"}) {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
@@ -430,12 +433,12 @@ TEST(House, RecipesNameTheFilesThatAMemberTouches) {
 TEST(House, FilesThatRecipesNameExist) {
   std::set<std::string> names;
   for (const Source& source : all_sources()) names.insert(fs::path(source.path).filename());
-  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(ODS_SOURCE_DIR) / "web")) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(source_folder()) / "web")) {
     names.insert(entry.path().filename());
   }
   const std::regex file("`([a-z0-9_]+\\.(cpp|h|js|html|css|sh|py))`"), any("`[^`]+/[^`]*`|that, and");
   size_t rows = 0;
-  for (const std::string& line : read_lines(fs::path(ODS_SOURCE_DIR) / "CONTRIBUTING.md")) {
+  for (const std::string& line : read_lines(fs::path(source_folder()) / "CONTRIBUTING.md")) {
     const bool row = line.starts_with("| a") || line.starts_with("| some");
     rows += row ? 1 : 0;
     EXPECT_TRUE(!row || std::regex_search(line, any)) << line;

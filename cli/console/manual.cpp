@@ -69,30 +69,37 @@ bool is_folder(const ManualEntry& entry) {
 
 // --- help ----------------------------------------------------------------------------------------------------------
 
-// One row of help: the name, and beside it the text in lines that fit a terminal.
-std::string help_row(const ManualEntry& entry) {
-  const size_t kTextColumn = 30, kLineWidth = 100;
+// A line that begins so, with the words of a text after it, and lines that begin at that column, all as a terminal
+// shows them.
+std::string wrapped(std::string line, size_t column, const std::string& text) {
+  const size_t kLineWidth = 100;
   std::string rows;
-  std::string line = "  " + entry.name + (entry.value.unit.empty() ? "" : " " + entry.value.unit);
-  if (line.size() + 2 > kTextColumn) {
-    rows += line + "\n";
-    line.clear();
-  }
-  line.resize(kTextColumn, ' ');
-  std::istringstream words(entry.text);
+  std::istringstream words(text);
   for (std::string word; words >> word;) {
-    if (line.size() + word.size() > kLineWidth) {
+    if (line.size() > column && line.size() + 1 + word.size() > kLineWidth) {
       rows += line + "\n";
-      line.assign(kTextColumn, ' ');
+      line.assign(column, ' ');
     }
-    line += (line.back() == ' ' ? "" : " ") + word;
+    line += (line.size() > column ? " " : "") + word;
   }
   return rows + line + "\n";
 }
 
+// One row of help: the name, and beside it the text. An argument's name is what it stands for.
+std::string help_row(const ManualEntry& entry) {
+  const size_t kTextColumn = 30;
+  const bool has_unit = entry.kind == Kind::kOption && !entry.value.unit.empty();
+  std::string name = "  " + entry.name + (has_unit ? " " + entry.value.unit : "");
+  const bool is_long = name.size() + 2 > kTextColumn;
+  const std::string row = is_long ? name + "\n" : "";
+  name.resize(is_long ? 0 : name.size());
+  name.resize(kTextColumn, ' ');
+  return row + wrapped(name, kTextColumn, entry.text);
+}
+
 std::string help(const Manual& manual) {
-  std::string text = fmt::format("{}\n\nExamples:\n{}\n\nUsage: ods {} {}\n", manual.summary, manual.examples,
-                                 manual.command, manual.usage);
+  std::string text = fmt::format("{}\nExamples:\n{}\n\nUsage: ods {} {}\n", wrapped("", 0, manual.summary),
+                                 manual.examples, manual.command, manual.usage);
   for (const ManualEntry& entry : manual.entries) {
     text += entry.kind == Kind::kHeading ? fmt::format("\n{}:\n", entry.name) : help_row(entry);
   }

@@ -16,6 +16,7 @@
 #include "ods/picture/metadata/metadata.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "tests/support/exact_camera.h"
+#include "tests/support/places.h"
 #include "tests/support/statistics.h"
 #include "tests/support/temporary_folder.h"
 
@@ -119,7 +120,7 @@ TEST(CameraFields, EveryMemberHasARow) {
 }
 
 TEST(CameraFields, TheSidecarsPageNamesEveryKey) {
-  std::ifstream file(ODS_SOURCE_DIR "/docs/camera-sidecar.md");
+  std::ifstream file(source_folder() + "/docs/camera-sidecar.md");
   const std::string page(std::istreambuf_iterator<char>(file), {});
   std::vector<std::string_view> places;
   for (const CameraFieldRow& row : camera_fields()) places.push_back(row.place);
@@ -133,7 +134,7 @@ TEST(CameraFields, TheSidecarsPageNamesEveryKey) {
 }
 
 TEST(CameraFields, TheStudioHasAControlForEach) {
-  std::ifstream file(ODS_SOURCE_DIR "/web/studio-fields.js");
+  std::ifstream file(source_folder() + "/web/studio-fields.js");
   const std::string page(std::istreambuf_iterator<char>(file), {});
   const auto expect_control = [&](std::string_view place) {
     const std::string_view key = place.substr(place.find('.') + 1);

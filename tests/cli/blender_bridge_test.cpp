@@ -468,7 +468,7 @@ except RuntimeError as error: say('ERROR', error)
 
 // The archive that the build makes: as an add-on of Blender 3.4, and with what an extension of 4.2 must say.
 TEST_F(BlenderAddOn, TheArchiveInstalls) {
-  const std::string archive = fs::path(ODS_COMMAND).parent_path() / "omnistereo_blender.zip";
+  const std::string archive = fs::path(ods_command()).parent_path() / "omnistereo_blender.zip";
   ASSERT_TRUE(fs::exists(archive)) << archive;
   const std::string said = blender("archive = '" + archive + R"py('
 if bpy.app.version >= (4, 2, 0):

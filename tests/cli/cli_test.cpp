@@ -258,7 +258,7 @@ TEST_F(Cli, AnInterruptBeforeMainIsOneLikeAnyOther) {
   if (process == 0) {
     dup2(pipe[1], STDERR_FILENO);
     setenv("LD_DEBUG", "files", 1);
-    execl(ODS_COMMAND, ODS_COMMAND, "scenes", nullptr);
+    execl(ods_command().c_str(), "ods", "scenes", nullptr);
     _exit(127);
   }
   close(pipe[1]);
@@ -388,7 +388,7 @@ TEST_F(Cli, TwoRendersOfOneFileDoNotMeet) {
 
 TEST_F(Cli, AFullStdoutIsAnOutputError) {
   for (const std::string& words : {std::string("scenes"), render()}) {
-    const std::string command = std::string(ODS_COMMAND) + " " + words + " >/dev/full 2>/dev/null";
+    const std::string command = ods_command() + " " + words + " >/dev/full 2>/dev/null";
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4) << words;
   }
 }
@@ -396,7 +396,7 @@ TEST_F(Cli, AFullStdoutIsAnOutputError) {
 TEST_F(Cli, WhatIsPrintedToAClosedStreamDoesNotEndInThePicture) {
   EXPECT_EQ(run(render()), 0) << err;
   const std::string picture = folder.read("picture.png");
-  const std::string command = std::string(ODS_COMMAND) + " " + render() + " <&- >&- 2>&-";
+  const std::string command = ods_command() + " " + render() + " <&- >&- 2>&-";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
   EXPECT_EQ(folder.read("picture.png"), picture);
 }

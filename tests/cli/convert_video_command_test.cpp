@@ -137,6 +137,7 @@ TEST_F(ConvertVideoCommand, AnInterruptLeavesWhatWasThere) {
 class KilledConversion : public ConvertVideoCommand {
  protected:
   static constexpr int kFrames = 2 * ods::kPartFrames + 40;
+  static constexpr ods::Extent kSize{128, 128};
 
   // A long video with sound whose pictures move; `shift` makes it another one.
   std::string make_long(const std::string& name, int shift = 0) const {
@@ -144,13 +145,13 @@ class KilledConversion : public ConvertVideoCommand {
     ods::EncodeOptions options;
     options.sound = path("sound.wav");
     ods::AtomicFile file(path(name));
-    ods::VideoEncoder encoder(file, *ods::container_of_path(name), {256, 256}, options);
+    ods::VideoEncoder encoder(file, *ods::container_of_path(name), kSize, options);
     for (int i = 0; i < kFrames; i++) {
-      const auto frame = std::make_shared<ods::VideoFrame>(ods::Extent{256, 256}, options.packing);
+      const auto frame = std::make_shared<ods::VideoFrame>(kSize, options.packing);
       const ods::Planes planes = frame->planes();
       for (size_t k = 0; k < frame->bytes(); k++) {
         planes.first[0][k] =
-            static_cast<std::byte>(64 + (k % 256 * 3 + k / 256 * 5 + static_cast<size_t>(2 * i + shift)) % 128);
+            static_cast<std::byte>(64 + (k % 128 * 3 + k / 128 * 5 + static_cast<size_t>(2 * i + shift)) % 128);
       }
       encoder.add(frame, {i, 1});
     }
@@ -236,8 +237,8 @@ TEST_F(KilledConversion, OfFramesGoesOnUnlessAFrameIsAnother) {
   };
   for (int i = 0; i < kFrames; i++) write(i, i % 20);
   const std::string to = "new_180_LR.mp4";
-  const std::vector<std::string> arguments = {
-      path("shot_360_TB.###.png"), "--to", "vr180", "--width", "128", "--codec", "h264", "-o", path(to)};
+  std::vector<std::string> arguments = {path("shot_360_TB.###.png"), "--to", "vr180", "--width", "64", "-o", path(to)};
+  arguments.insert(arguments.end(), {"--codec", "h264", "--preset", "ultrafast"});
   const std::string words = fmt::format("convert {}", fmt::join(arguments, " "));
   ASSERT_EQ(run(words + " -q"), 0) << err;
   const std::string whole = folder.read(to);

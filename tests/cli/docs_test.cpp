@@ -101,7 +101,7 @@ std::vector<std::string> code_spans(const std::string& text) {
 }
 
 std::vector<std::string> page_names() {
-  const fs::path root = ODS_SOURCE_DIR;
+  const fs::path root = source_folder();
   std::vector<std::string> names = {"README.md"};
   for (const fs::directory_entry& entry : fs::directory_iterator(root / "docs")) {
     if (entry.path().extension() == ".md") names.push_back("docs/" + entry.path().filename().native());
@@ -112,7 +112,7 @@ std::vector<std::string> page_names() {
 
 // A page's, and those within its text where that has whole ones.
 std::vector<Command> all_commands_of(const std::string& page) {
-  const std::string text = read_file(fs::path(ODS_SOURCE_DIR) / page);
+  const std::string text = read_file(fs::path(source_folder()) / page);
   std::vector<Command> commands = commands_of_page(text);
   if (page != "docs/tasks.md" && page != "README.md") return commands;
   for (const std::string& span : code_spans(text)) {
@@ -122,7 +122,7 @@ std::vector<Command> all_commands_of(const std::string& page) {
 }
 
 std::vector<std::string> command_names() {
-  std::istringstream lines(read_file(fs::path(ODS_SOURCE_DIR) / "cli/main.cpp"));
+  std::istringstream lines(read_file(fs::path(source_folder()) / "cli/main.cpp"));
   const std::regex row("    \\{\"([a-z]+)\", \".*");
   std::vector<std::string> names;
   std::smatch match;
@@ -154,7 +154,7 @@ class Pages : public ::testing::Test {
   // Runs words of the shell in the folder; `ods` is ours.
   int shell(const std::string& words) {
     const std::string script = "cd '" + folder.path("") + "' && { " + words + "\n} 2>log.txt >>out.txt";
-    const int status = std::system(("sh -c " + quoted("ods() { '" ODS_COMMAND "' \"$@\"; }\n" + script)).c_str());
+    const int status = std::system(("sh -c " + quoted("ods() { '" + ods_command() + "' \"$@\"; }\n" + script)).c_str());
     return WEXITSTATUS(status);
   }
 
@@ -390,7 +390,7 @@ class Pages : public ::testing::Test {
   // Serves until it is ended.
   void try_server(const std::string& line) {
     const std::string network = has(line, "--lan") ? " || test $code = 3" : "";  // perhaps there is none
-    const std::string words = ODS_COMMAND + line.substr(3) + " --no-browser";
+    const std::string words = ods_command() + line.substr(3) + " --no-browser";
     EXPECT_EQ(shell("rm -f address; timeout -s TERM 60 " + words +
                     " >address & while kill -0 $! && ! test -s address; do sleep 0.1; done; "
                     "kill $!; wait $!; code=$?; test $code = 143" +
@@ -408,8 +408,8 @@ class Pages : public ::testing::Test {
 
 // Which tests/install_test.cmake compiles.
 TEST_F(Pages, TheReadmeShowsAnExample) {
-  const std::string readme = read_file(fs::path(ODS_SOURCE_DIR) / "README.md");
-  const std::string example = read_file(fs::path(ODS_SOURCE_DIR) / "examples/minimal.cpp");
+  const std::string readme = read_file(fs::path(source_folder()) / "README.md");
+  const std::string example = read_file(fs::path(source_folder()) / "examples/minimal.cpp");
   const size_t begin = readme.find("```cpp\n") + 7;
   const std::string code = readme.substr(begin, readme.find("```", begin) - begin);
   EXPECT_GT(code.size(), 100u);
@@ -439,7 +439,7 @@ TEST_F(Pages, OptionsThatTheyNameExist) {
     options[""].insert(options[command].begin(), options[command].end());
   }
   std::string text;
-  for (const std::string& page : page_names()) text += read_file(fs::path(ODS_SOURCE_DIR) / page);
+  for (const std::string& page : page_names()) text += read_file(fs::path(source_folder()) / page);
   for (const std::string& span : code_spans(text)) {
     const bool whole = span.starts_with("ods ");
     if (!whole && !span.starts_with("--")) continue;

@@ -336,7 +336,7 @@ std::vector<Row> refused_rows() {
       {"spatial video",
        "ods convert spatial.mov -o eyes_LR.mp4",
        [](const TemporaryFolder& folder, const std::string& name) {
-         std::filesystem::copy_file(ODS_SOURCE_DIR "/tests/video/layers.mov", folder.path(name));
+         std::filesystem::copy_file(source_folder() + "/tests/video/layers.mov", folder.path(name));
        },
        {"perspective"},
        can_decode_both_views() ? "" : "ffmpeg"},
@@ -436,7 +436,7 @@ INSTANTIATE_TEST_SUITE_P(Rows, ForeignFiles, testing::ValuesIn(all_rows()), [](c
 
 // Every row of the page has a command, and every command a test of that row.
 TEST(ForeignPage, HasACommandInEveryRowAndATestForEachCommand) {
-  std::ifstream page(ODS_SOURCE_DIR "/docs/foreign.md");
+  std::ifstream page(source_folder() + "/docs/foreign.md");
   std::set<std::string> printed, tested;
   bool is_inside = false;
   for (std::string line; std::getline(page, line);) {

@@ -73,6 +73,18 @@ class Manual : public Cli {
 
 using Names = std::set<std::string>;
 
+TEST_F(Manual, HelpFitsATerminalAndNamesAnArgumentOnce) {
+  const std::regex twice("^  ([A-Z]+) \\1( .*|$)");
+  for (const std::string& command : commands()) {
+    EXPECT_EQ(run(command + " --help"), 0);
+    std::istringstream lines(out);
+    for (std::string line; std::getline(lines, line);) {
+      EXPECT_FALSE(std::regex_match(line, twice)) << command << ": " << line;
+      EXPECT_TRUE(line.size() <= 100 || line.starts_with("  ods ")) << command << ": " << line;  // examples are pasted
+    }
+  }
+}
+
 TEST_F(Manual, EveryOptionIsInTheManPage) {
   ASSERT_EQ(run("--help=man"), 0) << err;
   const std::string overview = out;

@@ -38,7 +38,7 @@ TEST_F(OwnOutput, OfBuiltInScenesHasNoFaultThatLintFinds) {
 }
 
 TEST_F(OwnOutput, OfSharedScenesHasNoFaultThatLintFinds) {
-  const std::string atrium = std::string(SHARED_SCENES) + "/atrium.glb";
+  const std::string atrium = shared_scenes() + "/atrium.glb";
   if (!std::filesystem::exists(atrium)) GTEST_SKIP() << "skipped: no shared scenes";
   const std::string report = lint(atrium);
   EXPECT_TRUE(is_silent(report)) << report;

@@ -30,7 +30,7 @@ class Package : public Cli {
 
 TEST_F(Package, HoldsWhatDebianExpects) {
   if (!works("command -v dpkg-shlibdeps && command -v file")) GTEST_SKIP() << "skipped: there is no dpkg-dev or file";
-  const std::string build = std::filesystem::path(ODS_COMMAND).parent_path().native();
+  const std::string build = std::filesystem::path(ods_command()).parent_path().native();
   output_of("cpack --config " + build + "/CPackConfig.cmake -B " + folder.path("package"));
   const std::string package = folder.path("package") + "/ods_*.deb";
   const std::string files = output_of("dpkg-deb -c " + package);

@@ -15,7 +15,7 @@ namespace ods::portable_test {
 class Portable : public Cli {
  protected:
   std::string render_by(const std::string& program, const std::string& name) {
-    const std::string line = program + " '" ODS_COMMAND "' render toys --width 32 --samples 2 --noise none " +
+    const std::string line = program + " '" + ods_command() + "' render toys --width 32 --samples 2 --noise none " +
                              "--denoise none --portable -q -o " + folder.path(name) + " >/dev/null 2>&1";
     EXPECT_EQ(std::system(line.c_str()), 0) << line;
     return folder.read(name);

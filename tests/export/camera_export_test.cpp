@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "tests/support/exact_camera.h"
+#include "tests/support/places.h"
 #include "tests/support/statistics.h"
 #include "tests/support/temporary_folder.h"
 
@@ -138,21 +139,26 @@ std::string with_main(const std::string& text, bool hlsl) {
 
 TEST(CameraExport, GlslCompilesForWebGl) {
   const TemporaryFolder folder;
-  std::string all = std::string(ODS_GLSLANG);
+  std::string all = glslang();
   int i = 0;
   for (const Sidecar& file : many_cameras()) {
     const std::string name = std::to_string(i++) + ".frag";
     folder.write(name, with_main(export_camera(file, CameraTarget::kGlsl).text, false));
-    all = std::string(ODS_GLSLANG) + " " + folder.path(name);
-    ASSERT_TRUE(runs(all)) << folder.read(name);
+    all += " " + folder.path(name);
+  }
+  const bool is_right = runs(all);  // at once: most of its time goes into its start
+  EXPECT_TRUE(is_right);
+  for (int bad = 0; bad < i && !is_right; bad++) {
+    const std::string name = std::to_string(bad) + ".frag";
+    EXPECT_TRUE(runs(glslang() + " " + folder.path(name))) << folder.read(name);
   }
   folder.write("bad.frag", with_main("void nothing() {}\n", false));
-  EXPECT_FALSE(runs(std::string(ODS_GLSLANG) + " " + folder.path("bad.frag")));
+  EXPECT_FALSE(runs(glslang() + " " + folder.path("bad.frag")));
 }
 
 TEST(CameraExport, HlslCompiles) {
   const TemporaryFolder folder;
-  const std::string compile = std::string(ODS_GLSLANG) + " -D -V -S frag -e main -o /dev/null ";
+  const std::string compile = glslang() + " -D -V -S frag -e main -o /dev/null ";
   for (const Sidecar& file : many_cameras()) {
     folder.write("x.hlsl", with_main(export_camera(file, CameraTarget::kHlsl).text, true));
     ASSERT_TRUE(runs(compile + folder.path("x.hlsl"))) << folder.read("x.hlsl");

@@ -15,6 +15,7 @@
 #include "ods/image/image_file.h"
 #include "ods/picture/stored_picture.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods {
@@ -159,7 +160,7 @@ class Peers : public ::testing::Test {
     const std::string all = "cd " + folder.path("") + " && " + command + " > log.txt 2>&1 < /dev/null";
     ASSERT_EQ(std::system(all.c_str()), 0) << command << "\n" << folder.read("log.txt");
   }
-  void ods(const std::string& words) const { shell(ODS_COMMAND " " + words); }
+  void ods(const std::string& words) const { shell(ods_command() + " " + words); }
 
   // The share of the pixels in either silhouette that are in both.
   double overlap(const std::string& a, const std::string& b) const {
@@ -228,7 +229,7 @@ TEST_F(Peers, DISABLED_ThreeShowsTheSame) {
   direct_picture();
   write_three(folder);
   ods(fmt::format("rig {} --slits 48 -o rig.json --for three", kCamera));
-  shell("cp " + three + " . && node " ODS_SOURCE_DIR "/examples/three/views.mjs page.html");
+  shell("cp " + three + " . && node " + source_folder() + "/examples/three/views.mjs page.html");
   ods("stitch rig.json views/####.png -o stitched_%V.exr");
   compare("three.js");
 }

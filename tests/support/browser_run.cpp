@@ -14,6 +14,7 @@
 #include "ods/view/page.h"
 #include "tests/support/browser.h"
 #include "tests/support/picture_rows.h"
+#include "tests/support/places.h"
 
 namespace ods {
 
@@ -58,7 +59,7 @@ std::string run_harness(const Harness& harness) {
     const std::string type(media_type(name));
     if (name == "jobs.json") return {.type = type, .body = harness.jobs};
     if (name == "iwer.module.js") return {.type = type, .file = std::getenv("ODS_IWER")};
-    const std::string own = std::string(ODS_SOURCE_DIR "/tests/web/") + name;
+    const std::string own = source_folder() + "/tests/web/" + name;
     return std::filesystem::is_regular_file(own) ? WebAnswer{.type = type, .file = own} : harness.site(request);
   };
   return run_in_browser({harness.browser, harness.folder + "/home", "harness.html", answer, harness.patience});

@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 // Sanitizers take all the address space.
@@ -35,7 +36,7 @@ class Ods {
  public:
   explicit Ods(std::vector<std::string> arguments, rlim_t largest_file = RLIM_INFINITY,
                rlim_t address_space = RLIM_INFINITY) {
-    arguments.insert(arguments.begin(), ODS_COMMAND);
+    arguments.insert(arguments.begin(), ods::ods_command());
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);

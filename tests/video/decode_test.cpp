@@ -15,6 +15,7 @@
 #include "ods/video/make_video.h"
 #include "tests/support/decoded_video.h"
 #include "tests/support/made_frames.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods {
@@ -265,7 +266,7 @@ TEST_F(Decode, PicturesStoredUpsideDownAreTurned) {
 
 // What two flat lenses see, 63.4 degrees across, three pictures of 256x192: encoded by x265 4.1 (built with multiview),
 // in a mov with lhvC, vexu and hfov, as phones write them.
-const std::string kLayers = ODS_SOURCE_DIR "/tests/video/layers.mov";
+const std::string kLayers = source_folder() + "/tests/video/layers.mov";
 
 std::string bytes_of_layers() {
   const std::vector<uint8_t> bytes = read_file(kLayers, 1 << 20);

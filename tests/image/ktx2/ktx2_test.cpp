@@ -15,6 +15,7 @@
 #include "ods/files/md5.h"
 #include "ods/files/read_file.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/places.h"
 
 namespace ods::ktx2_test {
 
@@ -32,7 +33,7 @@ constexpr Reference kReferences[] = {
 };
 
 Binary bytes_of(const std::string& name) {
-  return read_file(std::string(ODS_SOURCE_DIR) + "/tests/image/ktx2/" + name + ".ktx2", 1 << 20);
+  return read_file(source_folder() + "/tests/image/ktx2/" + name + ".ktx2", 1 << 20);
 }
 
 CodeImage decode(const Binary& bytes) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/support/gltf_builder.h"
+#include "tests/support/places.h"
 
 namespace ods {
 namespace {
@@ -20,7 +21,7 @@ std::string row_of(const Extension& each) {
 
 // The rows of the table in docs/scenes.md.
 std::vector<std::string> rows_of_page() {
-  std::ifstream page(ODS_SOURCE_DIR "/docs/scenes.md");
+  std::ifstream page(source_folder() + "/docs/scenes.md");
   std::vector<std::string> rows;
   bool inside = false;
   for (std::string line; std::getline(page, line);) {

@@ -15,6 +15,7 @@
 
 #include "ods/base/error.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods {
@@ -131,8 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Breakage{"/accessors/0/count", "1000000000000000000", "runs past the end"},
         Breakage{"/accessors/0/count", "18446744073709551615", "runs past the end"},
-        Breakage{"/accessors/0/count", "4", "runs past the end"},
-        Breakage{"/accessors/0/count", "-1", ""},
+        Breakage{"/accessors/0/count", "4", "runs past the end"}, Breakage{"/accessors/0/count", "-1", ""},
         Breakage{"/accessors/0/byteOffset", "18446744073709551615", "runs past the end"},
         Breakage{"/accessors/0/bufferView", "99", "buffer view 99 does not exist"},
         Breakage{"/accessors/1/count", "2", "3 positions, but 2 values of NORMAL"},
@@ -381,7 +381,7 @@ TEST(GltfBadInput, LongNamesDoNotFloodAMessage) {
 }
 
 TEST(GltfBadInput, SharedSceneWithFlippedBits) {
-  const std::filesystem::path path = std::filesystem::path(SHARED_SCENES) / "atrium.glb";
+  const std::filesystem::path path = std::filesystem::path(shared_scenes()) / "atrium.glb";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "skipped: no ../shared/scenes beside the sources";
   std::ifstream stream(path, std::ios::binary);
   Binary whole(std::filesystem::file_size(path));

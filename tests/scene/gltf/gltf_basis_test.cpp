@@ -6,12 +6,13 @@
 
 #include "ods/files/read_file.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/places.h"
 
 namespace ods {
 namespace {
 
 Binary small_ktx2() {
-  return read_file(std::string(ODS_SOURCE_DIR) + "/tests/image/ktx2/etc1s.ktx2", 1 << 20);
+  return read_file(source_folder() + "/tests/image/ktx2/etc1s.ktx2", 1 << 20);
 }
 
 constexpr size_t kTexels = 61 * 61;

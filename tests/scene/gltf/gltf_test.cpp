@@ -14,6 +14,7 @@
 #include "ods/base/error.h"
 #include "ods/kernel/microfacets.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/places.h"
 #include "tests/support/scene_check.h"
 
 namespace ods::gltf_test {
@@ -446,7 +447,7 @@ TEST(Gltf, BufferInADataUri) {
 }
 
 TEST(Gltf, SharedScenes) {
-  const std::filesystem::path folder = SHARED_SCENES;
+  const std::filesystem::path folder = shared_scenes();
   if (!std::filesystem::exists(folder / "atrium.glb"))
     GTEST_SKIP() << "skipped: no ../shared/scenes beside the sources";
   const Scene atrium = load_gltf((folder / "atrium.glb").string());

@@ -9,12 +9,13 @@
 #include "ods/render/cpu/render.h"
 #include "ods/scene/load/load.h"
 #include "tests/support/pictures.h"
+#include "tests/support/places.h"
 
 namespace ods {
 namespace {
 
 void expect_mean(const std::string& name, vec3 position, int samples, double known) {
-  const std::filesystem::path path = std::filesystem::path(SHARED_SCENES) / name;
+  const std::filesystem::path path = std::filesystem::path(shared_scenes()) / name;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "skipped: " << name << " is not in ../shared/scenes";
   Scene scene = load_scene(path.string());
   scene.environment = {vec3(1.0f), 0, 0, {}};
