@@ -4,7 +4,7 @@
 #
 # Makes docs/images/kinds.jpg: scenes of sixteen kinds, each as the left eye sees it in a view of 90 x 90 degrees,
 # without any option that changes the viewer's place, the light or the exposure. Needs build/release/ods,
-# build/release/kinds_of_scene and oiiotool. Takes about ten minutes.
+# build/release/kinds_of_scene (cmake --build build/release --target kinds_of_scene) and oiiotool. Takes about ten minutes.
 #   docs/kinds_sheet.sh [FOLDER [NAME...]]: renders only these again, for the others takes the pictures in the folder
 set -eu
 cd "$(dirname "$0")/.."

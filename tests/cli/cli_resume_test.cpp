@@ -40,7 +40,7 @@ class Resume : public Cli {
 };
 
 TEST_F(Resume, GoesOnToTheSameBits) {
-  ASSERT_EQ(whole(words("whole.png")), 0) << err;
+  ASSERT_EQ(whole(words("whole.png", {"--threads", "2"})), 0) << err;
   ASSERT_EQ(interrupted(words("a.png")), 128 + SIGINT) << err;
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.png.unfinished", "whole.png"}));
   EXPECT_NE(err.find("the same command goes on"), std::string::npos) << err;
