@@ -20,6 +20,6 @@ struct Spawned {
 // words: the program, by its path or as PATH finds it, and its arguments. Nothing if it cannot be started.
 std::optional<Spawned> spawn(const std::vector<std::string>& words, StreamUse out, StreamUse errors);
 
-// The same, of which stderr is read and stdout hidden. It is killed when the calling thread ends, whatever ends that, and
-// the terminal's Ctrl-C is not for it.
+// The same, of which stderr is read and stdout hidden. It is killed when the calling thread ends, whatever ends that,
+// and the terminal's Ctrl-C is not for it.
 std::optional<Spawned> spawn_for_this_thread(const std::vector<std::string>& words);

@@ -10,7 +10,8 @@
 #include "ods/picture/metadata/stereo_format.h"
 
 // option: the name of the one that names the projection.
-void add_projection_options(Options& options, ods::ProjectionSetting& projection, const std::string& option = "--projection");
+void add_projection_options(Options& options, ods::ProjectionSetting& projection,
+                            const std::string& option = "--projection");
 
 // Throws UsageError, whose message says that `option` was given the name.
 ods::ProjectionSetting projection_by_name(const std::string& option, const std::string& name);

@@ -23,7 +23,8 @@ class CliFrames : public Cli {
     file.node(0).erase("translation");
     file.node(1)["translation"] = {-1.0, 0.0, 2.0};
     file.primitive()["material"] = 0;
-    file.json["materials"] = ods::GltfJson::parse(R"([{"pbrMetallicRoughness": {"baseColorFactor": [0.2, 0.5, 0.8, 1]}}])");
+    file.json["materials"] =
+        ods::GltfJson::parse(R"([{"pbrMetallicRoughness": {"baseColorFactor": [0.2, 0.5, 0.8, 1]}}])");
     const ods::Binary bytes = file.glb();
     std::ofstream(scene, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
   }

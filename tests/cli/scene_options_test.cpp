@@ -65,7 +65,8 @@ TEST_F(SceneOptionsOf, RenderingNamesOnlyWhatIsMissing) {
 TEST_F(SceneOptionsOf, Variants) {
   GltfBuilder file = ods::make_triangle();
   file.json["extensionsUsed"] = {"KHR_materials_variants"};
-  file.json["extensions"]["KHR_materials_variants"]["variants"] = GltfJson::parse(R"([{"name": "red"}, {"name": "blue"}])");
+  file.json["extensions"]["KHR_materials_variants"]["variants"] =
+      GltfJson::parse(R"([{"name": "red"}, {"name": "blue"}])");
   file.json["materials"] =
       GltfJson::parse(R"([{"emissiveFactor": [1, 0, 0]}, {"pbrMetallicRoughness": {"metallicFactor": 0}}])");
   file.primitive()["material"] = 0;

@@ -97,8 +97,8 @@ TEST(SameLight, SingleSidedMirroredLamp) {
   expect_same_light(scene);
 }
 
-// Lamps all over a room: balls, of which the backs are dark or not seen, and panels that shine to one side. A tree picks
-// among their triangles.
+// Lamps all over a room: balls, of which the backs are dark or not seen, and panels that shine to one side. A tree
+// picks among their triangles.
 TEST(SameLight, ManyLamps) {
   Material ball = glowing(vec3(3.0f)), panel = glowing(vec3(5.0f));
   panel.double_sided = 0;

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
+#include "ods/scene/portals.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "ods/kernel/light.h"
 #include "ods/render/cpu/render.h"
-#include "ods/scene/portals.h"
 #include "tests/support/pictures.h"
 
 namespace ods {

@@ -121,7 +121,8 @@ TEST(GltfJson, SkipsWhatReadersDoNotKnow) {
   file.json["mine"] = GltfJson::parse(R"({"nodes": 1})");
   file.node(0)["extras"] = 5;
   file.node(0)["extensions"] = GltfJson::parse(R"({"MY_extension": {"mesh": [1, [2]]}})");
-  file.json["extensions"] = GltfJson::parse(R"({"KHR_lights_punctual": {"lights": [{"type": "point", "extras": "x"}]}})");
+  file.json["extensions"] =
+      GltfJson::parse(R"({"KHR_lights_punctual": {"lights": [{"type": "point", "extras": "x"}]}})");
   file.node(0)["extensions"]["KHR_lights_punctual"] = {{"light", 0}};
   const Scene scene = file.load();
   EXPECT_EQ(scene.lights.size(), 1u);

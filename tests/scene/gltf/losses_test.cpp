@@ -28,8 +28,10 @@ GltfBuilder make_lit_export() {
   file.json["extensionsUsed"] = {"KHR_lights_punctual"};
   file.json["extensions"]["KHR_lights_punctual"]["lights"] =
       GltfJson::parse(R"([{"color": [1, 1, 1], "intensity": 543.5, "type": "point", "name": "bulb"}])");
-  file.json["nodes"].push_back(GltfJson::parse(R"({"name": "bulb", "extensions": {"KHR_lights_punctual": {"light": 0}}})"));
-  file.json["nodes"].push_back(GltfJson::parse(R"({"name": "ceiling area", "rotation": [-0.7071068, 0, 0, 0.7071068]})"));
+  file.json["nodes"].push_back(
+      GltfJson::parse(R"({"name": "bulb", "extensions": {"KHR_lights_punctual": {"light": 0}}})"));
+  file.json["nodes"].push_back(
+      GltfJson::parse(R"({"name": "ceiling area", "rotation": [-0.7071068, 0, 0, 0.7071068]})"));
   file.json["nodes"].push_back(GltfJson::parse(R"({"name": "Eye", "translation": [1, 1.6, 2]})"));
   file.json["nodes"].push_back(GltfJson::parse(R"({"name": "Empty"})"));
   file.json["scenes"][0]["nodes"] = {0, 1, 2, 3, 4};
