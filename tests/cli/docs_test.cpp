@@ -24,6 +24,7 @@
 #include "tests/support/compressed_gltf.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/made_frames.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods::docs_test {
