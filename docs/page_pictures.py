@@ -22,6 +22,7 @@ PATIENCE = 1800  # seconds
 SHOWN = "window.omnistereo?.viewer.picture && !omnistereo.viewer.picture.isPreview"
 FINISHED = "document.body.innerText.includes(': finished')"
 # Without the hint; with the bar, which fades otherwise.
+AWAKE = "getComputedStyle(document.getElementById('bar')).opacity === '1'"
 PLAIN = "for (const name of ['pointerdown', 'pointermove']) document.dispatchEvent(new Event(name, { bubbles: true }));"
 OPEN = PLAIN + "omnistereo.viewer.set({ mode: 'side-by-side', grid: true }); omnistereo.act('settings')"
 
@@ -74,7 +75,9 @@ def take_picture(browser, address, is_ready, what):
     while not browser.ask("Runtime.evaluate", session, expression=is_ready)["result"].get("value") and time.monotonic() < end:
         time.sleep(1)
     browser.ask("Runtime.evaluate", session, expression=what)
-    time.sleep(1)  # the bar fades after three
+    while not browser.ask("Runtime.evaluate", session, expression=AWAKE)["result"].get("value"):
+        browser.ask("Runtime.evaluate", session, expression=PLAIN)
+        time.sleep(0.2)  # it comes while a software GPU is busy
     return base64.b64decode(browser.ask("Page.captureScreenshot", session)["data"])
 
 
