@@ -205,9 +205,8 @@ void add_eye_options(Options& options, CameraOptions& camera) {
   options.flag("--left-handed", stereo.mirrored, "swap front and back, for a left-handed world that was not converted");
 }
 
-// value_of: a pixel's value in the map, 0..1, from its scene-linear light. NaN becomes `fallback`.
-template <class ValueOf>
-static std::shared_ptr<const ods::Image> read_map(const std::string& path, float fallback, ValueOf value_of) {
+// Numbers, not light: of any format a pixel's value is the one that is stored, 0..1. NaN becomes `fallback`.
+static std::shared_ptr<const ods::Image> read_map(const std::string& path, float fallback, bool inverted = false) {
   const ods::FileInfo info = ods::read_info(path);
   if (int64_t{info.width} * info.height > ods::kLargestMap) {
     throw ods::Error(ods::ErrorKind::kInput,
@@ -219,8 +218,9 @@ static std::shared_ptr<const ods::Image> read_map(const std::string& path, float
   if (!color_fault.empty()) warn(fmt::format("'{}': {}", path, color_fault));
   auto map = std::make_shared<ods::Image>(picture.width, picture.height, 1);
   for (size_t i = 0; i < map->pixels.size(); i++) {
-    const float value = value_of(picture.pixels[3 * i]);
-    map->pixels[i] = std::isnan(value) ? fallback : std::clamp(value, 0.0f, 1.0f);
+    const float light = picture.pixels[3 * i], value = info.is_float ? light : ods::srgb_encode(light);
+    const float stored = std::isnan(value) ? fallback : std::clamp(value, 0.0f, 1.0f);
+    map->pixels[i] = inverted && !std::isnan(value) ? 1.0f - stored : stored;
   }
   return map;
 }
@@ -251,13 +251,9 @@ void finish_eye_options(CameraOptions& camera) {
     throw UsageError("--merge-map-inverted needs a picture: --merge-map FILE");
   if (!camera.merge_map.empty()) {
     if (!wanted) stereo.top.mode = stereo.bottom.mode = ods::kMergeMap;
-    const auto share = [&](float white) { return camera.merge_map_inverted ? 1.0f - white : white; };
-    stereo.merge_map = read_map(camera.merge_map, 0.0f, share);
+    stereo.merge_map = read_map(camera.merge_map, 0.0f, camera.merge_map_inverted);
   }
   if (!camera.head_tilt_map.empty()) {
-    // Angles, not light: half is half, as painted.
-    const bool is_encoded = !ods::read_info(camera.head_tilt_map).is_float;
-    const auto tilt = [&](float value) { return is_encoded ? ods::srgb_encode(value) : value; };
-    stereo.head_tilt_map = read_map(camera.head_tilt_map, 0.5f, tilt);
+    stereo.head_tilt_map = read_map(camera.head_tilt_map, 0.5f);
   }
 }

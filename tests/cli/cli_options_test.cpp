@@ -225,6 +225,22 @@ TEST_F(Cli, AHeadTiltMapTiltsTheHead) {
   EXPECT_GT(found["left"]["uv"][1].get<double>(), 0.51);
 }
 
+// Half the eye distance is half as painted, in 8 bits as in floats.
+TEST_F(Cli, AMergeMapIsNumbersAndNotLight) {
+  const auto share = [&](const std::string& name, float value, const std::string& more = "") {
+    write_grey(folder.path(name), 4, 2, value);
+    const std::string sidecar = folder.path("a.camera.json");
+    EXPECT_EQ(run("camera --for json --width 64 --merge-map " + folder.path(name) + " -o " + sidecar + more), 0) << err;
+    std::vector<std::string> warnings;
+    const auto map = ods::load_sidecar(sidecar, warnings).camera.merge_map;
+    return map ? map->pixels[5] : NAN;
+  };
+  EXPECT_EQ(share("half.exr", 0.5f), 0.5f);
+  EXPECT_NEAR(share("half.png", 127.0f / 255.0f), 127.0f / 255.0f, 1e-6f);
+  EXPECT_NEAR(share("dark.png", 51.0f / 255.0f, " --merge-map-inverted"), 0.8f, 1e-6f);
+  EXPECT_EQ(share("nan.exr", NAN), 0.0f);
+}
+
 TEST_F(Cli, MapsThatCannotBeReadAreErrorsOfTheirFiles) {
   folder.write("text.png", "no picture");
   write_grey(folder.path("large.png"), 8192, 2049, 0.0f);

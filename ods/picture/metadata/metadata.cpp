@@ -142,11 +142,13 @@ void read_numbers(AttributeReader& in, StereoCamera& camera) {
 }
 
 // Maps that vary around are in a sidecar only.
-void read_maps(AttributeReader& in, StereoCamera& camera, std::vector<std::string>& warnings) {
+void read_maps(AttributeReader& in, StereoCamera& camera, const StereoCamera* maps,
+               std::vector<std::string>& warnings) {
   if (merges_by_map(camera)) {
     const std::optional<std::string> curve = in.word(kMergeCurve);
     if (curve) camera.merge_map = curve_of_text(*curve);
     if (curve && !camera.merge_map) return in.refuse(kMergeCurve);
+    if (!curve && maps) camera.merge_map = maps->merge_map;
   }
   if (merges_by_map(camera) && !camera.merge_map) {
     for (PoleMergeSetting* merge : {&camera.top, &camera.bottom}) {
@@ -156,12 +158,15 @@ void read_maps(AttributeReader& in, StereoCamera& camera, std::vector<std::strin
   }
   const std::optional<std::string> tilt = in.word("ods:headTilt");
   if (tilt && *tilt != "map") return in.refuse("ods:headTilt");
-  if (tilt) warnings.push_back("its head-tilt map is in a sidecar that is missing: using a level head");
+  if (tilt && maps) camera.head_tilt_map = maps->head_tilt_map;
+  if (tilt && !camera.head_tilt_map)
+    warnings.push_back("its head-tilt map is in a sidecar that is missing: using a level head");
 }
 
 }  // namespace
 
-std::optional<StereoCamera> camera_of(const FileInfo& info, std::vector<std::string>& warnings) {
+std::optional<StereoCamera> camera_of(const FileInfo& info, std::vector<std::string>& warnings,
+                                      const StereoCamera* maps) {
   AttributeReader in(info);
   const std::optional<std::string> projection = in.word("ods:projection");
   if (!projection) return std::nullopt;
@@ -175,7 +180,7 @@ std::optional<StereoCamera> camera_of(const FileInfo& info, std::vector<std::str
   read_modes(in, camera);
   read_numbers(in, camera);
   camera.mirrored = !in.numbers("ods:mirrored").empty();
-  read_maps(in, camera, warnings);
+  read_maps(in, camera, maps, warnings);
   const std::string fault = in.bad().empty() ? camera_fault(camera) : "";
   if (in.bad().empty() && fault.empty()) return camera;
   const std::string what = fault.empty() ? fmt::format("{} is invalid", in.bad()) : "camera is impossible: " + fault;

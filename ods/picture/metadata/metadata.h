@@ -23,8 +23,10 @@ namespace ods {
 void add_camera(std::vector<Attribute>& attributes, const StereoCamera& camera);
 
 // The camera that a file's attributes describe; nothing if there is none. Invalid attributes add a message to
-// `warnings` and are ignored, and so are the camera's other attributes.
-std::optional<StereoCamera> camera_of(const FileInfo& info, std::vector<std::string>& warnings);
+// `warnings` and are ignored, and so are the camera's other attributes. maps: has the maps of which the file says only
+// that there are some, or nullptr.
+std::optional<StereoCamera> camera_of(const FileInfo& info, std::vector<std::string>& warnings,
+                                      const StereoCamera* maps = nullptr);
 
 // Whether this file's camera merges by a map that nobody has who read it.
 bool lacks_merge_map(const FileInfo& info, const StereoCamera& camera);

@@ -221,8 +221,8 @@ static int find_eye(const FileInfo& info, const std::optional<Sidecar>& sidecar)
 }
 
 static std::optional<StereoCamera> camera_in_file(const FileInfo& info, const std::string& path,
-                                                  std::vector<std::string>& warnings) {
-  if (std::optional<StereoCamera> camera = camera_of(info, warnings)) return camera;
+                                                  const StereoCamera* maps, std::vector<std::string>& warnings) {
+  if (std::optional<StereoCamera> camera = camera_of(info, warnings, maps)) return camera;
   if (!info.is_float) {
     const std::string xmp = read_xmp(names_eye(path) ? path_for_eye(path, kLeft) : path);
     const std::optional<StereoCamera> camera = gpano_camera(xmp);
@@ -264,15 +264,15 @@ static ProjectionSetting guess_projection(Extent eye, const std::string& path, c
   return guess(*find_projection("lat-long"), "nothing says otherwise");
 }
 
-// The file's own metadata takes precedence over its sidecar, which may be older. Maps come from the sidecar, which
-// alone holds them.
+// The file's own metadata takes precedence over its sidecar, which may be older. Maps that the file says it has and
+// does not hold come from the sidecar.
 static std::optional<StereoCamera> find_stated_camera(const FileInfo& info, const std::string& path,
                                                       const FormatHint& known, const std::optional<Sidecar>& sidecar,
                                                       std::vector<std::string>& guesses) {
   if (known.camera) return known.camera;
-  const bool has_maps = sidecar && (sidecar->camera.merge_map || sidecar->camera.head_tilt_map);
-  if (sidecar && (has_maps || !info.text.contains("ods:projection"))) return sidecar->camera;
-  if (std::optional<StereoCamera> own = camera_in_file(info, path, guesses)) return own;
+  if (sidecar && !info.text.contains("ods:projection")) return sidecar->camera;
+  const StereoCamera* maps = sidecar ? &sidecar->camera : nullptr;
+  if (std::optional<StereoCamera> own = camera_in_file(info, path, maps, guesses)) return own;
   return sidecar ? std::optional(sidecar->camera) : std::nullopt;
 }
 

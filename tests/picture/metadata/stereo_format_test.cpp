@@ -159,6 +159,30 @@ TEST(Metadata, AHeadTiltMapComesBackFromTheSidecar) {
   }
 }
 
+// A sidecar of an earlier render gives no more than the map that the file says it has.
+TEST(Metadata, AnExrComesBeforeItsStaleSidecarWithAMap) {
+  const TemporaryFolder folder;
+  StereoCamera old, stereo;
+  auto map = std::make_shared<Image>(2, 1, 1);
+  map->pixels = {0.25f, 0.7f};
+  old.merge_map = map, old.ipd = 0.03f;
+  old.top.mode = old.bottom.mode = kMergeMap;
+  SaveOptions with_sidecar;
+  with_sidecar.sidecar = true;
+  save_picture(grey({kLeft, kRight}, {16, 8}), &old, with_sidecar, folder.path("a.exr"));
+  save_picture(grey({kLeft, kRight}, {16, 8}), &stereo, {}, folder.path("a.exr"));
+  const StereoCamera plain = open_picture(folder.path("a.exr")).camera;
+  EXPECT_EQ(plain.ipd, stereo.ipd);
+  EXPECT_EQ(plain.top.mode, kMergeNone);
+  EXPECT_EQ(plain.merge_map, nullptr);
+  stereo.merge_map = map, stereo.bottom.mode = kMergeMap;
+  save_picture(grey({kLeft, kRight}, {16, 8}), &stereo, {}, folder.path("a.exr"));
+  const StereoCamera mapped = open_picture(folder.path("a.exr")).camera;
+  EXPECT_EQ(mapped.ipd, stereo.ipd);
+  EXPECT_EQ(mapped.top.mode, kMergeNone);
+  EXPECT_TRUE(same_map(mapped.merge_map, map));
+}
+
 TEST(Metadata, InvalidAttributesAreIgnoredAndReported) {
   FileInfo info;
   info.text["ods:projection"] = "lat-long";
