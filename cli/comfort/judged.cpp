@@ -117,8 +117,8 @@ Looked match_picture(const ods::StoredPicture& picture, const std::string& name)
 struct Opened {
   ods::StoredPicture picture;
   std::optional<ods::Cryptomatte> matte;
-  bool shows = false;      // its colours are there
-  bool lacks_map = false;  // without which depth does not tell what its eyes show
+  bool shows = false;       // its colours are there
+  bool lacks_map = false;   // without which depth does not tell what its eyes show
   bool is_foreign = false;  // it has two eyes and depth, but no word of how the eyes were placed
 };
 
@@ -209,8 +209,8 @@ void measure_camera(Looked& looked, const ods::StoredPicture& picture, const std
   const std::optional<ods::MeasuredEyes> found =
       ods::measure_eyes(ods::grey_eyes(picture), looked.eyes[0].seen, picture.is_float);
   if (!found || !found->is_known) {
-    note(fmt::format("'{}': no word says whether it has a pole merge, and its pixels do not tell: judged as if it had none",
-                     name));
+    note(fmt::format(
+        "'{}': no word says whether it has a pole merge, and its pixels do not tell: judged as if it had none", name));
   }
   if (!found) return;
   looked.camera = found->camera;

@@ -25,14 +25,14 @@ constexpr int kHorizon = 30;           // rows to either side of it, which tell 
 constexpr double kLeastPixels = 30.0;  // of parallax, all pixels of a row together: less tells nothing
 constexpr double kMostNoise = 0.4;     // of the parallax of a row, may be unexplained
 constexpr int kLeastRows = 30;
-constexpr double kNearestMeeting = 0.3;   // metres: where eyes may converge
-constexpr double kClearly = 0.95;          // convergence is believed if it leaves so much less unexplained
-constexpr double kSameEyes = 0.04;        // an eye distance that is as the camera's but for this is the camera's
-constexpr double kLeastMerge = 0.1;       // of the circle: what is less is no merge
-constexpr float kFull = 0.04f;            // what lacks less is full stereo
-constexpr double kSure = 6.0;             // and so is what is less than so many errors
-constexpr double kTells = 50.0;           // degrees: merges begin about there
-constexpr int kGoesOn = 10;               // rows, whose slope goes on beyond what could be measured
+constexpr double kNearestMeeting = 0.3;  // metres: where eyes may converge
+constexpr double kClearly = 0.95;        // convergence is believed if it leaves so much less unexplained
+constexpr double kSameEyes = 0.04;       // an eye distance that is as the camera's but for this is the camera's
+constexpr double kLeastMerge = 0.1;      // of the circle: what is less is no merge
+constexpr float kFull = 0.04f;           // what lacks less is full stereo
+constexpr double kSure = 6.0;            // and so is what is less than so many errors
+constexpr double kTells = 50.0;          // degrees: merges begin about there
+constexpr int kGoesOn = 10;              // rows, whose slope goes on beyond what could be measured
 
 // What a pixel tells: `shown`, the tangent of its half parallax times the cosine of its elevation, is
 // radius * (nearness - meeting) with the nearness 1 / depth and 1 / the distance where the eyes converge.
@@ -181,7 +181,7 @@ std::optional<MeasuredEyes> measure_eyes(const std::vector<Image>& eyes, const S
   const AlignedEyes aligned = align_eyes(eyes, seen.camera.projection, is_float);
   if (!aligned.are_one_picture) return std::nullopt;
   const std::vector<SightedRow> rows = sightings(match_densely(aligned.views[0], aligned.views[1]).around[0], seen);
-    SightedRow horizon;
+  SightedRow horizon;
   for (int row = kMiddle - kHorizon; row < kMiddle + kHorizon; row++) {
     horizon.insert(horizon.end(), rows[static_cast<size_t>(row)].begin(), rows[static_cast<size_t>(row)].end());
   }

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a picture's eyes were placed, measured where no word of it tells: other renderers' pictures with depth, whose pole
-// merge, convergence and eye distance nobody wrote down. Depth says how far a point is, the eyes how far apart they show
-// it; their ratio at each elevation is the circle on which the eyes stood.
+// How a picture's eyes were placed, measured where no word of it tells: other renderers' pictures with depth, whose
+// pole merge, convergence and eye distance nobody wrote down. Depth says how far a point is, the eyes how far apart
+// they show it; their ratio at each elevation is the circle on which the eyes stood.
 #pragma once
 #include <optional>
 #include <vector>
