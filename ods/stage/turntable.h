@@ -10,10 +10,10 @@ namespace ods {
 // The most turns, of all frames together.
 inline constexpr double kMostTurns = 100000.0;
 
-// Adds a clip to the scene's animation, and plays it, that turns all visible instances of its own about the vertical line through
-// `middle`: clockwise as seen from above, `turns` in `seconds`, at constant speed from time 0 until `end` at least.
-// What the scene's own clips move goes on moving on the turning table; lights, view points and shadow catchers stay.
-// Precondition: seconds > 0, turns / seconds * end <= kMostTurns.
+// Adds a clip to the scene's animation, and plays it, that turns all visible instances of its own about the vertical
+// line through `middle`: clockwise as seen from above, `turns` in `seconds`, at constant speed from time 0 until `end`
+// at least. What the scene's own clips move goes on moving on the turning table; lights, view points and shadow
+// catchers stay. Precondition: seconds > 0, turns / seconds * end <= kMostTurns.
 void turn_object(Scene& scene, vec3 middle, double turns, double seconds, double end);
 
 }  // namespace ods

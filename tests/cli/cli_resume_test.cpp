@@ -15,7 +15,7 @@ class Resume : public Cli {
   // A picture that takes seconds, so that a signal comes in the middle: of one thread, which takes as much work from
   // the other tests whatever the machine.
   std::vector<std::string> words(const std::string& file, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> all = {"render", "toys", "--width",         "128",       "--samples", "100", "--noise",
+    std::vector<std::string> all = {"render", "toys", "--width",         "128",       "--samples", "160", "--noise",
                                     "none",   "-o",   folder.path(file), "--threads", "1"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
@@ -57,7 +57,7 @@ TEST_F(Resume, APartGoesOnElsewhereAndIsMadeOnce) {
   ASSERT_EQ(whole(words("whole.exr")), 0) << err;
   const auto part = [&](const std::string& number) {
     return std::vector<std::string>{
-        "render", "toys", "--width",         "128", "--samples",           "100", "--threads", "1",
+        "render", "toys", "--width",         "128", "--samples",           "160", "--threads", "1",
         "--part", number, "--skip-existing", "-o",  folder.path("p_#.exr")};
   };
   ASSERT_EQ(interrupted(part("2/2"), SIGTERM), 128 + SIGTERM) << err;

@@ -44,8 +44,8 @@ inline FirstRay first_ray(const Job& job, int eye, vec2 home, vec2 uv, uint seed
   return {camera_ray(job.camera, eye, home, uv, lens), time};
 }
 
-// The render loop, from the first hit on. Calls shaded(path) after each surface. Inlining the whole kernel here, and the
-// camera above, makes it a quarter faster.
+// The render loop, from the first hit on. Calls shaded(path) after each surface. Inlining the whole kernel here, and
+// the camera above, makes it a quarter faster.
 template <typename Shaded>
 [[gnu::flatten]] void trace_path(Job& job, Hit hit, const Shaded& shaded) {
   PathTracer& tracer = job.tracer;
