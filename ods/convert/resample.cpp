@@ -90,20 +90,12 @@ static Four read_light(const float* table, const std::byte* texel) {
   return value * share;
 }
 
-// Texels as a picture stores them. Not of an unnamed namespace: g++ 14 cannot compile Resampler::Group then.
-struct StoredTexels {
-  const std::byte* first;
-  ptrdiff_t pixel_stride;
-  ptrdiff_t row_stride;
-};
-
 template <class Samples, int kCount, bool kAlpha>
-static void read_lights(const StoredTexels& block, int width, int height, Four* out) {
+static void read_lights(const LayerPixels& layer, const std::byte* first, Extent size, Four* out) {
   const float* table = Samples::table();
-  const std::byte* start = block.first;
-  for (int y = 0; y < height; y++, start += block.row_stride) {
-    const std::byte* texel = start;
-    for (int x = 0; x < width; x++, texel += block.pixel_stride) {
+  for (int y = 0; y < size.height; y++, first += layer.row_stride) {
+    const std::byte* texel = first;
+    for (int x = 0; x < size.width; x++, texel += layer.pixel_stride) {
       *out++ = read_light<Samples, kCount, kAlpha>(table, texel);
     }
   }
@@ -133,7 +125,8 @@ static void read_numbers(const std::byte* texel, int count, float* out) {
   for (int c = 0; c < count; c++) out[c] = Samples::number(sample_at<Samples>(texel, c));
 }
 
-using ReadLights = void (*)(const StoredTexels& block, int width, int height, Four* out);
+// first: of the texels in the layer. g++ 14 cannot compile Resampler::Group if a type of this file alone is in here.
+using ReadLights = void (*)(const LayerPixels& layer, const std::byte* first, Extent size, Four* out);
 
 template <class Samples>
 static ReadLights light_reader(int count, bool alpha) {
@@ -185,14 +178,18 @@ struct Resampler::Group {
   int count;
   ptrdiff_t size;  // of the group in a texel, bytes
 
-  StoredTexels block(const Source& source, int source_eye, int x, int y) const {
-    const LayerPixels& from = source.picture->eyes[static_cast<size_t>(source_eye)].layers[layer];
-    return {from.first + y * from.row_stride + x * from.pixel_stride + offset, from.pixel_stride, from.row_stride};
+  const LayerPixels& layer_of(const Source& source, int source_eye) const {
+    return source.picture->eyes[static_cast<size_t>(source_eye)].layers[layer];
+  }
+
+  const std::byte* texel(const LayerPixels& from, int x, int y) const {
+    return from.first + y * from.row_stride + x * from.pixel_stride + offset;
   }
 
   void read(const Source& source, int source_eye, const Cell& box, Four* out) const {
     if (reader != nullptr) return reader->read(source_eye, box, reinterpret_cast<float*>(out));
-    read_lights(block(source, source_eye, box.left, box.top), box.right - box.left, box.bottom - box.top, out);
+    const LayerPixels& from = layer_of(source, source_eye);
+    read_lights(from, texel(from, box.left, box.top), {box.right - box.left, box.bottom - box.top}, out);
   }
 };
 
@@ -379,7 +376,8 @@ void Resampler::set_rest(const Place& place, float* out) const {
   const int x = std::clamp(static_cast<int>(place.at.x), 0, size.width - 1);
   const int y = std::clamp(static_cast<int>(place.at.y), 0, size.height - 1);
   for (const Group& group : nearest_) {
-    group.read_numbers(group.block(source_, place.source_eye, x, y).first, group.count, out + group.first);
+    const std::byte* texel = group.texel(group.layer_of(source_, place.source_eye), x, y);
+    group.read_numbers(texel, group.count, out + group.first);
   }
 }
 
