@@ -133,7 +133,7 @@ Opened open_to_judge(const ComfortJob& job) {
   const std::optional<size_t> layer = ods::depth_layer(header);
   if (layer) {
     const ods::FileInfo info = info_of(name);
-    opened.matte = ods::find_cryptomatte(info);
+    opened.matte = ods::find_cryptomatte(info, name);
     const bool has_two = header.eyes.size() == 2;
     opened.lacks_map = has_two && ods::lacks_merge_map(info, header.camera);
     opened.is_foreign = has_two && !header.has_ipd;

@@ -7,11 +7,15 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "ods/base/error.h"
 #include "ods/base/text.h"
+#include "ods/files/confined_file.h"
+#include "ods/files/read_file.h"
 #include "ods/picture/channel_layers.h"
 
 namespace ods {
@@ -70,15 +74,34 @@ float matte_number(std::string_view name) {
   return std::bit_cast<float>(hash);
 }
 
-std::optional<Cryptomatte> find_cryptomatte(const FileInfo& info) {
+// The text of a manifest that is a file beside the picture; empty if it cannot be read.
+static std::string manifest_beside(const std::string& picture, const std::string& name) {
+  constexpr size_t kMostBytes = size_t{64} << 20u;
+  try {
+    const std::filesystem::path folder = std::filesystem::canonical(picture).parent_path();
+    return ConfinedFile((folder / name).string(), folder.string()).read([](const std::string& opened) {
+      const std::vector<unsigned char> bytes = read_file(opened, kMostBytes);
+      return std::string(bytes.begin(), bytes.end());
+    });
+  } catch (const Error&) {
+  } catch (const std::filesystem::filesystem_error&) {
+  }
+  return "";
+}
+
+std::optional<Cryptomatte> find_cryptomatte(const FileInfo& info, const std::string& path) {
   std::optional<Cryptomatte> found;
   for (const auto& [attribute, layer] : info.text) {
     if (!attribute.starts_with(kPrefix) || !attribute.ends_with("/name")) continue;
     const bool is_better = !found || small_letters(layer).find("object") != std::string::npos;
     if (!is_better) continue;
     found = Cryptomatte{layer, {}};
-    const auto manifest = info.text.find(attribute.substr(0, attribute.size() - 4) + "manifest");
+    const std::string key = attribute.substr(0, attribute.size() - 4);
+    const auto manifest = info.text.find(key + "manifest"), file = info.text.find(key + "manif_file");
     if (manifest != info.text.end()) found->names = read_manifest(manifest->second);
+    if (file != info.text.end() && found->names.empty()) {
+      found->names = read_manifest(manifest_beside(path, file->second));
+    }
   }
   return found;
 }

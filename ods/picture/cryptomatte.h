@@ -25,12 +25,12 @@ float matte_number(std::string_view name);
 
 struct Cryptomatte {
   std::string layer;                   // "CryptoObject"
-  std::map<float, std::string> names;  // by their numbers; without those that the header does not tell
+  std::map<float, std::string> names;  // by their numbers; without those that nobody tells
 };
 
-// The layer that tells objects apart, else another; nothing if the header has none. A list of names that cannot be read
-// is an empty one.
-std::optional<Cryptomatte> find_cryptomatte(const FileInfo& info);
+// The layer that tells objects apart, else another; nothing if the header has none. The names are in the header, or in
+// a file that it names in the picture's folder. A list of names that cannot be read is an empty one.
+std::optional<Cryptomatte> find_cryptomatte(const FileInfo& info, const std::string& path);
 
 // The channel with the numbers of what covers most of each pixel; empty: the picture has none.
 std::string matte_channel(const StoredPicture& picture, const Cryptomatte& matte);

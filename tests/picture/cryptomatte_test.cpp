@@ -6,6 +6,7 @@
 
 #include <bit>
 #include <cmath>
+#include <filesystem>
 
 #include "ods/image/image_file.h"
 #include "tests/support/temporary_folder.h"
@@ -44,7 +45,7 @@ TEST(Cryptomatte, WhatIsWrittenIsReadInBothEyes) {
   const std::string path = folder.path("x.exr");
   const StereoCamera camera;
   save_picture(rows, &camera, save, path);
-  const std::optional<Cryptomatte> matte = find_cryptomatte(read_info(path));
+  const std::optional<Cryptomatte> matte = find_cryptomatte(read_info(path), path);
   ASSERT_TRUE(matte);
   EXPECT_EQ(matte->layer, "CryptoObject");
   ASSERT_EQ(matte->names.size(), 3u);
@@ -56,21 +57,41 @@ TEST(Cryptomatte, WhatIsWrittenIsReadInBothEyes) {
 
 TEST(Cryptomatte, HeadersOfOthersAndDamagedOnes) {
   FileInfo info;
-  EXPECT_FALSE(find_cryptomatte(info));
+  EXPECT_FALSE(find_cryptomatte(info, "x.exr"));
   info.text["cryptomatte/1234567/name"] = "ViewLayer.CryptoMaterial";
   info.text["cryptomatte/1234567/manifest"] = "{\"Steel\":\"3f800000\"}";
   info.text["cryptomatte/89abcde/name"] = "ViewLayer.CryptoObject";
   info.text["cryptomatte/89abcde/manifest"] =
       "{\"Cube\":\"40000000\",\"bad\":\"xyz\",\"number\":5,\"long\":\"123456789\"}";
-  const std::optional<Cryptomatte> matte = find_cryptomatte(info);
+  const std::optional<Cryptomatte> matte = find_cryptomatte(info, "x.exr");
   ASSERT_TRUE(matte);
   EXPECT_EQ(matte->layer, "ViewLayer.CryptoObject");
   ASSERT_EQ(matte->names.size(), 1u);
   EXPECT_EQ(matte->names.at(2.0f), "Cube");
   for (const char* text : {"", "{", "[]", "\"x\""}) {
     info.text["cryptomatte/89abcde/manifest"] = text;
-    EXPECT_TRUE(find_cryptomatte(info)->names.empty()) << text;
+    EXPECT_TRUE(find_cryptomatte(info, "x.exr")->names.empty()) << text;
   }
+}
+
+// As the specification's `manif_file`, which must be in the picture's folder.
+TEST(Cryptomatte, NamesMayBeInAFileBeside) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path("shots"));
+  const std::string path = folder.path("shots/x.exr");
+  folder.write("shots/x.exr", "");
+  folder.write("shots/names.json", "{\"Cube\":\"40000000\"}");
+  folder.write("secret.json", "{\"Secret\":\"40000000\"}");
+  FileInfo info;
+  info.text["cryptomatte/89abcde/name"] = "CryptoObject";
+  info.text["cryptomatte/89abcde/manif_file"] = "names.json";
+  EXPECT_EQ(find_cryptomatte(info, path)->names, (std::map<float, std::string>{{2.0f, "Cube"}}));
+  for (const std::string& other :
+       {std::string("../secret.json"), folder.path("secret.json"), std::string("none"), std::string()}) {
+    info.text["cryptomatte/89abcde/manif_file"] = other;
+    EXPECT_TRUE(find_cryptomatte(info, path)->names.empty()) << other;
+  }
+  EXPECT_TRUE(find_cryptomatte(info, folder.path("gone.exr"))->names.empty());
 }
 
 }  // namespace ods::cryptomatte_test
