@@ -11,6 +11,7 @@
 #include "cli/comfort/comfort_report.h"
 #include "cli/comfort/heat.h"
 #include "cli/comfort/video_report.h"
+#include "ods/camera/pixel.h"
 
 using ods::ComfortReport, ods::Image, ods::Strain, ods::StrainedPlace, ods::vec2, ods::vec3;
 
@@ -34,11 +35,8 @@ Image crop_of(const Judged& judged, double azimuth, double elevation) {
                        up * (pixel * static_cast<float>(kCropHeight / 2 - y));
       const ods::ImagePoint place = ods::place_of(camera.projection, normalize(way));
       if (!place.seen) continue;
-      const int from_x =
-          std::clamp(static_cast<int>(place.uv.x * static_cast<float>(judged.light.width)), 0, judged.light.width - 1);
-      const int from_y = std::clamp(static_cast<int>(place.uv.y * static_cast<float>(judged.light.height)), 0,
-                                    judged.light.height - 1);
-      std::copy_n(judged.light.at(from_x, from_y), 3, crop.at(x, y));
+      const glm::ivec2 from = ods::pixel_at(place.uv, judged.light);
+      std::copy_n(judged.light.at(from.x, from.y), 3, crop.at(x, y));
     }
   }
   return crop;

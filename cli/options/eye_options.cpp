@@ -218,9 +218,9 @@ static std::shared_ptr<const ods::Image> read_map(const std::string& path, float
   if (!color_fault.empty()) warn(fmt::format("'{}': {}", path, color_fault));
   auto map = std::make_shared<ods::Image>(picture.width, picture.height, 1);
   for (size_t i = 0; i < map->pixels.size(); i++) {
-    const float light = picture.pixels[3 * i], value = info.is_float ? light : ods::srgb_encode(light);
-    const float stored = std::isnan(value) ? fallback : std::clamp(value, 0.0f, 1.0f);
-    map->pixels[i] = inverted && !std::isnan(value) ? 1.0f - stored : stored;
+    const float light = picture.pixels[3 * i];
+    const float stored = std::clamp(info.is_float ? light : ods::srgb_encode(light), 0.0f, 1.0f);
+    map->pixels[i] = std::isnan(stored) ? fallback : inverted ? 1.0f - stored : stored;
   }
   return map;
 }

@@ -3,6 +3,8 @@
 //
 // Where pixels are in their picture.
 #pragma once
+#include <algorithm>
+
 #include "ods/base/extent.h"
 #include "ods/image/image.h"
 #include "ods/kernel/math.h"
@@ -16,6 +18,15 @@ inline vec2 pixel_middle(int x, int y, Extent size) {
 }
 inline vec2 pixel_middle(int x, int y, const Image& image) {
   return pixel_middle(x, y, Extent{image.width, image.height});
+}
+
+// The pixel at a place 0..1 from the left and from the top; of places beyond an edge, the one at the edge.
+inline glm::ivec2 pixel_at(vec2 uv, Extent size) {
+  return {std::clamp(static_cast<int>(uv.x * static_cast<float>(size.width)), 0, size.width - 1),
+          std::clamp(static_cast<int>(uv.y * static_cast<float>(size.height)), 0, size.height - 1)};
+}
+inline glm::ivec2 pixel_at(vec2 uv, const Image& image) {
+  return pixel_at(uv, Extent{image.width, image.height});
 }
 
 }  // namespace ods

@@ -87,13 +87,11 @@ std::vector<SightedRow> sightings(const Image& around, const SeenDepth& seen) {
       const vec2 uv = pixel_middle(x, y, around);
       const ImagePoint place = place_of(projection, look_of(lat_long, uv, uv).direction);
       if (!place.seen) continue;
-      const Extent size{seen.depth.width, seen.depth.height};
-      const int column = std::clamp(static_cast<int>(place.uv.x * static_cast<float>(size.width)), 0, size.width - 1);
-      const int line = std::clamp(static_cast<int>(place.uv.y * static_cast<float>(size.height)), 0, size.height - 1);
-      const float depth = *seen.depth.at(column, line);
+      const glm::ivec2 pixel = pixel_at(place.uv, seen.depth);
+      const float depth = *seen.depth.at(pixel.x, pixel.y);
       if (!(depth > 0.0f)) continue;
       const double elevation = pi * (0.5 - double{uv.y});
-      const int row = std::clamp(static_cast<int>(uv.y * kMergeRows), 0, kMergeRows - 1);
+      const int row = pixel_at(uv, Extent{1, kMergeRows}).y;
       rows[static_cast<size_t>(row)].push_back(
           {double{inverse_depth(depth)}, std::tan(0.5 * double{apart}) * std::cos(elevation)});
     }
@@ -199,21 +197,21 @@ std::optional<MeasuredEyes> measure_eyes(const std::vector<Image>& eyes, const S
   MeasuredEyes measured{seen.camera};
   Image map(4, kMergeRows, 1);
   std::vector<double> off;
-  for (const int way : {-1, 1}) {
+  const auto row_of = [](bool is_up, int i) { return is_up ? kMiddle - 1 - i : kMiddle + i; };
+  for (const bool is_up : {true, false}) {
     std::vector<Circle> circles;
-    double& reach = way < 0 ? measured.up : measured.down;
+    double& reach = is_up ? measured.up : measured.down;
     for (int i = 0; i < kMiddle; i++) {
-      const int up = kMiddle - 1 - i, down = kMiddle + i;
-      circles.push_back(circle_at(way < 0 ? up : down));
+      circles.push_back(circle_at(row_of(is_up, i)));
       if (circles.back().weight > 0.0)
         reach = i + 1.0;
-      else
-        circles.back() = circle_at(way < 0 ? down : up);
+      else  // what the other side tells is the best guess
+        circles.back() = circle_at(row_of(!is_up, i));
     }
     const std::vector<double> shares = falling(circles);
     for (int i = 0; i < kMiddle; i++) {
       const auto at = static_cast<size_t>(i);
-      std::fill_n(map.at(0, way < 0 ? kMiddle - 1 - i : kMiddle + i), map.width, static_cast<float>(shares[at]));
+      std::fill_n(map.at(0, row_of(is_up, i)), map.width, static_cast<float>(shares[at]));
       if (circles[at].weight > 0.0) off.push_back(std::abs(circles[at].radius - shares[at]));
     }
   }

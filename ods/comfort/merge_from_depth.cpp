@@ -92,9 +92,8 @@ SeenDepth seen_from_middle(const std::vector<SeenDepth>& eyes, const StereoCamer
       const vec3 point = ray.origin - from.center + ray.direction * distance;
       const vec3 own(dot(point, to.right), dot(point, to.up), dot(point, to.back));
       const vec2 at = direction_to_lat_long(normalize(own));
-      const int x = std::clamp(static_cast<int>(at.x * kWidth), 0, kWidth - 1);
-      const int y = std::clamp(static_cast<int>(at.y * (kWidth / 2)), 0, middle.depth.height - 1);
-      float& nearest = *middle.depth.at(x, y);
+      const glm::ivec2 pixel = pixel_at(at, middle.depth);
+      float& nearest = *middle.depth.at(pixel.x, pixel.y);
       nearest = std::min(nearest, length(own));
     }
   }

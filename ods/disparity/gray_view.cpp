@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 
+#include "ods/camera/pixel.h"
 #include "ods/image/tone.h"
 
 namespace ods {
@@ -76,8 +77,7 @@ class Sampler {
   glm::ivec2 pixel_at(float theta, float phi) const {
     const ImagePoint place = place_of(projection_, look_at_angles(theta, phi).direction);
     if (!place.seen) return glm::ivec2(kOutside);
-    return {std::clamp(static_cast<int>(place.uv.x * static_cast<float>(eye_.width)), 0, eye_.width - 1),
-            std::clamp(static_cast<int>(place.uv.y * static_cast<float>(eye_.height)), 0, eye_.height - 1)};
+    return ods::pixel_at(place.uv, eye_);
   }
 
   Projection projection_;

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "ods/base/error.h"
+#include "ods/camera/pixel.h"
 #include "ods/denoise/denoise.h"
 #include "ods/kernel/camera/project.h"
 #include "ods/render/cpu/render.h"
@@ -123,12 +124,11 @@ bool shows(const StereoCamera& patch, const LiveView& view) {
 // What an eye sees at a position of its picture. whole: the camera in whose pictures LivePick has its places.
 std::optional<LivePick> pick_at(const LiveSeen& seen, const Camera& camera, int eye, vec2 uv, const Camera& whole) {
   const Image& depth = seen.picture->eyes[static_cast<size_t>(eye)].depth;
-  const int x = std::clamp(static_cast<int>(uv.x * float(depth.width)), 0, depth.width - 1);
-  const int y = std::clamp(static_cast<int>(uv.y * float(depth.height)), 0, depth.height - 1);
+  const glm::ivec2 pixel = pixel_at(uv, depth);
   LivePick pick;
-  pick.distance = depth.pixels[static_cast<size_t>(y) * static_cast<size_t>(depth.width) + static_cast<size_t>(x)];
+  pick.distance = *depth.at(pixel.x, pixel.y);
   if (pick.distance >= kFarDepth) return {};
-  const Ray ray = camera_ray(camera, eye, (vec2(x, y) + 0.5f) / vec2(depth.width, depth.height));
+  const Ray ray = camera_ray(camera, eye, pixel_middle(pixel.x, pixel.y, depth));
   pick.point = ray.origin + ray.direction * pick.distance;
   vec3 toward[2];
   for (const int each : {kLeft, kRight}) {

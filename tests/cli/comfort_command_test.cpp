@@ -137,7 +137,7 @@ TEST_F(ComfortCommand, AMergeMapIsNotForgotten) {
   EXPECT_NE(out.find("Its merge map is missing"), std::string::npos) << out;
 }
 
-// Another renderer's picture with depth: its eyes tell the merge of which no word is said.
+// Another renderer's picture with depth and without camera metadata: the command measures the merge from its eyes.
 TEST_F(ComfortCommand, AMergeThatNobodyWroteDownIsMeasured) {
   const std::string own = folder.path("own.exr"), foreign = folder.path("foreign_360_TB.exr");
   ods::ExrForm form;

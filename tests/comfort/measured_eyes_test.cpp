@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A hall, seen by eyes of which nothing is said.
+// Measures the eyes of a hall's pictures, which come without camera metadata.
 #include "ods/comfort/measured_eyes.h"
 
 #include <gtest/gtest.h>

@@ -3,10 +3,10 @@
 //
 // Finds the format of a picture file: layout, projection, camera. In order of precedence: what the caller knows; a
 // second eye in the file; the file's own ods:* attributes; the sidecar beside it (NAME.camera.json), which also has
-// the maps that attributes only name; GPano, envmap, the channels of two views; the file's name; what its
-// pixels show, if the caller has looked (ods/identify); its shape. Names end in words after _ or . : those of
-// layout_of() (_TB, _LR, _SBS, _OU ...), mono, 180, vr180, 360 and the names of projections, in upper or lower case,
-// possibly followed by numbers.
+// the maps that attributes only name; GPano, envmap, the channels of two views; the file's name; what its pixels show,
+// if the caller has looked (ods/identify); its shape. Names end in words after _ or . : those of layout_of() (_TB, _LR,
+// _SBS, _OU ...), mono, 180, vr180, 360 and the names of projections, in upper or lower case, possibly followed by
+// numbers.
 #pragma once
 #include <optional>
 #include <string>

@@ -31,8 +31,8 @@ PictureTag complete_tag(const FormatHint& known, const std::string& path, std::v
 
 // Writes the picture with this tag to `to`, which may be `path` itself: the complete new file then replaces it. Without
 // a tag, removes the camera metadata. Everything else stays, including other XMP. A sidecar beside `to` that belongs to
-// it gets the projection and the orientation, too. Throws Error(kInput), also if the
-// format cannot hold the tag (GPano holds one eye, lat-long or a part of it); Error(kOutput).
+// it gets the projection and the orientation, too. Throws Error(kInput), also if the format cannot hold the tag (GPano
+// holds one eye, lat-long or a part of it); Error(kOutput).
 void tag_picture(const std::string& path, const std::string& to, const std::optional<PictureTag>& tag);
 
 }  // namespace ods
