@@ -16,6 +16,7 @@
 #include "cli/comfort/video_report.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
+#include "cli/options/projection_options.h"
 
 namespace {
 
@@ -44,11 +45,12 @@ void judge_still(const ComfortJob& job) {
 
 void judge_film(const ComfortJob& job) {
   ods::VideoComfort video;
+  const ods::FormatHint format = identified_input(job.scene.name, job.format);
   run_long_job(job.progress, 0, [&](ProgressLines& lines) {
     const auto start = std::chrono::steady_clock::now();
     ods::Progress progress;
     progress.report = [&](double done) { lines.report(done, seconds_since(start), {"comfort", 0, 0, job.scene.name}); };
-    video = ods::judge_video(job.scene.name, {job.comfort, job.format}, progress);
+    video = ods::judge_video(job.scene.name, {job.comfort, format}, progress);
   });
   job.json ? print_json(job, video) : print_text(job, video);
   if (!job.html.empty()) save_html(job, page_of(job, video));

@@ -13,6 +13,7 @@
 #include "cli/comfort/first_look.h"
 #include "cli/console/console.h"
 #include "cli/options/eye_options.h"
+#include "cli/options/projection_options.h"
 #include "ods/camera/pixel.h"
 #include "ods/comfort/areas.h"
 #include "ods/comfort/measured_eyes.h"
@@ -21,7 +22,6 @@
 #include "ods/depth/floor.h"
 #include "ods/files/atomic_file.h"
 #include "ods/files/scratch.h"
-#include "ods/identify/identify.h"
 #include "ods/image/tone.h"
 #include "ods/picture/cryptomatte.h"
 #include "ods/picture/load_eyes.h"
@@ -126,8 +126,7 @@ Opened open_to_judge(const ComfortJob& job) {
   const std::string& name = job.scene.name;
   ods::OpenOptions open;
   Opened opened;
-  std::vector<std::string> notes;
-  open.format = ods::identified(name, job.format, notes);
+  open.format = identified_input(name, job.format);
   ods::PictureReader reader(name, open);
   const ods::StoredPicture& header = reader.header();
   const std::optional<size_t> layer = ods::depth_layer(header);
@@ -150,8 +149,7 @@ Opened open_to_judge(const ComfortJob& job) {
   const std::string scratch = beside.empty() ? "" : ods::existing_folder_of(beside);
   const bool has_maps = !header.maps.empty();
   opened.picture = has_maps ? reader.read(scratch) : reader.read(scratch, wants);
-  notes.insert(notes.end(), opened.picture.guesses.begin(), opened.picture.guesses.end());
-  for (const std::string& text : notes) note(text);
+  for (const std::string& guess : opened.picture.guesses) note(guess);
   if (has_maps) opened.picture = ods::unwrapped(opened.picture);
   return opened;
 }
@@ -244,6 +242,9 @@ Looked look_at_picture(const ComfortJob& job) {
     const ods::Image& depth = judged.seen.depth;
     if (opened.shows) judged.light = colors_of(picture, i, depth.width, depth.height);
     if (picture.memory) picture.memory->release();
+  }
+  if (opened.matte && opened.matte->names.empty()) {
+    note(fmt::format("'{}': its Cryptomatte has no list of names, so what strains is an area", name));
   }
   if (opened.is_foreign) measure_camera(looked, picture, name);
   return looked;

@@ -14,6 +14,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
+#include "cli/options/projection_options.h"
 #include "cli/options/time_options.h"
 #include "ods/base/error.h"
 #include "ods/files/frames.h"
@@ -91,7 +92,9 @@ void warn_of_no_cover(const OverJob& job, const Footage& back, const Footage& fr
 }
 
 void lay_all(const OverJob& job, ProgressLines& lines) {
-  Footage back(job.background, job.known), front(job.foreground, {});
+  const bool is_one_file = ods::footage_kind(job.background) != FootageKind::kFrames;
+  Footage back(job.background, is_one_file ? identified_input(job.background, job.known) : job.known);
+  Footage front(job.foreground, {});
   warn_of_no_cover(job, back, front);
   const bool to_video = ods::container_of_path(job.output).has_value();
   if (back.kind() == FootageKind::kVideo && to_video) return lay_over_video(job, back, front, lines);

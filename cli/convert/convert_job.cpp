@@ -13,7 +13,6 @@
 #include "cli/options/projection_options.h"
 #include "cli/options/time_options.h"
 #include "ods/files/atomic_file.h"
-#include "ods/identify/identify.h"
 #include "ods/picture/metadata/sidecar.h"
 
 using ods::CameraField, ods::StereoCamera, ods::Eyes, ods::Layout, ods::FootageKind;
@@ -49,10 +48,7 @@ struct Wishes {
 ods::FormatHint looked_at(const ConvertJob& job) {
   const std::string path = job.kind == FootageKind::kFrames ? job.files.path(0) : job.input;
   if (job.kind == FootageKind::kVideo && !ods::is_video(path)) return job.known;  // opening it says what is wrong
-  std::vector<std::string> doubts;
-  const ods::FormatHint format = ods::identified(path, job.known, doubts);
-  for (const std::string& doubt : doubts) note(fmt::format("'{}' is {}", path, doubt));
-  return format;
+  return identified_input(path, job.known);
 }
 
 // Opens the input as soon as the options that say what it is are known; the options after it change what its header

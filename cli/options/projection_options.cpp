@@ -12,6 +12,7 @@
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/camera/camera_fields.h"
+#include "ods/identify/identify.h"
 
 using ods::NamedProjection, ods::ProjectionSetting, ods::vec2;
 
@@ -179,4 +180,11 @@ void finish_projection(ProjectionSetting& projection, int width, int& height) {
                                  ods::projection_name(projection), step, width - width % step + step, width));
   }
   if (height == 0) height = ods::natural_height(projection, width);
+}
+
+ods::FormatHint identified_input(const std::string& path, const ods::FormatHint& known) {
+  std::vector<std::string> doubts;
+  const ods::FormatHint format = ods::identified(path, known, doubts);
+  for (const std::string& doubt : doubts) note(fmt::format("'{}' is {}", path, doubt));
+  return format;
 }

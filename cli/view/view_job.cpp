@@ -13,7 +13,6 @@
 #include "cli/options/layout_options.h"
 #include "cli/options/projection_options.h"
 #include "ods/base/text.h"
-#include "ods/identify/identify.h"
 #include "ods/image/format/file_format.h"
 #include "ods/scene/builtin/builtin.h"
 #include "ods/video/container/video_file.h"
@@ -122,9 +121,7 @@ std::vector<ViewItem> open_items(const ViewJob& job) {
     if (std::filesystem::is_directory(path)) {
       add_folder(path, job.known, items);
     } else {
-      std::vector<std::string> doubts;
-      items.push_back(ods::open_view_item(path, ods::identified(path, job.known, doubts)));
-      for (const std::string& doubt : doubts) note(fmt::format("'{}' is {}", path, doubt));
+      items.push_back(ods::open_view_item(path, identified_input(path, job.known)));
       for (const std::string& guess : items.back().picture.guesses) note(fmt::format("'{}' is {}", path, guess));
     }
   }

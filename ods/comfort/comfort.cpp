@@ -370,14 +370,14 @@ std::vector<int> Judge::things_or_areas() const {
   return areas;
 }
 
-// Whether an area says nothing that a worse one beside it does not say.
+// Whether an area counts with a worse one beside it. Matched depth and bushes fall into many areas.
 bool is_part_of(const StrainedPlace& place, const StrainedPlace& worse) {
   if (!place.name.empty() || !worse.name.empty() || place.strain != worse.strain) return false;
   const auto way = [](const StrainedPlace& each) {
     const double a = each.azimuth * kDegree, e = each.elevation * kDegree;
     return glm::dvec3(std::cos(e) * std::sin(a), std::sin(e), -std::cos(e) * std::cos(a));
   };
-  return place.share < worse.share && glm::dot(way(place), way(worse)) > std::cos(kBeside);
+  return glm::dot(way(place), way(worse)) > std::cos(kBeside);
 }
 
 void Judge::list_places(ComfortReport& report, double all) const {
@@ -402,10 +402,12 @@ void Judge::list_places(ComfortReport& report, double all) const {
   for (const size_t i : order) {
     StrainedPlace place = describe(things[i].worst, things[i].share / all);
     if (i < seen_.names.size()) place.name = seen_.names[i];
-    if (std::ranges::any_of(report.places, [&](const StrainedPlace& worse) { return is_part_of(place, worse); }))
-      continue;
-    report.places.push_back(std::move(place));
-    if (report.places.size() == kMostPlaces) break;
+    const auto whole =
+        std::ranges::find_if(report.places, [&](const StrainedPlace& worse) { return is_part_of(place, worse); });
+    if (whole != report.places.end())
+      whole->share += place.share;
+    else if (report.places.size() < kMostPlaces)
+      report.places.push_back(std::move(place));
   }
 }
 

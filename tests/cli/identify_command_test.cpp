@@ -17,14 +17,14 @@ using ods::Layout, ods::Truth;
 class Wordless : public Cli {
  protected:
   // As a camera with two lenses writes it.
-  void write(const std::string& name, std::optional<Layout> layout, const char* projection) const {
+  void write(const std::string& name, std::optional<Layout> layout, const char* projection, int width = 512) const {
     const ods::TwoEyes eyes = [](int eye, const ods::ProjectionSetting& setting, ods::Extent size) {
       ods::StereoCamera camera;
       camera.projection = setting;
       return seen_in(ods::World::kHall, camera, eye, size, true);
     };
     const ods::ProjectionSetting setting = ods::find_projection(projection)->setting;
-    write_unknown(folder.path(name), {layout, setting}, eyes, ods::unknown_eye(setting, 512));
+    write_unknown(folder.path(name), {layout, setting}, eyes, ods::unknown_eye(setting, width));
   }
 
   nlohmann::json probe(const std::string& name) {
@@ -68,6 +68,22 @@ TEST_F(Wordless, APairOfFisheyesIsRecognised) {
   EXPECT_EQ(nlohmann::json::parse(out).at("layout"), "side-by-side") << out;
   EXPECT_EQ(run("view " + folder.path("lenses.jpg") + " --export " + folder.path("site")), 0) << err;
   EXPECT_NE(err.find("fisheye: its pixels look like it"), std::string::npos) << err;
+}
+
+// A public film of two squeezed eyes was judged as one eye.
+TEST_F(Wordless, AFilmOfSqueezedEyesIsRecognised) {
+  write("frame.0001.png", Layout::kSideBySideHalf, "lat-long", 1024);
+  const std::string tagged = folder.path("tagged_360_HSBS.mp4"), film = folder.path("film.mp4");
+  ASSERT_EQ(run("encode " + folder.path("frame.####.png") + " --layout side-by-side-half -o " + tagged), 0) << err;
+  ASSERT_EQ(run("inject " + tagged + " --remove -o " + film), 0) << err;
+  const std::string said = "film.mp4' is side-by-side-half, lat-long: its left and right half match";
+  const int code = run("comfort " + film + " --json");
+  EXPECT_TRUE(code == 0 || code == 1) << err;
+  EXPECT_NE(err.find(said), std::string::npos) << err;
+  EXPECT_TRUE(nlohmann::json::parse(out).contains("level")) << out;
+  ASSERT_EQ(run("title End --width 64 -o " + folder.path("title.exr")), 0) << err;
+  EXPECT_EQ(run("over " + folder.path("title.exr") + " " + film + " -o " + folder.path("titled.mp4")), 0) << err;
+  EXPECT_NE(err.find(said), std::string::npos) << err;
 }
 
 // Each command names the readings, and its own options.
