@@ -133,7 +133,8 @@ void add_output_options(Options& options, ConvertJob& job, Wishes& wishes, Layou
   options.choice("--eyes", wishes.size.eyes, ods::kEyesTable, "which eyes to make");
   options.flag("--mono", wishes.mono, "make a mono picture of one eye: the left one, or that of --eyes");
   add_layout_option(options, wishes.layout,
-                    "how both eyes share the new file; by default the input's, side-by-side for --to vr180",
+                    "how both eyes share the new file; by default as its name says (_TB, _LR), else the input's, "
+                    "side-by-side for --to vr180",
                     "--to-layout");
   options.flag("--sidecar", job.save.sidecar,
                "also write the camera to picture.camera.json, which --from of other commands reads");

@@ -41,7 +41,9 @@ void add_output_options(Options& options, DenoiseJob& job, std::optional<ods::La
       "in the name writes one file per eye");
   options.flag("--each-eye", alone, "denoise each eye alone");
   options.flag("--oidn", job.oidn, "use Intel Open Image Denoise, if it is installed; it needs no statistics");
-  add_layout_option(options, layout, "how both eyes share the new file; by default the input's", "--to-layout");
+  add_layout_option(options, layout,
+                    "how both eyes share the new file; by default as its name says (_TB), else the input's",
+                    "--to-layout");
   options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
                  "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
   options.choice("--tone", job.save.tone, ods::kToneCurveTable, "tone curve; .hdr and .exr ignore it");

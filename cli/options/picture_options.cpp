@@ -64,11 +64,11 @@ void save_as_it_was(const ods::StoredPicture& picture, const ods::ProjectionSett
                     const std::string& output, std::optional<Layout> wished, bool has_tone, ods::SaveOptions& save) {
   const Layout own = picture.layout;
   const bool unfit = own == Layout::kSeparate || (own == Layout::kMultiview && !ods::keeps_layers(output));
-  const std::optional<Layout> named = ods::read_name(output).layout;  // eyes that shared nothing go by the new name
+  const std::optional<Layout> named = ods::read_name(output).layout;
   const bool is_named = named && ods::arrangement_of(*named).is_halves();
-  save.layout = wished.value_or(!unfit     ? ods::layout_of_converted(own, picture.camera.projection, projection)
-                                : is_named ? *named
-                                           : ods::default_layout(projection));
+  save.layout = wished.value_or(is_named ? *named
+                                : unfit  ? ods::default_layout(projection)
+                                         : ods::layout_of_converted(own, picture.camera.projection, projection));
   if (!has_tone && !picture.is_float) save.tone = ods::ToneCurve::kLinear;
 }
 

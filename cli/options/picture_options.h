@@ -31,8 +31,9 @@ bool keeps_light(const std::string& path);
 // The names of a video's frames. Throws UsageError if the output has no place for their numbers.
 ods::FrameNames video_names(const std::string& output);
 
-// How to save a picture of this projection that is made from another picture, where no option decides: in the other's
-// layout (layout_of_converted()) if a file of that name can have it; a display-encoded picture keeps its values.
+// How to save a picture of this projection that is made from another picture, where no option decides: in the layout
+// that the file's name says (x_360_TB.png), else in the other's (layout_of_converted()) if such a file can have it; a
+// display-encoded picture keeps its values.
 void save_as_it_was(const ods::StoredPicture& picture, const ods::ProjectionSetting& projection,
                     const std::string& output, std::optional<ods::Layout> wished, bool has_tone,
                     ods::SaveOptions& save);

@@ -165,13 +165,17 @@ TEST_F(CliConvert, MovesTheEyes) {
   EXPECT_FLOAT_EQ(open("moved.exr").camera.ipd, 1.5f);
 }
 
-TEST_F(CliConvert, WarnsOfNamesThatMislead) {
+TEST_F(CliConvert, NamesTellTheLayoutAndAreNotMisleading) {
   const std::string room = make("room.png");
   ASSERT_EQ(convert(room, "y_LR.png"), 0) << err;
+  EXPECT_EQ(err.find("warning: "), std::string::npos) << err;
+  EXPECT_EQ(open("y_LR.png").layout, ods::Layout::kSideBySide);
+  EXPECT_EQ(open("y_LR.png").eyes.size(), 2u);
+  ASSERT_EQ(convert(room, "y.png"), 0) << err;
+  EXPECT_EQ(open("y.png").layout, ods::Layout::kTopBottom);
+  ASSERT_EQ(convert(room, "y_LR.png", "--to-layout top-bottom"), 0) << err;
   EXPECT_NE(err.find("warning: "), std::string::npos) << err;
   EXPECT_NE(err.find("_LR"), std::string::npos) << err;
-  ASSERT_EQ(convert(room, "y_LR.png", "--to-layout side-by-side"), 0) << err;
-  EXPECT_EQ(err.find("warning: "), std::string::npos) << err;
   make("z_180_LR.png", "--projection vr180");  // side-by-side by itself
   EXPECT_EQ(err.find("warning: "), std::string::npos) << err;
 }
