@@ -70,6 +70,9 @@ void save_as_it_was(const ods::StoredPicture& picture, const ods::ProjectionSett
                                 : unfit  ? ods::default_layout(projection)
                                          : ods::layout_of_converted(own, picture.camera.projection, projection));
   if (!has_tone && !picture.is_float) save.tone = ods::ToneCurve::kLinear;
+  if (ods::keeps_layers(output)) {
+    save.attributes.insert(save.attributes.end(), picture.mattes.begin(), picture.mattes.end());
+  }
 }
 
 void note_guesses(const std::string& path, const ods::StoredPicture& picture) {

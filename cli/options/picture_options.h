@@ -33,7 +33,7 @@ ods::FrameNames video_names(const std::string& output);
 
 // How to save a picture of this projection that is made from another picture, where no option decides: in the layout
 // that the file's name says (x_360_TB.png), else in the other's (layout_of_converted()) if such a file can have it; a
-// display-encoded picture keeps its values.
+// display-encoded picture keeps its values, a Cryptomatte its names.
 void save_as_it_was(const ods::StoredPicture& picture, const ods::ProjectionSetting& projection,
                     const std::string& output, std::optional<ods::Layout> wished, bool has_tone,
                     ods::SaveOptions& save);

@@ -484,19 +484,14 @@ double azimuth_of(vec3 direction) {
 }
 
 std::string direction_text(double azimuth, double elevation) {
-  const auto around = std::lround(std::abs(azimuth)), above = std::lround(std::abs(elevation));
+  const auto degrees = [](long count) { return fmt::format("{} degree{}", count, count == 1 ? "" : "s"); };
+  const long around = std::lround(std::abs(azimuth)), above = std::lround(std::abs(elevation));
   const bool is_side = around != 0 && around != 180;
-  std::string text =
-      is_side       ? fmt::format("{} degree{} {}", around, around == 1 ? "" : "s", azimuth < 0.0 ? "left" : "right")
-      : around == 0 ? "ahead"
-                    : "behind";
-  if (above > 0)
-    text += fmt::format(", {}{} {}", above,
-                        is_side      ? ""
-                        : above == 1 ? " degree"
-                                     : " degrees",
-                        elevation < 0.0 ? "down" : "up");
-  return text;
+  std::string text = is_side       ? degrees(around) + (azimuth < 0.0 ? " left" : " right")
+                     : around == 0 ? "ahead"
+                                   : "behind";
+  if (above == 0) return text;
+  return text + ", " + (is_side ? std::to_string(above) : degrees(above)) + (elevation < 0.0 ? " down" : " up");
 }
 
 }  // namespace ods

@@ -23,7 +23,6 @@ namespace ods {
 namespace {
 
 constexpr const char* kOwnLayer = "CryptoObject";
-constexpr std::string_view kPrefix = "cryptomatte/";
 
 // The names of a manifest: {"name": "hexadecimal number", ...}.
 std::map<float, std::string> read_manifest(const std::string& text) {
@@ -92,7 +91,7 @@ static std::string manifest_beside(const std::string& picture, const std::string
 std::optional<Cryptomatte> find_cryptomatte(const FileInfo& info, const std::string& path) {
   std::optional<Cryptomatte> found;
   for (const auto& [attribute, layer] : info.text) {
-    if (!attribute.starts_with(kPrefix) || !attribute.ends_with("/name")) continue;
+    if (!attribute.starts_with(kMatteAttributes) || !attribute.ends_with("/name")) continue;
     const bool is_better = !found || small_letters(layer).find("object") != std::string::npos;
     if (!is_better) continue;
     found = Cryptomatte{layer, {}};
@@ -143,7 +142,7 @@ void add_cryptomatte(PictureRows& rows, SaveOptions& save, std::vector<Image> nu
   for (const std::string& name : names) {
     if (!name.empty()) manifest[name] = hexadecimal(matte_number(name));
   }
-  const std::string key = fmt::format("{}{:07x}/", kPrefix, murmur3(kOwnLayer) >> 4);
+  const std::string key = fmt::format("{}{:07x}/", kMatteAttributes, murmur3(kOwnLayer) >> 4);
   save.attributes.push_back({key + "name", std::string(kOwnLayer)});
   save.attributes.push_back({key + "hash", std::string("MurmurHash3_32")});
   save.attributes.push_back({key + "conversion", std::string("uint32_to_float32")});

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ods/image/format/file_info.h"
@@ -16,6 +17,8 @@
 #include "ods/picture/stored_picture.h"
 
 namespace ods {
+
+inline constexpr std::string_view kMatteAttributes = "cryptomatte/";  // how the names of its attributes begin
 
 // MurmurHash3 for 32 bits, with the seed 0.
 uint32_t murmur3(std::string_view text);

@@ -18,6 +18,7 @@
 #include "ods/files/scratch.h"
 #include "ods/picture/channel_layers.h"
 #include "ods/picture/checkerboard.h"
+#include "ods/picture/cryptomatte.h"
 #include "ods/picture/metadata/vr_photo.h"
 #include "ods/picture/stored_lenses.h"
 
@@ -385,6 +386,9 @@ static StoredPicture describe(const Readers& readers, StereoFormat format, const
   picture.has_ipd = format.has_ipd;
   picture.guesses = std::move(format.guesses);
   if (const auto mark = info.text.find("ods:rig"); mark != info.text.end()) picture.rig_mark = mark->second;
+  for (const auto& [key, value] : info.text) {
+    if (key.starts_with(kMatteAttributes)) picture.mattes.push_back({key, value});
+  }
   for (const auto& reader : readers) {
     if (picture.color_fault.empty()) picture.color_fault = reader->info().color_fault;
   }

@@ -52,6 +52,7 @@ struct StoredPicture {
   bool front_and_back = false;       // with maps: the eyes, both kMono, are the two lenses of a camera of one eye
   bool has_ipd = false;              // known from caller, file or sidecar; else the default
   std::string rig_mark;              // ods:rig: the slit rig that this view belongs to; empty: unspecified
+  std::vector<Attribute> mattes;     // cryptomatte/*: what the numbers in its layers mean; a copy needs them, too
   std::vector<std::string> guesses;  // what was guessed, for messages: "top-bottom: ..."
   std::string color_fault;           // why the file's colour space is ignored; empty: it is honoured
   std::shared_ptr<Scratch> memory;   // owns the pixels
