@@ -144,7 +144,7 @@ TEST_F(ComfortCommand, AMergeThatNobodyWroteDownIsMeasured) {
   form.width = form.height = 1024;
   form.channels = {"B", "G", "R", "Z"};
   form.types = {Imf::HALF, Imf::HALF, Imf::HALF, Imf::FLOAT};
-  ASSERT_EQ(run("render room --width 1024 --samples 4 --bounces 1 -q --merge cosine,45,75 -o " + own), 0) << err;
+  ASSERT_EQ(run("render room --width 1024 --samples 2 --bounces 1 -q --merge cosine,45,75 -o " + own), 0) << err;
   ods::write_exr(foreign, form, ods::read_exr(own, form));
   const Json exact = judged(own), found = judged(foreign);
   EXPECT_FALSE(exact.contains("measured"));

@@ -210,9 +210,12 @@ class Pages : public ::testing::Test {
                        : has(line, "--parts")      ? " --samples 64"
                        : has(line, "--part")       ? " --samples 8"
                                                    : " --samples 1";
+    if (renders) more += of_rig ? " --bounces 1" : " --bounces 1 --exposure 0";  // it need not be measured
     if (command == "rig") {
-      more += has(line, "--slits") ? " --width 512" : " --width 64";
+      more += has(line, "--slits") ? " --width 96 --slits 12" : " --width 64";
       if (has(line, "--max-error")) more += " --max-error 4";
+    } else if (has(line, "--sheet")) {
+      more += " --sheet 12x3";
     } else if (command == "testcard") {
       more += " --width 512";
     } else if (renders || command == "title" || has_width) {
@@ -258,7 +261,7 @@ class Pages : public ::testing::Test {
     for (const char* frame : {"0001", "0002", "0003", "0004"}) {
       const std::string views = std::regex_replace(parent, std::regex("####"), frame);
       fs::remove_all(folder.path(views));
-      make("ods render furnace --samples 1 --rig " + rig + " -o " + quoted(views + "/" + file));
+      make("ods render axis --samples 1 --bounces 1 --rig " + rig + " -o " + quoted(views + "/" + file));
       if (views == parent) return;
     }
   }
@@ -280,7 +283,7 @@ class Pages : public ::testing::Test {
     if (kind == ".mp4" || kind == ".mov" || kind == ".mkv" || kind == ".webm") {
       provide_file("sound.wav");
       const std::string eyes = has(name, "panorama") ? " --eyes mono" : "";
-      return make("ods video furnace --width 96 --samples 1 --duration 0.1 --audio sound.wav -o " + name + eyes);
+      return make("ods video axis --width 96 --samples 1 --duration 0.1 --audio sound.wav -o " + name + eyes);
     }
     static const std::set<std::string> pictures = {".png", ".jpg", ".exr", ".tif", ".hdr", ".webp"};
     if (pictures.contains(kind)) provide_picture(name);
@@ -316,14 +319,14 @@ class Pages : public ::testing::Test {
   void provide_parts(const std::string& name) {
     for (const std::string part : {"1", "2"}) {
       const std::string file = std::regex_replace(name, std::regex("#|1|2"), part);
-      make("ods render toys --samples 4 --width 96 --part " + part + "/2 -o " + file);
+      make("ods render axis --samples 4 --width 96 --part " + part + "/2 -o " + file);
     }
   }
 
   void provide_picture(const std::string& name) {
     if (has(name, "part_")) return provide_parts(name);
     const bool is_title = has(name, "title.") || has(name, "robot");  // has alpha
-    std::string words = is_title ? "ods title T --text-height 1" : "ods render toys --samples 1";
+    std::string words = is_title ? "ods title T --text-height 1" : "ods render axis --samples 1";
     if (has(name, "_LR")) words += " --projection vr180";
     if (has(name, "noisy")) words += " --statistics --samples 2";
     if (has(name, "other")) return provide_halves(name);

@@ -28,14 +28,16 @@ class ComfortVideo : public ::testing::Test {
     SaveOptions save;
     save.tone = ToneCurve::kLinear;
     const std::string name = stereo ? "f.##_TB.png" : "f.##.png";
+    Picture picture;
     for (int frame = 0; frame < count; frame++) {
+      const bool is_as_before = frame > 0 && frame != cut && degrees == 0.0f && metres == 0.0f;
       StereoCamera camera;
       camera.yaw = degrees * static_cast<float>(frame);
       camera.position.z = 1.0f - metres * static_cast<float>(frame);
       const World world = frame < cut ? World::kHall : World::kCave;
-      Picture picture;
+      if (!is_as_before) picture.eyes.clear();
       for (const int eye : stereo ? std::vector<int>{kLeft, kRight} : std::vector<int>{kMono}) {
-        picture.eyes.push_back({eye, seen_in(world, camera, eye, eye_size), {}, {}, {}});
+        if (!is_as_before) picture.eyes.push_back({eye, seen_in(world, camera, eye, eye_size), {}, {}, {}});
       }
       save_picture(picture, save, frame_names(folder.path(name))->path(frame));
     }
@@ -103,7 +105,7 @@ TEST_F(ComfortVideo, AStillCameraCarriesNobody) {
 TEST_F(ComfortVideo, TheNumberOfFramesIsBounded) {
   VideoComfortOptions options;
   options.most_moments = 8;
-  EXPECT_EQ(judge_video(make(20, 20, 0.5f, 0.0f), options).moments.size(), 8u);
+  EXPECT_EQ(judge_video(make(20, 20, 0.0f, 0.0f), options).moments.size(), 8u);
 }
 
 TEST_F(ComfortVideo, OneEyeTellsNothing) {

@@ -132,7 +132,7 @@ class Served : public Cli {
   // what the allocator keeps for a new thread, or a frame that is just being made, does not.
   template <class Work>
   long leaked_by(const Work& work) const {
-    constexpr int rounds = 5, times = 35;
+    constexpr int rounds = 4, times = 20;
     long least = std::numeric_limits<long>::max(), before = 0;
     for (int round = 0; round < rounds; round++) {
       for (int i = 0; i < times; i++) work(i);

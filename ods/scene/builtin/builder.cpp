@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/scene/builtin/builder.h"
 
+#include <tbb/parallel_for.h>
+
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "ods/image/tone.h"
@@ -63,12 +65,14 @@ int add_texture(Scene& scene, int width, int height, const std::function<vec3(ve
   const Texture texture = {
       static_cast<uint>(scene.texels.size()), width, height, kWrapRepeat, kWrapRepeat, 1, 0, kTexelBytes};
   scene.textures.push_back(texture);
-  for (int y = 0; y < height; y++) {
+  scene.texels.resize(scene.texels.size() + static_cast<size_t>(width) * static_cast<size_t>(height));
+  tbb::parallel_for(0, height, [&, first = scene.texels.data() + texture.first_texel](int y) {
+    uint* row = first + static_cast<size_t>(y) * static_cast<size_t>(width);
     for (int x = 0; x < width; x++) {
       const vec3 c = color((vec2(x, y) + 0.5f) / vec2(width, height));
-      scene.texels.push_back(to_srgb8(c.r) | to_srgb8(c.g) << 8 | to_srgb8(c.b) << 16 | 255u << 24);
+      row[x] = to_srgb8(c.r) | to_srgb8(c.g) << 8 | to_srgb8(c.b) << 16 | 255u << 24;
     }
-  }
+  });
   return static_cast<int>(scene.textures.size()) - 1;
 }
 
@@ -99,13 +103,15 @@ Environment make_environment(int width, const std::function<vec3(vec3)>& radianc
   environment.radiance = vec3(1.0f);
   environment.width = width;
   environment.height = width / 2;
-  for (int y = 0; y < environment.height; y++) {
+  environment.texels.resize(static_cast<size_t>(width) * static_cast<size_t>(environment.height));
+  tbb::parallel_for(0, environment.height, [&](int y) {
+    const float elevation = (0.5f - (float(y) + 0.5f) / float(environment.height)) * kPi;
     for (int x = 0; x < width; x++) {
       const float azimuth = ((float(x) + 0.5f) / float(width) - 0.5f) * 2.0f * kPi;
-      const float elevation = (0.5f - (float(y) + 0.5f) / float(environment.height)) * kPi;
-      environment.texels.push_back(radiance(direction_of(azimuth, elevation)));
+      environment.texels[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)] =
+          radiance(direction_of(azimuth, elevation));
     }
-  }
+  });
   return environment;
 }
 

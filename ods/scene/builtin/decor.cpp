@@ -177,14 +177,17 @@ void add_books(Scene& scene, const Finishes& f, const glm::mat4& place, vec3 siz
   }
 }
 
-void add_picture(Scene& scene, const glm::mat4& place, vec2 size, int number, int frame) {
-  const int canvas = add_texture(scene, 512, 384, [number](vec2 p) { return painting(p, number); });
+int add_painting(Scene& scene, int number) {
+  return add_texture(scene, 512, 384, [number](vec2 p) { return painting(p, number); });
+}
+
+void add_picture(Scene& scene, const glm::mat4& place, vec2 size, int painting, int frame) {
   const int mount = add_material(scene, paint(vec3(0.78f, 0.75f, 0.68f), 0.9f));
   const float border = 0.035f, margin = 0.06f;
   const vec2 inner = size - 2.0f * margin;
   add(scene, make_box(vec3(size, 0.012f)), mount, place);
   add(scene, make_quad(vec3(-0.5f * inner, 0.009f), vec3(inner.x, 0.0f, 0.0f), vec3(0.0f, inner.y, 0.0f)),
-      add_material(scene, textured(paint(vec3(1.0f), 0.6f), canvas, inner)), place);
+      add_material(scene, textured(paint(vec3(1.0f), 0.6f), painting, inner)), place);
   Shape bars;
   for (const float side : {-1.0f, 1.0f}) {
     append(bars, transformed(make_rounded_box(vec3(border, size.y + border, 0.035f), 0.008f, 2),

@@ -20,7 +20,10 @@ void add_plant(Scene& scene, const Finishes& finishes, const glm::mat4& place, f
 // different for each seed.
 void add_books(Scene& scene, const Finishes& finishes, const glm::mat4& place, vec3 size, uint seed);
 
-// A framed picture from patterns.h, centred at the origin.
+// The texture of a painting from patterns.h, number 0 to 4.
+int add_painting(Scene& scene, int number);
+
+// A framed painting, centred at the origin.
 void add_picture(Scene& scene, const glm::mat4& place, vec2 size, int painting, int frame);
 
 // A hanging curtain from y = 0 down.

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/scene/builtin/patterns.h"
 
+#include <bit>
+#include <cassert>
+
 #include "ods/kernel/camera/camera.h"
 
 namespace ods {
@@ -14,14 +17,11 @@ float hash01(int x, int y, uint seed) {
 }
 
 float noise(vec2 p, int period, uint seed) {
+  assert(std::has_single_bit(static_cast<uint>(period)));
   const vec2 cell = floor(p);
   const vec2 t = smoothstep(vec2(0.0f), vec2(1.0f), p - cell);
-  const auto wrapped = [&](float at) {
-    const int rest = static_cast<int>(at) % period;
-    return rest < 0 ? rest + period : rest;
-  };
-  const auto after = [&](int at) { return at + 1 == period ? 0 : at + 1; };
-  const int x = wrapped(cell.x), y = wrapped(cell.y), right = after(x), below = after(y);
+  const int wrap = period - 1, left = static_cast<int>(cell.x), above = static_cast<int>(cell.y);
+  const int x = left & wrap, y = above & wrap, right = (left + 1) & wrap, below = (above + 1) & wrap;
   return mix(mix(hash01(x, y, seed), hash01(right, y, seed), t.x),
              mix(hash01(x, below, seed), hash01(right, below, seed), t.x), t.y);
 }

@@ -11,7 +11,7 @@ namespace ods {
 // 0..1, different for each (x, y, seed).
 float hash01(int x, int y, uint seed);
 
-// Smooth noise 0..1 that repeats after `period` cells; octaves halve in size and weight.
+// Smooth noise 0..1 that repeats after `period` cells, a power of two; octaves halve in size and weight.
 float noise(vec2 p, int period, uint seed);
 float fractal_noise(vec2 p, int period, int octaves, uint seed);
 

@@ -241,7 +241,9 @@ static void add_pictures(Scene& scene, const Finishes& f) {
       {on_front_wall(2.55f, 1.7f), {0.55f, 0.72f}, 1, f.walnut},
   };
   const glm::mat4 off_the_wall = placed(vec3(0.0f, 0.0f, 0.012f));
-  for (const Hung& p : pictures) add_picture(scene, p.wall * off_the_wall, p.size, p.painting, p.frame);
+  int paintings[5];
+  for (int i = 0; i < 5; i++) paintings[i] = add_painting(scene, i);
+  for (const Hung& p : pictures) add_picture(scene, p.wall * off_the_wall, p.size, paintings[p.painting], p.frame);
 }
 
 // The last light behind hills, a town's lamps below them, stars above. Only what the window can show is bright, so that

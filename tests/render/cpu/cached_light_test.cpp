@@ -27,7 +27,7 @@ Material matte(vec3 albedo, vec3 emission = vec3(0.0f)) {
 RenderOptions cached(int width, int samples) {
   RenderOptions options = small_render(width, samples);
   options.indirect = Indirect::kCache;
-  options.cache_paths = 1 << 18;
+  options.cache_paths = 1 << 16;
   return options;
 }
 
@@ -75,8 +75,8 @@ Scene room() {
 
 TEST(CachedLight, AgreesWithPaths) {
   const Scene scene = room();
-  RenderOptions options = cached(64, 160);
-  options.cache_paths = 1 << 19;
+  RenderOptions options = cached(64, 64);
+  options.cache_paths = 1 << 18;
   const Picture fast = render_cpu(scene, StereoCamera{}, options);
   options.indirect = Indirect::kPath;
   const Picture exact = render_cpu(scene, StereoCamera{}, options);
@@ -96,7 +96,7 @@ TEST(CachedLight, AgreesWithPaths) {
 
 TEST(CachedLight, IsLessNoisy) {
   const Scene scene = room();
-  RenderOptions options = cached(64, 64);
+  RenderOptions options = cached(64, 32);
   options.statistics = true;
   const Picture fast = render_cpu(scene, StereoCamera{}, options);
   options.indirect = Indirect::kPath;
@@ -153,7 +153,7 @@ TEST(CachedLight, StrangeScenesAreFinite) {
     add_box(scene, vec3(-3, -1.2f, -3) * scale, vec3(3, 1.4f, 3) * scale, white);
     add_rectangle(scene, vec3(-0.1f, 1.3f, -2) * scale, vec3(0.2f, 0, 0) * scale, vec3(0, 0, 0.2f) * scale, lamp);
     add_rectangle(scene, vec3(0, 1, 0) * scale, vec3(0.2f, 0, 0) * scale, vec3(0.2f, 0, 0) * scale, lamp);
-    RenderOptions options = cached(32, 32);
+    RenderOptions options = cached(32, 16);
     const Picture fast = render_cpu(scene, StereoCamera{}, options);
     options.indirect = Indirect::kPath;
     const Picture exact = render_cpu(scene, StereoCamera{}, options);
@@ -181,7 +181,7 @@ TEST(CachedLight, ALampInsideGlassInsideAClosedBox) {
   glass.thickness = 1.0f;
   add_sphere(scene, vec3(0, 0.5f, -1), 0.3f, add_material(scene, glass), 8);
   add_sphere(scene, vec3(0, 0.5f, -1), 0.1f, add_material(scene, matte(vec3(0.0f), vec3(30.0f))), 6);
-  RenderOptions options = cached(32, 128);
+  RenderOptions options = cached(32, 64);
   options.caustics = Caustics::kStraight;
   EXPECT_NEAR(cached_over_path(scene, StereoCamera{}, options), 1.0, 0.02);
 }
@@ -211,7 +211,7 @@ TEST(CachedLight, ACameraThatFliesFromRoomToRoom) {
   for (const float x : {-3.0f, -0.2f, 0.0f, 0.2f, 3.0f}) {
     StereoCamera camera;
     camera.position = vec3(x, 0, 0);
-    EXPECT_NEAR(cached_over_path(scene, camera, cached(32, 96)), 1.0, 0.02) << x;
+    EXPECT_NEAR(cached_over_path(scene, camera, cached(32, 32)), 1.0, 0.02) << x;
   }
 }
 

@@ -131,7 +131,7 @@ void expect_same_light(const Scene& scene, std::span<const View> views) {
     const StereoCamera camera = camera_of(view);
     std::vector<Mean> difference;
     for (int seed = 0; seed < kSeeds; seed++) {
-      RenderOptions together = options_with(true, view, 4), apart = options_with(false, view, 4);
+      RenderOptions together = options_with(true, view, 2), apart = options_with(false, view, 2);
       together.seed = static_cast<uint32_t>(seed);
       apart.seed = static_cast<uint32_t>(seed + 1000);
       const std::vector<double> a = block_sums(renderer.render(camera, together));
@@ -243,7 +243,7 @@ TEST(SharedPaths, HaveLessNoise) {
   for (const bool share : {false, true}) {
     std::vector<Mean> pixels(48 * 24);
     for (uint32_t seed = 0; seed < 24; seed++) {
-      RenderOptions options = options_with(share, views()[0], 16);
+      RenderOptions options = options_with(share, views()[0], 8);
       options.statistics = true;
       options.seed = seed;
       const EyeImage eye = renderer.render(StereoCamera{}, options).eyes[0];
