@@ -206,11 +206,13 @@ TEST_F(StudioOfAxis, HasACommandForEveryMergeAndLayout) {
   asked("set", settings);
   EXPECT_EQ(asked("save")["file"], "axis.camera.json");
   for (const int mode : ods::kMerges) {
-    for (const char* which : {"merge_top", "merge_bottom"}) {
+    for (const auto& [which, other] : {std::pair{"merge_top", "merge_bottom"}, {"merge_bottom", "merge_top"}}) {
       settings["sidecar"][which]["mode"] = ods::merge_name(mode);
-      renders(std::string(ods::merge_name(mode)));
+      settings["sidecar"][other]["mode"] = "none";
+      renders(std::string(which) + " " + std::string(ods::merge_name(mode)));
     }
   }
+  settings["sidecar"]["merge_top"]["mode"] = settings["sidecar"]["merge_bottom"]["mode"] = "map";
   const std::string restated = renders("map");
   EXPECT_NE(restated.find(" --merge map,60,90,1 "), std::string::npos) << restated;
   EXPECT_NE(restated.find(" --merge-map axis.merge-map.exr "), std::string::npos) << restated;
