@@ -239,7 +239,7 @@ TEST_F(CliStitch, TheMergeFollowsDepth) {
     const size_t at = out.find("\"vertical\": ");
     return at == std::string::npos ? -1.0 : std::atof(out.c_str() + at + 12);
   };
-  const auto render_room = [&] { return run("render room -q --samples 1 --rig " + rig + " -o " + views); };
+  const auto render_room = [&] { return run("render room -q --samples 1 --bounces 1 --rig " + rig + " -o " + views); };
   ASSERT_EQ(plan("--slits 24 --width 128 --depth ray"), 0) << err;
   ASSERT_EQ(render_room(), 0) << err;
   ASSERT_EQ(stitch("free.exr"), 0) << err;

@@ -419,7 +419,7 @@ TEST_F(Video, TheRoomThatFramesNeedIsKnownBeforeTheyAre) {
 
 // Days are told in seconds, from what was measured.
 TEST_F(Video, ALongRenderingIsKnownAndWhatWouldBeFaster) {
-  Ods command({"video", "toys", "--width", "64", "--samples", "512", "--noise", "none", "--frames", "1-20000", "-o",
+  Ods command({"video", "toys", "--width", "64", "--samples", "128", "--noise", "none", "--frames", "1-80000", "-o",
                folder.path("a.mp4")});
   command.wait_for("faster: ");
   command.kill(SIGTERM);

@@ -101,7 +101,7 @@ TEST_F(Farm, APictureInPartsHasTheBitsOfOneMachine) {
 }
 
 TEST_F(Farm, WhatPartsTakeIsSaidAndTheyGoAfterTheMerge) {
-  const std::string still = "submit --to openjd -- render room --width 128 --samples 4 --denoise own --parts 4 -o ";
+  const std::string still = "submit --to openjd -- render toys --width 128 --samples 4 --denoise own --parts 4 -o ";
   ASSERT_EQ(run(still + folder.path("p.exr") + " --keep-parts"), 0) << err;
   std::smatch said;
   const std::string text = err;

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <tuple>
 
 #include "tests/support/waves.h"
 
@@ -20,9 +22,13 @@ float parallax(float theta, float phi) {
   return 0.0524f + 0.0349f * std::sin(2.0f * theta + phi);
 }
 
-// What each eye sees; `needed` makes the right one agree with the left one.
-GrayView view_of(const Waves& world, int width, bool right, const EyeCorrection& needed, float covers = 1.0f) {
-  GrayView view(width, width / 2, 1);
+// What each eye sees of the aligned pair. Many tests see the same.
+const GrayView& view_of(int width, bool right, float covers = 1.0f) {
+  static const Waves world;
+  static std::map<std::tuple<int, bool, float>, GrayView> views;
+  GrayView& view = views[{width, right, covers}];
+  if (view.width > 0) return view;
+  view = GrayView(width, width / 2, 1);
   const float pixel = static_cast<float>(kPi2) / static_cast<float>(width);
   for (int y = 0; y < view.height; y++) {
     for (int x = 0; x < width; x++) {
@@ -33,7 +39,7 @@ GrayView view_of(const Waves& world, int width, bool right, const EyeCorrection&
       *view.at(x, y) = std::abs(theta) <= covers * 0.5f * static_cast<float>(kPi2) ? world(d) : NAN;
     }
   }
-  return moves_pixels(needed) ? corrected_view(view, needed) : view;
+  return view;
 }
 
 EyeCorrection inverse(const EyeCorrection& small) {
@@ -42,12 +48,14 @@ EyeCorrection inverse(const EyeCorrection& small) {
   return result;
 }
 
+// `needed` makes the right eye agree with the left one.
 Alignment found(const EyeCorrection& needed, float covers = 1.0f) {
-  const Waves world;
   std::vector<std::vector<GrayView>> scales;
   for (const int width : {256, 512, 1024}) {
+    const GrayView& right = view_of(width, true, covers);
     // Of a single step, the inverse is known.
-    scales.push_back({view_of(world, width, false, {}, covers), view_of(world, width, true, inverse(needed), covers)});
+    scales.push_back(
+        {view_of(width, false, covers), moves_pixels(needed) ? corrected_view(right, inverse(needed)) : right});
   }
   return find_alignment(scales, covers < 0.8f);
 }
@@ -103,8 +111,7 @@ TEST(Alignment, TellsARaiseFromAPitchInHalfASphere) {
 
 // A view that is moved by whole pixels has the same numbers.
 TEST(Alignment, CorrectsAView) {
-  const Waves world;
-  const GrayView view = view_of(world, 256, false, {});
+  const GrayView& view = view_of(256, false);
   const GrayView raised = corrected_view(view, needing(&EyeCorrection::raise, 360.0f / 256.0f));
   for (int y = 0; y + 1 < view.height; y++) {
     for (int x = 0; x < view.width; x++) EXPECT_NEAR(*raised.at(x, y), *view.at(x, y + 1), 1e-3f);

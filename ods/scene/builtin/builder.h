@@ -33,6 +33,7 @@ Material glow(vec3 radiance);
 Material glass(float ior);
 
 // A texture of color(u, v), u and v in 0..1 with v down; linear Rec. 709 in, stored as sRGB. Returns its index.
+// Several threads call color() at once.
 int add_texture(Scene& scene, int width, int height, const std::function<vec3(vec2)>& color);
 
 // The material with its base colour multiplied by a texture that repeats every `size` metres.
@@ -43,7 +44,7 @@ int add_material(Scene& scene, const Material& material, const std::string& name
 // Adds a mesh of the shape and one instance of it. Returns the mesh.
 int add(Scene& scene, const Shape& shape, int material, const glm::mat4& object_to_world = glm::mat4(1.0f));
 
-// A lat-long environment of width x width / 2 texels; the function receives a unit vector.
+// A lat-long environment of width x width / 2 texels; several threads call radiance() at once, with unit vectors.
 Environment make_environment(int width, const std::function<vec3(vec3 direction)>& radiance);
 
 // A directional light from this azimuth and elevation (degrees, clockwise from -Z).
