@@ -194,8 +194,7 @@ TEST_F(StudioOfAxis, HasACommandForEveryMergeAndLayout) {
   const Json map = {{"width", 4}, {"height", 2}, {"values", {0, 0.25, 0.5, 0.75, 1, 0.3, 0.6, 0.9}}};
   settings["sidecar"]["merge_map"] = settings["sidecar"]["head_tilt_map"] = map;
   const auto renders = [&](const std::string& what) {
-    const Json answer = asked("set", settings);
-    const std::string command = answer["command"];
+    const std::string command = asked("set", settings)["command"];
     EXPECT_EQ(run(command.substr(4) + " -q --samples 1 --noise none"), 0) << what << ": " << command << err;
     return command;
   };
