@@ -10,12 +10,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "cli/bridge/assimp.h"
 #include "cli/bridge/scene_cache.h"
 #include "cli/console/console.h"
-#include "cli/console/programs.h"
 #include "ods/base/error.h"
 #include "ods/base/text.h"
-#include "ods/files/atomic_file.h"
 #include "ods/files/claim.h"
 #include "ods/files/private_folder.h"
 
@@ -56,14 +55,6 @@ void check_blend(const std::string& path) {
   if (!known) fail(path, "is not a Blender file, or is damaged");
 }
 
-void run_assimp(const std::string& path, const std::string& folder) {
-  const std::string made = folder + "/scene.glb";
-  const auto result = run_program({"assimp", "export", fs::absolute(path).native(), made, "-fglb2"});
-  if (!result || result->code != 0 || !fs::exists(made))
-    fail(path, "cannot be read by Assimp, and there is no Blender");
-  ods::write_file(folder + "/bridge.json", R"({"omnistereo_bridge": 1, "assimp": true})");
-}
-
 ForeignScene read_result(const std::string& folder) {
   std::ifstream file(folder + "/bridge.json");
   const json found = json::parse(file, nullptr, false);
@@ -86,22 +77,32 @@ ForeignScene read_result(const std::string& folder) {
   return scene;
 }
 
+// What Blender cannot read is left to Assimp, if that is there and reads such files.
 void convert(const std::string& path, const ForeignFormat& format, const BlenderOptions& options,
              const std::string& kept) {
   const ods::PrivateFolder folder(cache_folder() + "/.new-");
   const std::string blender = find_blender(options);
+  const bool can_assimp = format.assimp && has_assimp();
   if (!blender.empty()) {
     note(fmt::format("Blender converts '{}'; the result is kept in '{}' until the file changes", path,
                      fs::path(kept).parent_path().native()));
-    run_blender(options, path, folder.path());
-  } else if (format.assimp && has_program("assimp")) {
-    note(fmt::format("there is no Blender, so Assimp converts '{}', without node materials and the world", path));
-    run_assimp(path, folder.path());
-  } else if (format.assimp) {
-    fail(path, "needs Blender or Assimp's command to be read: install one (blender, assimp-utils), or --blender PATH");
-  } else {
+    try {
+      run_blender(options, path, folder.path());
+      return keep_scene(folder.path(), kept);
+    } catch (const ods::Error& error) {
+      if (error.kind() != ods::ErrorKind::kInput || !format.assimp) throw;
+      if (!can_assimp) {
+        throw ods::Error(ods::ErrorKind::kInput, fmt::format("{} (Assimp may: install assimp-utils)", error.what()));
+      }
+      note(error.what());
+    }
+  } else if (!format.assimp) {
     fail(path, "needs Blender to be read: install it, or say where it is with --blender PATH");
+  } else if (!can_assimp) {
+    fail(path, "needs Blender or Assimp's command to be read: install one (blender, assimp-utils), or --blender PATH");
   }
+  note(fmt::format("Assimp converts '{}': no lights, cameras, node materials or world", path));
+  run_assimp(path, folder.path());
   keep_scene(folder.path(), kept);
 }
 

@@ -24,14 +24,6 @@ namespace {
 
 constexpr auto kInUse = std::chrono::hours(1);
 
-// A file as it stands; empty if there is none.
-std::string state_of(const std::string& path) {
-  struct stat found = {};
-  if (stat(path.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return "";
-  const int64_t time = int64_t{found.st_mtim.tv_sec} * 1'000'000'000 + found.st_mtim.tv_nsec;
-  return fmt::format("{} {}", found.st_size, time);
-}
-
 struct Kept {
   fs::path folder;
   fs::file_time_type used;
@@ -71,6 +63,12 @@ void remove_oldest(const fs::path& cache, const fs::path& newest) {
 
 }  // namespace
 
+json state_of(const std::string& path) {
+  struct stat found = {};
+  if (stat(path.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return {};
+  return {path, int64_t{found.st_size}, int64_t{found.st_mtim.tv_sec} * 1'000'000'000 + found.st_mtim.tv_nsec};
+}
+
 std::string cache_folder() {
   const char* const own = std::getenv("XDG_CACHE_HOME");
   const char* const home = std::getenv("HOME");
@@ -94,9 +92,11 @@ std::string cache_folder() {
 std::string kept_scene(const std::string& file, const std::string& how) {
   std::error_code error;
   const fs::path path = fs::canonical(file, error);
-  const std::string state = error ? "" : state_of(path.native());
-  if (state.empty()) throw ods::Error(ods::ErrorKind::kInput, fmt::format("{}: no such file", file));
-  return (fs::path(cache_folder()) / ods::md5(path.native() + "\n" + state + "\n" + how)).native();
+  const json state = error ? json() : state_of(path.native());
+  if (state.is_null()) throw ods::Error(ods::ErrorKind::kInput, fmt::format("{}: no such file", file));
+  return (fs::path(cache_folder()) /
+          ods::md5(fmt::format("{}\n{} {}\n{}", path.native(), state[1].dump(), state[2].dump(), how)))
+      .native();
 }
 
 bool is_kept(const std::string& folder) {
@@ -105,10 +105,7 @@ bool is_kept(const std::string& folder) {
   const json found = json::parse(file, nullptr, false);
   if (!found.is_object() || !fs::exists(fs::path(folder) / "scene.glb")) return false;
   for (const json& each : found.value("reads", json::array())) {
-    const bool sound = each.is_array() && each.size() == 3 && each[0].is_string() && each[1].is_number_integer() &&
-                       each[2].is_number_integer();
-    if (!sound || state_of(each[0]) != fmt::format("{} {}", each[1].get<int64_t>(), each[2].get<int64_t>()))
-      return false;
+    if (!each.is_array() || each.empty() || !each[0].is_string() || state_of(each[0]) != each) return false;
   }
   std::error_code ignored;
   fs::last_write_time(mark, fs::file_time_type::clock::now(), ignored);

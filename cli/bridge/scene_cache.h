@@ -5,10 +5,15 @@
 // ~/.cache/ods/scenes. Each is a folder with scene.glb, bridge.json and perhaps world.exr.
 #pragma once
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 inline constexpr size_t kMostKeptScenes = 40;
 inline constexpr uint64_t kMostKeptBytes = uint64_t{8} << 30u;
+
+// A file as it stands, as bridge.json has those that a conversion `reads`: path, size, nanoseconds of its time. Null if
+// there is none.
+nlohmann::json state_of(const std::string& path);
 
 // The cache's folder, made if need be. Throws Error(kOutput).
 std::string cache_folder();

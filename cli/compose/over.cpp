@@ -92,8 +92,7 @@ void warn_of_no_cover(const OverJob& job, const Footage& back, const Footage& fr
 }
 
 void lay_all(const OverJob& job, ProgressLines& lines) {
-  const bool is_one_file = ods::footage_kind(job.background) != FootageKind::kFrames;
-  Footage back(job.background, is_one_file ? identified_input(job.background, job.known) : job.known);
+  Footage back(job.background, identified_input(job.background, job.known));
   Footage front(job.foreground, {});
   warn_of_no_cover(job, back, front);
   const bool to_video = ods::container_of_path(job.output).has_value();

@@ -44,13 +44,6 @@ struct Wishes {
   std::optional<std::vector<int>> frames;
 };
 
-// What is known of the input, with what its pixels show where no word tells.
-ods::FormatHint looked_at(const ConvertJob& job) {
-  const std::string path = job.kind == FootageKind::kFrames ? job.files.path(0) : job.input;
-  if (job.kind == FootageKind::kVideo && !ods::is_video(path)) return job.known;  // opening it says what is wrong
-  return identified_input(path, job.known);
-}
-
 // Opens the input as soon as the options that say what it is are known; the options after it change what its header
 // says.
 void open_header(const std::string& path, ConvertJob& job, Wishes& wishes) {
@@ -59,7 +52,7 @@ void open_header(const std::string& path, ConvertJob& job, Wishes& wishes) {
   job.kind = ods::footage_kind(path);
   if (job.kind == FootageKind::kFrames) job.files = ods::find_frames(path, wishes.frames);
   ods::OpenOptions open;
-  open.format = looked_at(job);
+  open.format = identified_input(path, job.known);
   switch (job.kind) {
     case FootageKind::kPicture:
       job.picture = job.reader.emplace(path, open).header();

@@ -12,7 +12,10 @@
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/camera/camera_fields.h"
+#include "ods/files/frames.h"
 #include "ods/identify/identify.h"
+#include "ods/video/container/video_file.h"
+#include "ods/video/footage.h"
 
 using ods::NamedProjection, ods::ProjectionSetting, ods::vec2;
 
@@ -183,8 +186,17 @@ void finish_projection(ProjectionSetting& projection, int width, int& height) {
 }
 
 ods::FormatHint identified_input(const std::string& path, const ods::FormatHint& known) {
+  std::string first = path;
+  const ods::FootageKind kind = ods::footage_kind(path);
+  if (kind == ods::FootageKind::kFrames) {
+    const ods::FrameNames names = *ods::frame_names(path);
+    const std::vector<int> frames = ods::frames_on_disk(names);
+    if (frames.empty()) return known;
+    first = names.path(frames.front());
+  }
+  if (kind == ods::FootageKind::kVideo && !ods::is_video(path)) return known;
   std::vector<std::string> doubts;
-  const ods::FormatHint format = ods::identified(path, known, doubts);
-  for (const std::string& doubt : doubts) note(fmt::format("'{}' is {}", path, doubt));
+  const ods::FormatHint format = ods::identified(first, known, doubts);
+  for (const std::string& doubt : doubts) note(fmt::format("'{}' is {}", first, doubt));
   return format;
 }

@@ -27,5 +27,6 @@ void add_lens_options(Options& options, ods::FormatHint& known);
 // What these options imply: a fisheye, and two halves if they look ahead and back.
 void finish_lens_options(ods::FormatHint& known);
 
-// What a picture or a video that a command reads shows: as ods::identified(), whose doubts become notes.
+// What a picture, frames (the first that exists) or a video that a command reads shows: as ods::identified(), whose
+// doubts become notes. `known` alone if there is nothing to look at; opening it says what is wrong.
 ods::FormatHint identified_input(const std::string& path, const ods::FormatHint& known);

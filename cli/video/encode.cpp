@@ -75,7 +75,9 @@ void encode_to_file(const EncodeJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
   encode_options(job.video, {256, 256}, job.threads);  // fails early: examining the frames takes time
   const ods::FrameFiles files = ods::find_frames(job.pattern, job.frames);
-  const ods::VideoPlan plan = ods::plan_video(files, job.known, job.layout);
+  const ods::FormatHint seen = identified_input(job.pattern, job.known);
+  const bool needs_convert = !seen.lenses.empty() || seen.bars.any();  // what stands in a frame is encoded as it is
+  const ods::VideoPlan plan = ods::plan_video(files, needs_convert ? job.known : seen, job.layout);
   const ods::EncodeOptions options = encode_options(job.video, plan.size, job.threads);
   ods::check_packing(plan, options.packing);
   for (const std::string& each : plan.notes) note(each);

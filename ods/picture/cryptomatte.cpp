@@ -22,6 +22,7 @@ namespace ods {
 
 namespace {
 
+constexpr std::string_view kMatteAttributes = "cryptomatte/";  // how the names of its attributes begin
 constexpr const char* kOwnLayer = "CryptoObject";
 
 // The names of a manifest: {"name": "hexadecimal number", ...}.
@@ -103,6 +104,19 @@ std::optional<Cryptomatte> find_cryptomatte(const FileInfo& info, const std::str
     }
   }
   return found;
+}
+
+std::vector<Attribute> matte_attributes(const FileInfo& info, const std::string& path) {
+  constexpr std::string_view kFile = "manif_file";
+  std::vector<Attribute> attributes;
+  for (const auto& [key, text] : info.text) {
+    if (!key.starts_with(kMatteAttributes)) continue;
+    std::string manifest = key;
+    if (key.ends_with(kFile)) manifest.replace(key.size() - kFile.size(), kFile.size(), "manifest");
+    const std::string names = info.text.contains(manifest) ? "" : manifest_beside(path, text);
+    attributes.push_back(names.empty() ? Attribute{key, text} : Attribute{manifest, names});
+  }
+  return attributes;
 }
 
 // The first rank of the first layer: `LAYER00.R`, in some files `LAYER00.r`.

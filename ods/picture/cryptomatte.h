@@ -18,8 +18,6 @@
 
 namespace ods {
 
-inline constexpr std::string_view kMatteAttributes = "cryptomatte/";  // how the names of its attributes begin
-
 // MurmurHash3 for 32 bits, with the seed 0.
 uint32_t murmur3(std::string_view text);
 
@@ -34,6 +32,10 @@ struct Cryptomatte {
 // The layer that tells objects apart, else another; nothing if the header has none. The names are in the header, or in
 // a file that it names in the picture's folder. A list of names that cannot be read is an empty one.
 std::optional<Cryptomatte> find_cryptomatte(const FileInfo& info, const std::string& path);
+
+// What a copy of the picture needs in its header: its attributes, and the text of a file with names in place of the
+// file's name. If that file cannot be read, the name stays.
+std::vector<Attribute> matte_attributes(const FileInfo& info, const std::string& path);
 
 // The channel with the numbers of what covers most of each pixel; empty: the picture has none.
 std::string matte_channel(const StoredPicture& picture, const Cryptomatte& matte);

@@ -386,9 +386,7 @@ static StoredPicture describe(const Readers& readers, StereoFormat format, const
   picture.has_ipd = format.has_ipd;
   picture.guesses = std::move(format.guesses);
   if (const auto mark = info.text.find("ods:rig"); mark != info.text.end()) picture.rig_mark = mark->second;
-  for (const auto& [key, value] : info.text) {
-    if (key.starts_with(kMatteAttributes)) picture.mattes.push_back({key, value});
-  }
+  picture.mattes = matte_attributes(info, path);
   for (const auto& reader : readers) {
     if (picture.color_fault.empty()) picture.color_fault = reader->info().color_fault;
   }

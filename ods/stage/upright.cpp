@@ -88,6 +88,7 @@ Ground ground_along(const Scene& scene, const std::vector<Bounds>& boxes, const 
 bool lies_on_its_back(const Scene& scene) {
   constexpr float kMost = 0.5f, kFew = 0.2f, kFloor = 0.5f;
   constexpr int kY = 1, kZ = 2;
+  if (scene.generator.find("Blender") != std::string::npos) return false;
   const std::vector<Bounds> boxes = boxes_of(scene);
   if (boxes.size() < kLeastInstances) return false;
   const Bounds bounds = scene_bounds(scene);

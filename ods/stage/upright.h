@@ -13,7 +13,8 @@ inline constexpr NameRow<UpAxis> kUpAxisTable[] = {{UpAxis::kAuto, "auto"}, {UpA
 static_assert(has_every_member(kUpAxisTable));
 
 // Whether the scene lies on its back, since the file's z axis points up: most of its instances, eight or more, stand at
-// one height along z, on a floor that is level there, and next to none do so along y. At rest.
+// one height along z, on a floor that is level there, and next to none do so along y. At rest. Not of Blender's exports,
+// which turn z up into y up: an upright board with samples on it is the same to that measure.
 bool lies_on_its_back(const Scene& scene);
 
 }  // namespace ods

@@ -390,17 +390,13 @@ t.links.new(n.outputs[0], t.nodes['Principled BSDF'].inputs['Base Color']); plan
   EXPECT_NE(said.find("poster.png' cannot be found"), std::string::npos) << said;
 }
 
-TEST_F(Blender, OtherFormatsGoThroughIt) {
-  folder_.write("t.obj", "o x\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  folder_.write("t.ply",
-                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  folder_.write("t.stl",
-                "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
-                "endsolid x\n");
-  for (const char* name : {"t.obj", "t.ply", "t.stl"}) {
-    EXPECT_NE(info(folder_.path(name)).find("triangles      1 "), std::string::npos) << name;
-  }
+// As every FBX has one that Blender imports.
+TEST_F(Blender, ANormalMapWithoutAPictureIsNoLoss) {
+  const std::string all = info(make(R"(
+m = material('plain', node='ShaderNodeBsdfPrincipled'); t = m.node_tree
+t.links.new(t.nodes.new('ShaderNodeNormalMap').outputs[0], t.nodes['Principled BSDF'].inputs['Normal'])
+plane('floor', 2, (0, 0, 0), m))"));
+  EXPECT_EQ(all.find("normal is computed"), std::string::npos) << all;
 }
 
 // In Blender's folders for users that this test makes.

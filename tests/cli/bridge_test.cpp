@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -175,6 +176,52 @@ TEST_F(Bridge, SaysWhatIsMissing) {
             std::string::npos)
       << blend.err;
   EXPECT_NE(fbx.err.find("needs Blender or Assimp's command to be read"), std::string::npos) << fbx.err;
+}
+
+// Blender reads no FBX in ASCII, and an OBJ's own words may be in any encoding. Assimp leaves the pictures where they
+// are, in the words of the program that wrote the scene.
+TEST_F(Bridge, WhatBlenderCannotReadAssimpDoes) {
+  GltfBuilder made = make_triangle();
+  made.primitive()["attributes"]["TEXCOORD_0"] = made.add<float>({0, 0, 1, 0, 0, 1}, kFloat, "VEC2");
+  made.primitive()["material"] = 0;
+  made.json["images"] = {{{"uri", ".\\Wood.PNG"}}, {{"uri", "C:\\gone.png"}}};
+  made.json["textures"] = {{{"source", 0}}, {{"source", 1}}};
+  made.json["materials"] = {{{"name", "B*r"},
+                             {"emissiveFactor", {1, 1, 1}},
+                             {"emissiveTexture", {{"index", 1}}},
+                             {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+  Binary glb = made.glb();
+  *std::search_n(glb.begin(), glb.end(), 1, '*') = 0xe4;  // in Latin-1
+  write(folder_ + "/made.glb", {glb.begin(), glb.end()});
+  const Binary png = small_png();
+  write(folder_ + "/wood.png", {png.begin(), png.end()});
+  write(folder_ + "/car.fbx", "; FBX 7.4.0 project file");
+  program("echo 'ods-bridge error Blender cannot read it' >&2\nexit 3");
+  const std::vector<std::string> words = {"info", folder_ + "/car.fbx", "--blender", folder_ + "/blender"};
+  const std::string path = getenv("PATH");
+  setenv("PATH", (folder_ + ":/usr/bin:/bin").c_str(), 1);
+  write(folder_ + "/assimp", "#!/bin/sh\ncp " + folder_ + "/made.glb \"$3\"\n");
+  fs::permissions(folder_ + "/assimp", fs::perms::owner_all);
+  Ods first(words);
+  EXPECT_EQ(first.finish(), 0) << first.err;
+  EXPECT_NE(first.err.find("car.fbx': Blender cannot read it"), std::string::npos) << first.err;
+  EXPECT_NE(first.err.find("Assimp converts '"), std::string::npos) << first.err;
+  EXPECT_NE(first.out.find("materials      1, 1 textures"), std::string::npos) << first.out;
+  EXPECT_NE(first.out.find("0 glowing triangles"), std::string::npos) << first.out;
+  EXPECT_NE(first.out.find("there is no picture 'C:\\gone.png'"), std::string::npos) << first.out;
+  Ods second(words);
+  EXPECT_EQ(second.finish(), 0);
+  EXPECT_EQ(second.err, "");
+  write(folder_ + "/wood.png", "no picture any more");
+  Ods third(words);
+  EXPECT_EQ(third.finish(), 0) << third.err;
+  EXPECT_NE(third.out.find("materials      1, 0 textures"), std::string::npos) << third.out;
+  write(folder_ + "/assimp", "#!/bin/sh\nexit 10\n");
+  fs::remove(folder_ + "/wood.png");
+  Ods fourth(words);
+  EXPECT_EQ(fourth.finish(), 3);
+  EXPECT_NE(fourth.err.find("car.fbx': Assimp cannot read it"), std::string::npos) << fourth.err;
+  setenv("PATH", path.c_str(), 1);
 }
 
 TEST_F(Bridge, RefusesWhatIsNoBlenderFile) {

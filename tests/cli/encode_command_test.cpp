@@ -155,7 +155,7 @@ TEST_F(EncodeCommand, ALimitOnFilesLeavesNothing) {
 TEST_F(EncodeCommand, AnInterruptLeavesNothing) {
   std::vector<int> frames;
   for (int i = 1; i <= 40; i++) frames.push_back(i);
-  ods::made::write_frames(pattern(), frames);
+  ods::made::write_frames(pattern(), frames, Layout::kTopBottom, {512, 256});  // small ones are done too soon
   const size_t before = files();
   for (const char* encoder : {"libx264", "libsvtav1"}) {
     if (!ods::has_encoder(encoder)) continue;

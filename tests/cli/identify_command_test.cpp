@@ -70,11 +70,13 @@ TEST_F(Wordless, APairOfFisheyesIsRecognised) {
   EXPECT_NE(err.find("fisheye: its pixels look like it"), std::string::npos) << err;
 }
 
-// A public film of two squeezed eyes was judged as one eye.
-TEST_F(Wordless, AFilmOfSqueezedEyesIsRecognised) {
+// A public film of two squeezed eyes was judged as one eye, and so were its frames.
+TEST_F(Wordless, AFilmOfSqueezedEyesAndItsFramesAreRecognised) {
   write("frame.0001.png", Layout::kSideBySideHalf, "lat-long", 1024);
   const std::string tagged = folder.path("tagged_360_HSBS.mp4"), film = folder.path("film.mp4");
-  ASSERT_EQ(run("encode " + folder.path("frame.####.png") + " --layout side-by-side-half -o " + tagged), 0) << err;
+  const std::string frame_is = "frame.0001.png: lat-long: its pixels look like it";
+  ASSERT_EQ(run("encode " + folder.path("frame.####.png") + " -o " + tagged), 0) << err;
+  EXPECT_NE(err.find(frame_is), std::string::npos) << err;
   ASSERT_EQ(run("inject " + tagged + " --remove -o " + film), 0) << err;
   const std::string said = "film.mp4' is side-by-side-half, lat-long: its left and right half match";
   const int code = run("comfort " + film + " --json");
@@ -84,6 +86,9 @@ TEST_F(Wordless, AFilmOfSqueezedEyesIsRecognised) {
   ASSERT_EQ(run("title End --width 64 -o " + folder.path("title.exr")), 0) << err;
   EXPECT_EQ(run("over " + folder.path("title.exr") + " " + film + " -o " + folder.path("titled.mp4")), 0) << err;
   EXPECT_NE(err.find(said), std::string::npos) << err;
+  const std::string words = folder.path("title.exr") + " " + folder.path("frame.####.png");
+  EXPECT_EQ(run("over " + words + " -o " + folder.path("over.####.png")), 0) << err;
+  EXPECT_NE(err.find(frame_is), std::string::npos) << err;
 }
 
 // Each command names the readings, and its own options.

@@ -86,10 +86,15 @@ TEST(Cryptomatte, NamesMayBeInAFileBeside) {
   info.text["cryptomatte/89abcde/name"] = "CryptoObject";
   info.text["cryptomatte/89abcde/manif_file"] = "names.json";
   EXPECT_EQ(find_cryptomatte(info, path)->names, (std::map<float, std::string>{{2.0f, "Cube"}}));
+  FileInfo copy;  // in another folder
+  for (const Attribute& each : matte_attributes(info, path)) copy.text[each.name] = std::get<std::string>(each.value);
+  EXPECT_EQ(copy.text.size(), 2u);
+  EXPECT_EQ(find_cryptomatte(copy, "gone.exr")->names, (std::map<float, std::string>{{2.0f, "Cube"}}));
   for (const std::string& other :
        {std::string("../secret.json"), folder.path("secret.json"), std::string("none"), std::string()}) {
     info.text["cryptomatte/89abcde/manif_file"] = other;
     EXPECT_TRUE(find_cryptomatte(info, path)->names.empty()) << other;
+    EXPECT_EQ(std::get<std::string>(matte_attributes(info, path)[0].value), other);
   }
   EXPECT_TRUE(find_cryptomatte(info, folder.path("gone.exr"))->names.empty());
 }

@@ -34,6 +34,13 @@ TEST(Upright, WhatStandsAlongZLiesOnItsBack) {
   EXPECT_TRUE(lies_on_its_back(laid_down(make_exhibition())));
 }
 
+// The Khronos sample ClearCoatTest: rows of half spheres and their labels on an upright board.
+TEST(Upright, ABoardOfBlenderIsUpright) {
+  Scene board = laid_down(make_exhibition());
+  board.generator = "Khronos glTF Blender I/O v1.2.8 with hand-edits for clearcoat";
+  EXPECT_FALSE(lies_on_its_back(board));
+}
+
 TEST(Upright, WhatStandsAlongYDoesNot) {
   EXPECT_FALSE(lies_on_its_back(make_exhibition()));
   EXPECT_FALSE(lies_on_its_back(make_walled_room(true)));

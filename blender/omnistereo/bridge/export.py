@@ -51,13 +51,16 @@ def _open_blend(path):
         _refuse_newer(_version_of(path))  # Blender 3.4 crashes when it opens a file of 4.3
         bpy.ops.wm.open_mainfile(filepath=path, load_ui=False, use_scripts=False)
     except (OSError, RuntimeError) as error:
-        raise Failure(f"Blender cannot open it: {_first_line(error)}") from None
+        raise Failure(f"Blender cannot open it: {_one_line(error)}") from None
     _refuse_newer(bpy.data.version)
 
 
-def _first_line(error):
-    lines = [line for line in str(error).splitlines() if line.strip()]
-    return lines[0].removeprefix("Error: ").strip() if lines else type(error).__name__
+def _one_line(error):
+    """The first line, or of an add-on's traceback the error at its end."""
+    lines = [line for line in str(error).splitlines() if line.strip() and not line.startswith("Location:")]
+    if not lines:
+        return type(error).__name__
+    return lines[-1 if "Traceback" in lines[0] else 0].removeprefix("Error: ").strip()
 
 
 def _importers(kind):
@@ -85,7 +88,7 @@ def _import(path):
         try:
             result = call(filepath=path, **options)
         except Exception as error:  # an add-on's own errors are of any kind
-            raise Failure(f"Blender cannot read it: {_first_line(error)}") from None
+            raise Failure(f"Blender cannot read it: {_one_line(error)}") from None
         if "FINISHED" not in result or not bpy.data.objects:
             raise Failure("Blender finds nothing in it")
         return
@@ -119,7 +122,7 @@ def _run_exporter(path, scene):
     try:
         bpy.ops.export_scene.gltf(filepath=path, **_options(scene))
     except Exception as error:
-        raise Failure(f"Blender's glTF exporter failed: {_first_line(error)}") from None
+        raise Failure(f"Blender's glTF exporter failed: {_one_line(error)}") from None
     if not os.path.exists(path):
         raise Failure("Blender's glTF exporter wrote nothing")
 

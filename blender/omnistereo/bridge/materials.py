@@ -293,12 +293,25 @@ def _reads_image(socket, depth=0):
     return any(_reads_image(i, depth + 1) for i in node.inputs if i.is_linked)
 
 
+def _is_plain_normal(socket):
+    """Whether its nodes change nothing: Blender's importers leave a normal map without a picture in each material."""
+    found = source_of(socket)
+    if found is None:
+        return True
+    node = found.node
+    if node.type == "NORMAL_MAP":
+        color = node.inputs["Color"]
+        return not color.is_linked and max(abs(a - b) for a, b in zip(color.default_value, (0.5, 0.5, 1.0))) < 1e-3
+    return node.type == "BUMP" and not node.inputs["Height"].is_linked and _is_plain_normal(node.inputs["Normal"])
+
+
 def computed_inputs(node):
     """The inputs of a Principled BSDF whose nodes the exporter does not follow."""
     found = []
     for key in BAKED:
         socket = put(node, key)
-        if socket is not None and socket.is_linked and not _reads_image(socket):
+        is_plain = key == "normal" and _is_plain_normal(socket)
+        if socket is not None and socket.is_linked and not is_plain and not _reads_image(socket):
             found.append(key)
     return found
 

@@ -20,7 +20,7 @@ void add_plant(Scene& scene, const Finishes& finishes, const glm::mat4& place, f
 // different for each seed.
 void add_books(Scene& scene, const Finishes& finishes, const glm::mat4& place, vec3 size, uint seed);
 
-// The texture of a painting from patterns.h, number 0 to 4.
+// The texture of a painting from patterns.h.
 int add_painting(Scene& scene, int number);
 
 // A framed painting, centred at the origin.

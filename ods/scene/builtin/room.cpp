@@ -241,8 +241,8 @@ static void add_pictures(Scene& scene, const Finishes& f) {
       {on_front_wall(2.55f, 1.7f), {0.55f, 0.72f}, 1, f.walnut},
   };
   const glm::mat4 off_the_wall = placed(vec3(0.0f, 0.0f, 0.012f));
-  int paintings[5];
-  for (int i = 0; i < 5; i++) paintings[i] = add_painting(scene, i);
+  int paintings[kPaintingCount];
+  for (int i = 0; i < kPaintingCount; i++) paintings[i] = add_painting(scene, i);
   for (const Hung& p : pictures) add_picture(scene, p.wall * off_the_wall, p.size, paintings[p.painting], p.frame);
 }
 
