@@ -25,12 +25,15 @@ namespace {
 
 struct ForeignFormat {
   std::string_view extension;
-  bool assimp;  // Assimp reads it, too
+  bool blender;  // reads it
+  bool assimp;   // likewise
 };
 
 constexpr ForeignFormat kFormats[] = {
-    {".blend", false}, {".fbx", true},   {".obj", true},   {".dae", true},   {".ply", true},  {".stl", true},
-    {".usd", false},   {".usda", false}, {".usdc", false}, {".usdz", false}, {".abc", false},
+    {".blend", true, false}, {".fbx", true, true},   {".obj", true, true},  {".dae", true, true},
+    {".ply", true, true},    {".stl", true, true},   {".usd", true, false}, {".usda", true, false},
+    {".usdc", true, false},  {".usdz", true, false}, {".abc", true, false}, {".3ds", false, true},
+    {".3mf", false, true},   {".lwo", false, true},  {".x3d", false, true},
 };
 
 constexpr std::chrono::hours kPatience{2};  // for another process that converts the same file
@@ -81,7 +84,7 @@ ForeignScene read_result(const std::string& folder) {
 void convert(const std::string& path, const ForeignFormat& format, const BlenderOptions& options,
              const std::string& kept) {
   const ods::PrivateFolder folder(cache_folder() + "/.new-");
-  const std::string blender = find_blender(options);
+  const std::string blender = format.blender ? find_blender(options) : "";
   const bool can_assimp = format.assimp && has_assimp();
   if (!blender.empty()) {
     note(fmt::format("Blender converts '{}'; the result is kept in '{}' until the file changes", path,
@@ -98,6 +101,8 @@ void convert(const std::string& path, const ForeignFormat& format, const Blender
     }
   } else if (!format.assimp) {
     fail(path, "needs Blender to be read: install it, or say where it is with --blender PATH");
+  } else if (!can_assimp && !format.blender) {
+    fail(path, "needs Assimp's command to be read: install it (assimp-utils)");
   } else if (!can_assimp) {
     fail(path, "needs Blender or Assimp's command to be read: install one (blender, assimp-utils), or --blender PATH");
   }

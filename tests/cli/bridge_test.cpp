@@ -168,14 +168,17 @@ TEST_F(Bridge, SaysWhatIsMissing) {
   write(folder_ + "/car.fbx", "x");
   const std::string path = getenv("PATH");
   setenv("PATH", (folder_ + "/nowhere").c_str(), 1);
-  Ods blend({"info", scene_}), fbx({"info", folder_ + "/car.fbx"});
+  write(folder_ + "/car.3ds", "x");
+  Ods blend({"info", scene_}), fbx({"info", folder_ + "/car.fbx"}), old({"info", folder_ + "/car.3ds"});
   EXPECT_EQ(blend.finish(), 3);
   EXPECT_EQ(fbx.finish(), 3);
+  EXPECT_EQ(old.finish(), 3);
   setenv("PATH", path.c_str(), 1);
   EXPECT_NE(blend.err.find("needs Blender to be read: install it, or say where it is with --blender PATH"),
             std::string::npos)
       << blend.err;
   EXPECT_NE(fbx.err.find("needs Blender or Assimp's command to be read"), std::string::npos) << fbx.err;
+  EXPECT_NE(old.err.find("needs Assimp's command to be read: install it"), std::string::npos) << old.err;
 }
 
 // Blender reads no FBX in ASCII, and an OBJ's own words may be in any encoding. Assimp leaves the pictures where they
