@@ -46,7 +46,10 @@ TEST_F(BlenderFormats, LightsWithoutAKindAreNamed) {
   </visual_scene></library_visual_scenes>
   <scene><instance_visual_scene url="#s"/></scene>
 </COLLADA>)");
-  EXPECT_EQ(run("info " + folder.path("t.dae")), 0) << err;
+  const int code = run("info " + folder.path("t.dae"));
+  if (err.find("this Blender does not read .dae files") != std::string::npos)
+    GTEST_SKIP() << "skipped: no Collada here";
+  EXPECT_EQ(code, 0) << err;
   EXPECT_NE(out.find("1 point"), std::string::npos) << out;
   EXPECT_NE(out.find("'hemi': lights of a kind that Blender does not have"), std::string::npos) << out;
 }
