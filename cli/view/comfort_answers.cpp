@@ -14,11 +14,11 @@
 
 namespace {
 
-constexpr int kMostWidth = 1024;  // of what is judged
+constexpr int kJudgedWidth = 1024;
 
 ods::SeenDepth depth_of(const ods::LiveSeen& seen, size_t eye) {
   const ods::EyeImage& image = seen.picture->eyes[eye];
-  return {seen.camera, image.eye, ods::nearest_of_blocks(image.depth, kMostWidth), {}, {}};
+  return {seen.camera, image.eye, ods::nearest_of_blocks(image.depth, kJudgedWidth), {}, {}};
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ WebAnswer heat_answer(const ods::LiveSeen& seen, int eye) {
   if (!seen.picture) return {.status = 204};
   const size_t index = std::min(static_cast<size_t>(eye), seen.picture->eyes.size() - 1);
   const Judged judged{depth_of(seen, index), seen.picture->eyes[index].radiance};
-  assert(judged.light.width <= kMostWidth);  // the studio's whole picture is never larger
+  assert(judged.light.width <= kJudgedWidth);  // the studio's whole picture is never larger
   return {.type = "image/png", .body = heat_png(judged, ods::judge_comfort(judged.seen))};
 }
 

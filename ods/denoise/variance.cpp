@@ -5,12 +5,12 @@
 
 namespace ods {
 
-constexpr int kReach = 2;
+constexpr int kAround = 2;
 
 static float mean_around(const Block& block, int at, int y) {
   float sum = 0.0f, weights = 0.0f;
-  for (int dy = -kReach; dy <= kReach; dy++) {
-    for (int dx = -kReach; dx <= kReach; dx++) {
+  for (int dy = -kAround; dy <= kAround; dy++) {
+    for (int dx = -kAround; dx <= kAround; dx++) {
       const RowPair pair = pair_rows(block, y, dx, dy);
       const float theirs = pair.next[kVariance][at];
       if (theirs < 0.0f) continue;
@@ -26,7 +26,7 @@ void doubt_darkness(const NoisyPicture& noisy, std::vector<Level>& levels) {
   std::vector<std::vector<uint16_t>> doubted;
   for (const Level& level : levels) doubted.push_back(level.variance);
   for_each_block(noisy, [&](Block& block) {
-    block.across = block.down = kReach;
+    block.across = block.down = kAround;
     load_block(noisy, levels, block);
     for (int y = block.inside.top; y < block.inside.bottom; y++) {
       for (int x = block.inside.left; x < block.inside.right; x++) {

@@ -15,7 +15,7 @@
 namespace ods {
 namespace {
 
-Material matte(vec3 albedo, vec3 emission = vec3(0.0f)) {
+Material painted(vec3 albedo, vec3 emission = vec3(0.0f)) {
   Material material = default_material();
   material.base_color = vec4(albedo, 1.0f);
   material.emission = emission;
@@ -47,7 +47,7 @@ TEST(CachedLight, GlowingBoxHasEveryBounce) {
   for (const int bounces : {2, 3, 8}) {
     Scene scene;
     const vec3 albedo(0.5f, 0.7f, 0.2f);
-    add_box(scene, vec3(-2, -1, -3), vec3(2, 1.5f, 3), add_material(scene, matte(albedo, vec3(1.0f))));
+    add_box(scene, vec3(-2, -1, -3), vec3(2, 1.5f, 3), add_material(scene, painted(albedo, vec3(1.0f))));
     RenderOptions options = cached(32, 16);
     options.bounces = bounces;
     const Picture picture = render_cpu(scene, StereoCamera{}, options);
@@ -62,9 +62,9 @@ TEST(CachedLight, GlowingBoxHasEveryBounce) {
 // A room with a lamp behind a screen: most light is indirect. A shelf and a pillar are closer than a cell.
 Scene room() {
   Scene scene;
-  const int white = add_material(scene, matte(vec3(0.8f)));
-  const int red = add_material(scene, matte(vec3(0.7f, 0.2f, 0.1f)));
-  const int lamp = add_material(scene, matte(vec3(0.0f), vec3(40.0f)));
+  const int white = add_material(scene, painted(vec3(0.8f)));
+  const int red = add_material(scene, painted(vec3(0.7f, 0.2f, 0.1f)));
+  const int lamp = add_material(scene, painted(vec3(0.0f), vec3(40.0f)));
   add_box(scene, vec3(-3, -1.2f, -3), vec3(3, 1.4f, 3), white);
   add_box(scene, vec3(-2.9f, 0.2f, -1), vec3(-2.6f, 0.24f, 1), red);
   add_box(scene, vec3(1, -1.2f, -2), vec3(1.1f, 1.4f, -1.9f), red);
@@ -107,8 +107,8 @@ TEST(CachedLight, IsLessNoisy) {
 // A dark room beside a bright one, behind a wall thinner than a cell.
 TEST(CachedLight, StaysOnItsSideOfAWall) {
   Scene scene;
-  const int white = add_material(scene, matte(vec3(0.8f)));
-  const int lamp = add_material(scene, matte(vec3(0.0f), vec3(100.0f)));
+  const int white = add_material(scene, painted(vec3(0.8f)));
+  const int lamp = add_material(scene, painted(vec3(0.0f), vec3(100.0f)));
   add_box(scene, vec3(-3, -1.2f, -3), vec3(3, 1.4f, 3), white);
   add_box(scene, vec3(3.05f, -1.2f, -3), vec3(6, 1.4f, 3), white);
   add_rectangle(scene, vec3(4, 1.3f, -0.5f), vec3(1, 0, 0), vec3(0, 0, 1), lamp);
@@ -148,8 +148,8 @@ TEST(CachedLight, ResumedAndInParts) {
 TEST(CachedLight, StrangeScenesAreFinite) {
   for (const float scale : {1e-3f, 1.0f, 300.0f}) {
     Scene scene;
-    const int white = add_material(scene, matte(vec3(0.8f)));
-    const int lamp = add_material(scene, matte(vec3(0.0f), vec3(1e6f)));
+    const int white = add_material(scene, painted(vec3(0.8f)));
+    const int lamp = add_material(scene, painted(vec3(0.0f), vec3(1e6f)));
     add_box(scene, vec3(-3, -1.2f, -3) * scale, vec3(3, 1.4f, 3) * scale, white);
     add_rectangle(scene, vec3(-0.1f, 1.3f, -2) * scale, vec3(0.2f, 0, 0) * scale, vec3(0, 0, 0.2f) * scale, lamp);
     add_rectangle(scene, vec3(0, 1, 0) * scale, vec3(0.2f, 0, 0) * scale, vec3(0.2f, 0, 0) * scale, lamp);
@@ -173,14 +173,14 @@ double cached_over_path(const Scene& scene, const StereoCamera& camera, RenderOp
 // Solid glass lets light pass unbent, as drafts have it: else no shadow ray would reach the lamp.
 TEST(CachedLight, ALampInsideGlassInsideAClosedBox) {
   Scene scene;
-  add_box(scene, vec3(-2, -1, -2), vec3(2, 1.5f, 2), add_material(scene, matte(vec3(0.7f))));
-  Material glass = matte(vec3(1.0f));
+  add_box(scene, vec3(-2, -1, -2), vec3(2, 1.5f, 2), add_material(scene, painted(vec3(0.7f))));
+  Material glass = painted(vec3(1.0f));
   glass.roughness = 0.0f;
   glass.ior = 1.5f;
   glass.transmission = 1.0f;
   glass.thickness = 1.0f;
   add_sphere(scene, vec3(0, 0.5f, -1), 0.3f, add_material(scene, glass), 8);
-  add_sphere(scene, vec3(0, 0.5f, -1), 0.1f, add_material(scene, matte(vec3(0.0f), vec3(30.0f))), 6);
+  add_sphere(scene, vec3(0, 0.5f, -1), 0.1f, add_material(scene, painted(vec3(0.0f), vec3(30.0f))), 6);
   RenderOptions options = cached(32, 64);
   options.caustics = Caustics::kStraight;
   EXPECT_NEAR(cached_over_path(scene, StereoCamera{}, options), 1.0, 0.02);
@@ -190,7 +190,7 @@ TEST(CachedLight, ALampInsideGlassInsideAClosedBox) {
 TEST(CachedLight, ARoomInALandscape) {
   Scene scene = room();
   scene.instances.erase(scene.instances.begin());  // a wall
-  const int grass = add_material(scene, matte(vec3(0.2f, 0.4f, 0.1f)));
+  const int grass = add_material(scene, painted(vec3(0.2f, 0.4f, 0.1f)));
   add_rectangle(scene, vec3(-1000, -1.3f, 1000), vec3(2000, 0, 0), vec3(0, 0, -2000), grass);
   scene.environment.radiance = vec3(0.5f);
   EXPECT_NEAR(cached_over_path(scene, StereoCamera{}, cached(32, 96)), 1.0, 0.02);
@@ -202,12 +202,12 @@ TEST(CachedLight, ARoomInALandscape) {
 // From a bright room through a doorway into a dark one: each frame has the light of its place, also within the wall.
 TEST(CachedLight, ACameraThatFliesFromRoomToRoom) {
   Scene scene;
-  const int white = add_material(scene, matte(vec3(0.7f)));
+  const int white = add_material(scene, painted(vec3(0.7f)));
   add_box(scene, vec3(-6, -1.2f, -2), vec3(6, 1.4f, 2), white);
   add_rectangle(scene, vec3(0, -1.2f, -2), vec3(0, 2.6f, 0), vec3(0, 0, 1.5f), white);
   add_rectangle(scene, vec3(0, -1.2f, 0.5f), vec3(0, 2.6f, 0), vec3(0, 0, 1.5f), white);
   add_rectangle(scene, vec3(-3, 1.3f, -0.5f), vec3(1, 0, 0), vec3(0, 0, 1),
-                add_material(scene, matte(vec3(0.0f), vec3(5.0f))));
+                add_material(scene, painted(vec3(0.0f), vec3(5.0f))));
   for (const float x : {-3.0f, -0.2f, 0.0f, 0.2f, 3.0f}) {
     StereoCamera camera;
     camera.position = vec3(x, 0, 0);
@@ -219,7 +219,7 @@ TEST(CachedLight, ACameraThatFliesFromRoomToRoom) {
 TEST(CachedLight, ASunBehindSixPanes) {
   Scene scene = room();
   scene.instances.erase(scene.instances.begin());  // a wall
-  Material glass = matte(vec3(1.0f));
+  Material glass = painted(vec3(1.0f));
   glass.roughness = 0.0f;
   glass.ior = 1.5f;
   glass.transmission = 1.0f;
@@ -242,7 +242,7 @@ int count_cells(const LightCells& cells) {
 TEST(CachedLight, CellsAreFewHoweverLargeTheScene) {
   Scene scene = room();
   scene.instances.erase(scene.instances.begin());
-  const int grass = add_material(scene, matte(vec3(0.2f, 0.4f, 0.1f)));
+  const int grass = add_material(scene, painted(vec3(0.2f, 0.4f, 0.1f)));
   for (int i = 0; i < 400; i++) {
     const vec3 corner(-1000 + 100 * static_cast<float>(i % 20), -1.3f, -1000 + 100 * static_cast<float>(i / 20));
     add_box(scene, corner, corner + vec3(30, 20, 30), grass);

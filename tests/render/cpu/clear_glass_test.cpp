@@ -34,7 +34,7 @@ struct Sheets {
   double transmittance(double cosine) const { return std::pow(tint * let_through(ior, cosine), count); }
 };
 
-Material matte(float albedo) {
+Material dull(float albedo) {
   Material material = default_material();
   material.base_color = vec4(albedo, albedo, albedo, 1.0f);
   material.ior = 1.0f;  // reflects nothing but diffuse light
@@ -58,7 +58,7 @@ void add_plane(Scene& scene, double height, double half, int material) {
 // A black ground around a floor: nothing but the floor sends light back up.
 Scene floor_below(const Sheets& sheets, double half = 400.0) {
   Scene scene;
-  add_plane(scene, -kBelow, 300.0, add_material(scene, matte(static_cast<float>(kFloor))));
+  add_plane(scene, -kBelow, 300.0, add_material(scene, dull(static_cast<float>(kFloor))));
   const int material = add_material(scene, glass(sheets.ior, sheets.tint));
   for (int i = 0; i < sheets.count; i++) add_plane(scene, kAbove + 0.01 * i, half, material);
   return scene;
@@ -159,7 +159,7 @@ TEST(ClearGlass, AreaLightThroughSheets) {
   for (const LightSampling sampling : {LightSampling::kBoth, LightSampling::kLightsOnly, LightSampling::kBsdfOnly}) {
     for (const Sheets& sheets : kSheets) {
       Scene scene = floor_below(sheets);
-      Material glow = matte(0.0f);
+      Material glow = dull(0.0f);
       glow.emission = vec3(1.0f);
       glow.double_sided = 1;
       add_plane(scene, 25.0, 20.0, add_material(scene, glow));
@@ -198,7 +198,7 @@ TEST(ClearGlass, AlphaSheetAgrees) {
     Scene scene = floor_below({0});
     Material sheet = glass(1.0, 0.5);
     if (alpha) {
-      sheet = matte(0.0f);
+      sheet = dull(0.0f);
       sheet.base_color.w = 0.5f;
       sheet.alpha_mode = kAlphaBlend;
     }
@@ -213,7 +213,7 @@ TEST(ClearGlass, AlphaSheetAgrees) {
 // Behind a rough sheet no light is lost, either: paths find it there.
 TEST(ClearGlass, RoughSheetKeepsTheEnergy) {
   Scene scene;
-  add_plane(scene, -kBelow, 300.0, add_material(scene, matte(static_cast<float>(kFloor))));
+  add_plane(scene, -kBelow, 300.0, add_material(scene, dull(static_cast<float>(kFloor))));
   Material frosted = glass(1.0);
   frosted.roughness = 0.5f;
   add_plane(scene, 1.0, 4000.0, add_material(scene, frosted));
@@ -240,7 +240,7 @@ TEST(ClearGlass, StraightThroughASolid) {
     RenderOptions options = floor_render(1024);
     options.caustics = Caustics::kStraight;
     if (area) {
-      Material glow = matte(0.0f);
+      Material glow = dull(0.0f);
       glow.emission = vec3(1.0f);
       add_plane(scene, 25.0, 20.0, add_material(scene, glow));
       scene.materials.back().double_sided = 1;
@@ -278,7 +278,7 @@ TEST(ClearGlass, StraightOutOfASolid) {
 // What is seen through a window is known to denoisers as what it is.
 TEST(ClearGlass, LayersShowWhatIsBehind) {
   Scene scene;
-  add_plane(scene, -3.0, 300.0, add_material(scene, matte(0.25f)));
+  add_plane(scene, -3.0, 300.0, add_material(scene, dull(0.25f)));
   add_plane(scene, -1.0, 300.0, add_material(scene, glass(1.0)));
   scene.environment.radiance = vec3(1.0f);
   const Picture picture = render_cpu(scene, StereoCamera{}, floor_render(16));
