@@ -134,6 +134,9 @@ class ExrDecoder final : public Decoder {
  public:
   explicit ExrDecoder(const PictureBytes& file);
   void read(int begin, int end, size_t first, size_t count, std::byte* to) override;
+  // The data window's first pixel, from the display window's, and the size of that.
+  Imath::V2i place() const { return window_.min - file_->header(0).displayWindow().min; }
+  Imath::V2i shown() const { return file_->header(0).displayWindow().size() + Imath::V2i(1); }
 
  private:
   void describe(const Imf::Header& header, int parts);
@@ -178,7 +181,6 @@ void ExrDecoder::describe(const Imf::Header& header, int parts) {
     whole_numbers.push_back(channel.type == Imf::UINT);
   }
   add_attributes(header, info);
-  is_whole_picture = window_ == header.displayWindow();
   if (header.hasTileDescription())
     rows_together = std::min(info.height, static_cast<int>(std::min(header.tileDescription().ySize, 1u << 30)));
 }
@@ -229,7 +231,10 @@ void ExrDecoder::read(int begin, int end, size_t first, size_t count, std::byte*
 std::unique_ptr<Decoder> open_exr(const PictureBytes& file) {
   const std::string fault = exr_header_fault(file.size, file.read);
   if (!fault.empty()) throw cannot_read(file.name, fault);
-  return std::make_unique<ExrDecoder>(file);
+  auto decoder = std::make_unique<ExrDecoder>(file);
+  const Imath::V2i place = decoder->place(), size = decoder->shown();
+  check_picture_size(file, size.x, size.y);
+  return windowed(std::move(decoder), place.x, place.y, size.x, size.y);
 }
 
 // --- writing ---------------------------------------------------------------------------------------------------------

@@ -68,6 +68,37 @@ TEST(ExrDecoder, ReadsTheFirstPart) {
   EXPECT_TRUE(read_all(*decoder) == pixels[0]);
 }
 
+// A compositor writes only the box that its element fills, or more than the picture.
+TEST(ExrDecoder, ReadsThePictureOfWhichTheDataWindowIsAPartOrMore) {
+  const TemporaryFolder folder;
+  for (const auto& [left, top] : {std::pair{7, 21}, std::pair{-5, -19}, std::pair{-5, 21}, std::pair{7, 200}}) {
+    for (const int tile : {0, 16}) {
+      SCOPED_TRACE(testing::Message() << left << ", " << top << ", tiles of " << tile);
+      ExrForm form;
+      form.types.assign(3, Imf::FLOAT);
+      form.left = 100 + left, form.top = 100 + top, form.tile = tile;
+      form.prepare = [](Imf::Header& header) { header.displayWindow() = {{100, 100}, {159, 149}}; };
+      const std::vector<float> values = exr_values(3, 1);
+      write_exr_of(folder.path("a.exr"), form, values);
+      const auto decoder = open_exr(picture_on_disk(folder.path("a.exr")));
+      ASSERT_EQ(decoder->info.width, 60);
+      ASSERT_EQ(decoder->info.height, 50);
+      const Bytes bytes = read_all(*decoder);
+      std::vector<float> expected;
+      for (int y = 0; y < 50; y++) {
+        for (int x = 0; x < 3 * 60; x++) {
+          const int column = x - 3 * left, row = y - top;
+          const bool inside = column >= 0 && column < 3 * kWidth && row >= 0 && row < kHeight;
+          expected.push_back(inside ? values[static_cast<size_t>(row * 3 * kWidth + column)] : 0.0f);
+        }
+      }
+      ASSERT_EQ(bytes.size(), expected.size() * sizeof(float));
+      EXPECT_EQ(std::memcmp(bytes.data(), expected.data(), bytes.size()), 0);
+      expect_bands(*decoder);
+    }
+  }
+}
+
 TEST(ExrDecoder, SaysThatAChannelHasFewerPixels) {
   const TemporaryFolder folder;
   Imf::Header header(kWidth + 1, kHeight + 1);
