@@ -286,6 +286,8 @@ TEST_P(LintForm, FindsWhatIsWrongWithTheForm) {
   const int squat = kWidth * 9 / 20;
   expect_only(Fault::kWrongAspect,
               save(Pair{resized(pair.left, kWidth, squat), resized(pair.right, kWidth, squat)}, "squat_TB.png"));
+  const int wide = kWidth * 9 / 32;  // both fill 16:9, which players stretch
+  expect_silence(save(Pair{resized(pair.left, kWidth, wide), resized(pair.right, kWidth, wide)}, "wide_360_TB.png"));
   expect_only(Fault::kRaggedSeam,
               save(Pair{drifting(pair.left, 0.04f, 0.0f), drifting(pair.right, 0.04f, 0.0f)}, "sinking.png"));
   expect_only(Fault::kRaggedSeam,
