@@ -64,8 +64,35 @@ TEST(ExrDecoder, ReadsTheFirstPart) {
   for (size_t i = 0; i < pixels[0].size(); i++) pixels[0][i] = static_cast<std::byte>(i % 61);
   write_exr(folder.path("a.exr"), parts, pixels);
   const auto decoder = open_exr(picture_on_disk(folder.path("a.exr")));
-  EXPECT_EQ(decoder->info.parts, 2);
+  EXPECT_EQ(decoder->info.unread_parts, 1);
   EXPECT_TRUE(read_all(*decoder) == pixels[0]);
+}
+
+// As compositors and Blender write the two eyes, each with its layers.
+TEST(ExrDecoder, ReadsThePartsOfBothViews) {
+  const TemporaryFolder folder;
+  std::vector<ExrForm> parts(5);
+  const char* const views[] = {"right", "left", "right", "left", "left"};
+  std::vector<Bytes> pixels;
+  for (size_t i = 0; i < parts.size(); i++) {
+    if (i >= 2) parts[i].channels = {"Z", "normal.X"};  // the last part says what the fourth does
+    parts[i].tile = i == 1 ? 16 : 0;
+    parts[i].prepare = [view = views[i]](Imf::Header& header) { header.setView(view); };
+    pixels.emplace_back(bytes_of_pixels(parts[i]));
+    for (size_t k = 0; k < pixels[i].size(); k++) pixels[i][k] = static_cast<std::byte>((k * (i + 3)) % 61);
+  }
+  write_exr(folder.path("a.exr"), parts, pixels);
+  const auto decoder = open_exr(picture_on_disk(folder.path("a.exr")));
+  EXPECT_EQ(decoder->info.unread_parts, 1);
+  EXPECT_FALSE(decoder->info.text.contains("view"));
+  EXPECT_EQ(decoder->info.channels,
+            (std::vector<std::string>{"left.R", "left.G", "left.B", "left.Z", "normal.left.X", "normal.right.X",
+                                      "right.R", "right.G", "right.B", "right.Z"}));
+  EXPECT_TRUE(read_rows(*decoder, 0, kHeight, 0, 3) == pixels[1]);
+  EXPECT_TRUE(read_rows(*decoder, 0, kHeight, 6, 3) == pixels[0]);
+  const Bytes deep = read_rows(*decoder, 0, kHeight, 9, 1);
+  for (size_t i = 0; i < kWidth * kHeight; i++) ASSERT_EQ(std::memcmp(&deep[2 * i], &pixels[2][4 * i], 2), 0) << i;
+  expect_bands(*decoder);
 }
 
 // A compositor writes only the box that its element fills, or more than the picture.
