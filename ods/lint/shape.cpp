@@ -31,6 +31,8 @@ static void check_aspect(const Subject& subject, LintReport& report) {
   const double off = std::max(0, std::abs(height - natural) - squeeze.height) / static_cast<double>(natural);
   if (off == 0.0 || is_squeezed_sphere(subject, report.file)) return;
   std::string cure = "crop or pad the picture to that shape, or say which part of the sphere it shows (`range`)";
+  if (is_full_lat_long(subject.projection()))
+    cure += "; if the whole sphere is there, squeezed, ods convert stretches it";
   if (std::abs(height * 2 - natural) <= 2) cure = "its eyes look squeezed: read it as top-bottom-half, or stretch them";
   if (std::abs(height - natural * 2) <= 4)
     cure = "its eyes look squeezed: read it as side-by-side-half, or stretch them";
