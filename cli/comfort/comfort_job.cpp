@@ -122,7 +122,7 @@ bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
                "save the report as one page with pictures and, of a video, curves");
   options.number("--width", job.width, 64, 8192, "width of the pictures of a scene that are judged");
   options.flag("--json", job.json, "print JSON");
-  add_layout_option(options, job.format.layout, "layout of a picture's eyes, if it is not detected");
+  add_input_layout_option(options, job.format.layout, "layout of a picture's eyes, if it is not detected");
   add_camera_options(options, job.camera, job.scene.blender);
   options.group("Console");
   add_progress_options(options, job.progress);

@@ -46,7 +46,7 @@ bool read_over_job(OverJob& job, int argc, char** argv) {
       "--projection", "NAME", "",
       [&](const std::string& name) { job.known.projection = projection_by_name("--projection", name); },
       "the background's projection, if it is not detected");
-  add_layout_option(options, job.known.layout, "the background's layout, if it is not detected");
+  add_input_layout_option(options, job.known.layout, "the background's layout, if it is not detected");
   add_layout_option(options, job.layout,
                     "layout of the output; by default as its name says (_TB), else the background's", "--to-layout");
   options.flag("--by-depth", job.over.by_depth,

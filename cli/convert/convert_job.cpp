@@ -91,7 +91,7 @@ void add_input_options(Options& options, ConvertJob& job, Wishes& wishes) {
       "--projection", "NAME", "",
       [&](const std::string& name) { job.known.projection = projection_by_name("--projection", name); },
       "its projection");
-  add_layout_option(options, job.known.layout, "its layout (separate: one eye)");
+  add_input_layout_option(options, job.known.layout, "its layout");
   add_lens_options(options, job.known);
   options.custom(
       "--camera", ValueKind::input_file(), "",

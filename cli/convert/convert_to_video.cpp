@@ -83,7 +83,7 @@ VideoWishes wishes_for(const ConvertJob& job) {
   if (job.trim.to) wishes.keep.cut.length = *job.trim.to - job.trim.from;
   wishes = wishes_like(wishes, job.footage->video(), stream, job.has_target);
   if (!stream.words.is_hdr()) return wishes;
-  if (wishes.bits == 8)
+  if (job.video.bits == 8)
     throw UsageError(fmt::format("'{}' is HDR, which needs 10 bits: leave out --bits 8", job.input));
   wishes.bits = 10;
   return wishes;

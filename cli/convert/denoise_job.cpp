@@ -30,7 +30,7 @@ void add_input_options(Options& options, DenoiseJob& job, std::optional<ods::Pro
   options.custom(
       "--projection", "NAME", "",
       [&](const std::string& name) { projection = projection_by_name("--projection", name); }, "its projection");
-  add_layout_option(options, job.known.layout, "its layout (separate: one eye)");
+  add_input_layout_option(options, job.known.layout, "its layout");
 }
 
 void add_output_options(Options& options, DenoiseJob& job, std::optional<ods::Layout>& layout, bool& alone) {

@@ -45,7 +45,7 @@ bool read_options(CompareJob& job, int argc, char** argv) {
   Options options("compare", kCompareSummary, kCompareExamples);
   options.argument(ValueKind::input_file("A"), job.a, "a picture; %V in the name: one file per eye");
   options.argument(ValueKind::input_file("B"), job.b, "a picture of the same size; its layout may differ");
-  add_layout_option(options, job.layout, "layout of both files, if it is not detected (separate: one eye)");
+  add_input_layout_option(options, job.layout, "layout of both files, if it is not detected");
   options.text("--diff", ValueKind::output_file(), job.difference,
                "write a picture of the difference, left eye on top: .exr holds B - A; other formats hold |B - A|, "
                "scaled so that the largest value is white");

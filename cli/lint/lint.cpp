@@ -49,7 +49,7 @@ struct LintJob {
 bool read_options(LintJob& job, int argc, char** argv) {
   Options options("lint", kLintSummary, kLintExamples);
   options.argument(ValueKind::input_file("FILE"), job.path, "a picture or a video; %V in the name: one file per eye");
-  add_layout_option(options, job.lint.layout, "layout, if it is not detected (separate: one eye)");
+  add_input_layout_option(options, job.lint.layout, "layout, if it is not detected");
   options.number("--min-certainty", job.min_certainty, 0.0f, 1.0f, "hide findings below this certainty");
   ods::FormatHint lenses;
   add_lens_options(options, lenses);

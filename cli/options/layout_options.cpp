@@ -30,6 +30,7 @@ std::string layout_list() {
 
 Layout layout_by_name(const std::string& name, const std::string& word) {
   if (auto layout = ods::layout_of(word)) return *layout;
+  if (word == "mono" && name == "--to-layout") throw UsageError("--to-layout is for two eyes: --mono makes one eye");
   throw UsageError(fmt::format("{}: there is no layout '{}'{} (--help lists them)", name, word,
                                ods::did_you_mean(word, ods::names_of(ods::kLayoutTable))));
 }
@@ -45,4 +46,14 @@ void add_layout_option(Options& options, std::optional<Layout>& layout, const st
   auto set = [&layout, name](const std::string& word) { layout = layout_by_name(name, word); };
   options.custom(name, "LAYOUT", "", set, name == "--layout" ? text + ": " + layout_list() : text);
   options.offer(name, ods::names_of(ods::kLayoutTable));
+}
+
+void add_input_layout_option(Options& options, std::optional<Layout>& layout, const std::string& text) {
+  auto set = [&layout](const std::string& word) {
+    layout = word == "mono" ? Layout::kSeparate : layout_by_name("--layout", word);
+  };
+  options.custom("--layout", "LAYOUT", "", set, text + ": mono, " + layout_list());
+  std::vector<std::string> words = ods::names_of(ods::kLayoutTable);
+  words.insert(words.begin(), "mono");
+  options.offer("--layout", words);
 }

@@ -14,5 +14,8 @@ void add_layout_option(Options& options, ods::Layout& layout, const std::string&
 void add_layout_option(Options& options, std::optional<ods::Layout>& layout, const std::string& text,
                        const std::string& name = "--layout");
 
+// The same for what a file is: also mono, as ods probe prints it, which is Layout::kSeparate.
+void add_input_layout_option(Options& options, std::optional<ods::Layout>& layout, const std::string& text);
+
 // The layout with the name or alias that `option` was given. Throws UsageError with a suggestion.
 ods::Layout layout_by_name(const std::string& option, const std::string& word);

@@ -183,6 +183,19 @@ void add_packing_options(Options& options, VideoWishes& wishes) {
   add_apple_option(options, wishes.for_apple);
 }
 
+// A codec that is not written, or not into this container: what replaces it is for players.
+static void warn_of_less(const VideoWishes& wishes, const std::string& path, const ods::VideoStream& stream) {
+  std::string loss, cure;
+  if (stream.bits > 8 && !wishes.bits && !stream.words.is_hdr()) {
+    loss += fmt::format(" {} bits", stream.bits), cure += " --bits 10";
+  }
+  if (stream.chroma != ods::Chroma::k420 && !wishes.chroma) {
+    loss += fmt::format(" chroma {}", ods::chroma_name(stream.chroma));
+    cure += fmt::format(" --chroma {}", ods::chroma_name(stream.chroma));
+  }
+  if (!loss.empty()) warn(fmt::format("'{}' has{}, the new video less, for players:{} keeps it", path, loss, cure));
+}
+
 VideoWishes wishes_like(VideoWishes wishes, const ods::VideoInput& video, const ods::VideoStream& stream,
                         bool has_target) {
   wishes.rate = stream.rate;
@@ -191,6 +204,8 @@ VideoWishes wishes_like(VideoWishes wishes, const ods::VideoInput& video, const 
     wishes.codec = own->codec;
     wishes.bits = wishes.bits.value_or(own->bits);
     wishes.chroma = wishes.chroma.value_or(own->chroma);
+  } else if (!own && !has_target && !wishes.codec && wishes.encoder.empty()) {
+    warn_of_less(wishes, video.path, stream);
   }
   wishes.keep.path = video.path;
   wishes.keep.track = video.track;

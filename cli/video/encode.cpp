@@ -55,7 +55,7 @@ bool read_options(EncodeJob& job, int argc, char** argv) {
       "--projection", "NAME", "",
       [&](const std::string& name) { job.known.projection = projection_by_name("--projection", name); },
       "the frames' projection, if it is not detected");
-  add_layout_option(options, job.known.layout, "the frames' layout, if it is not detected (separate: one eye)");
+  add_input_layout_option(options, job.known.layout, "the frames' layout, if it is not detected");
   options.number("--exposure", job.display.exposure, -30.0f, 30.0f, "exposure in stops, for .hdr and .exr");
   options.choice("--tone", job.display.tone, ods::kToneCurveTable, "tone curve; ignored as --exposure is");
   add_video_options(options, job.video);

@@ -81,7 +81,7 @@ bool read_view_job(ViewJob& job, int argc, char** argv) {
   options.arguments(ValueKind::input_file("FILE"), job.paths,
                     "pictures, videos, and folders of them (%V in a name: one file per eye), or a scene");
   options.group("Input, if it is not detected");
-  add_layout_option(options, job.known.layout, "how both eyes share the file (separate: one eye)");
+  add_input_layout_option(options, job.known.layout, "how both eyes share the file");
   options.custom(
       "--projection", "NAME", "",
       [&](const std::string& name) { job.known.projection = projection_by_name("--projection", name); },

@@ -51,6 +51,20 @@ static constexpr std::pair<std::string_view, std::string_view> kForeign[] = {
     {"%PDF"sv, "a PDF document"sv},
 };
 
+static constexpr std::pair<std::string_view, std::string_view> kForeignVideos[] = {
+    {"OggS"sv, "an Ogg"sv},  {"G@"sv, "an MPEG transport stream"sv}, {"\0\0\1\xba"sv, "an MPEG program stream"sv},
+    {"FLV\1"sv, "an FLV"sv}, {"\x06\x0e\x2b\x34"sv, "an MXF"sv},     {"\x30\x26\xb2\x75"sv, "a Windows Media"sv},
+};
+
+// A container that ods does not read; what is in it may well be what it reads.
+static std::string_view foreign_video(std::string_view start) {
+  if (start.starts_with("RIFF") && start.size() >= 12 && start.substr(8, 4) == "AVI ") return "an AVI";
+  for (const auto& [bytes, what] : kForeignVideos) {
+    if (start.starts_with(bytes)) return what;
+  }
+  return {};
+}
+
 std::string taken_by(std::string_view start) {
   const auto begins = [&](std::string_view bytes) { return start.starts_with(bytes); };
   if (start.size() >= 12 && start.substr(4, 4) == "ftyp") {
@@ -63,6 +77,13 @@ std::string taken_by(std::string_view start) {
   }
   if (start.substr(std::min<size_t>(4, start.size())).starts_with("ftyp") || begins("\x1a\x45\xdf\xa3"sv)) {
     return "; it is a video: ods probe, lint, convert, inject, view and over take videos";
+  }
+  if (const std::string_view what = foreign_video(start); !what.empty()) {
+    return fmt::format(
+        "; it is {} file: ods reads mp4, mov, mkv and webm, and 'ffmpeg -i FILE -map 0 -c copy FILE.mkv' makes one of "
+        "it, "
+        "without a loss",
+        what);
   }
   if (begins("glTF")) return "; it is a scene: ods render, video, info and view take scenes";
   const bool is_webp = begins("RIFF") && start.substr(std::min<size_t>(8, start.size())).starts_with("WEBP");

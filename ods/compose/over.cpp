@@ -63,7 +63,8 @@ static void compare_eyes_of(const StereoCamera& front, const StereoCamera& back,
 
 std::vector<std::string> over_warnings(const StoredPicture& foreground, const StoredPicture& background) {
   std::vector<std::string> warnings;
-  compare_eyes_of(foreground.camera, background.camera, warnings);
+  // Footage of others says nothing of its eyes.
+  if (foreground.has_ipd && background.has_ipd) compare_eyes_of(foreground.camera, background.camera, warnings);
   return warnings;
 }
 

@@ -93,7 +93,6 @@ int largest_code(SampleType sample) {
 DepthNumbers read_picture(const std::string& path) {
   const std::unique_ptr<Decoder> decoder = open_decoder(picture_on_disk(path));
   const FileInfo& info = decoder->info;
-  if (!decoder->is_whole_picture) throw cannot_read(path, "its data window is not its whole picture; fill it first");
   const size_t channel = depth_channel(info.channels);
   const SampleType sample = info.samples[channel];
   const bool has_colors = channel == 0 && info.channels.size() >= 3 && !info.is_float;

@@ -141,7 +141,7 @@ constexpr double kLeftFirst = 2.0;  // nearly everybody has the left eye first
 constexpr double kOrder = 7.0;
 constexpr double kOther = -3.0;                           // a projection that is not ours
 constexpr double kElse = 20.0;                            // what is known to circulate and none of these
-constexpr double kSqueezed = 0.84, kSqueezedLess = 0.94;  // aspects of vr180 in halves of 16:9
+constexpr double kSqueezed = 0.84, kSqueezedLess = 0.94;  // aspects of an eye beside another in 16:9
 
 bool fits_shape(const ProjectionSetting& setting, Extent eye) {
   const int natural = natural_height(setting, eye.width);
@@ -264,10 +264,12 @@ double other_faces_in(const std::vector<CubeMarks>& cubes) {
   return std::max({0.0, breaks - joins, turned});
 }
 
-// vr180 that was squeezed into a file of 16:9, as many programs export it.
-bool is_squeezed_half(const Cut& cut, const ProjectionSetting& setting, double aspect) {
-  return is_vr180(setting) && cut.how == EyePacking::kBeside && cut.two_eyes > 0.3 && !cut.has_bars &&
-         aspect > kSqueezed && aspect < kSqueezedLess;
+// vr180 or a sphere above a sphere, squeezed into a file of 16:9, as many programs export them.
+bool is_squeezed(const Cut& cut, const ProjectionSetting& setting, double aspect) {
+  const bool is_half = is_vr180(setting) && cut.how == EyePacking::kBeside;
+  const bool is_sphere = is_full_lat_long(setting) && cut.how == EyePacking::kStacked;
+  const double beside = is_sphere ? aspect / 4.0 : aspect;
+  return (is_half || is_sphere) && cut.two_eyes > 0.3 && !cut.has_bars && beside > kSqueezed && beside < kSqueezedLess;
 }
 
 void add_candidates(Cut& cut, Layout layout, const FormatHint& known, Extent file, std::vector<Candidate>& candidates) {
@@ -282,7 +284,7 @@ void add_candidates(Cut& cut, Layout layout, const FormatHint& known, Extent fil
     if (setting.kind == kPerspective) {
       setting.aspect = static_cast<float>(aspect);
       candidate.odds += window_odds(aspect);
-    } else if (is_squeezed_half(cut, setting, aspect)) {
+    } else if (is_squeezed(cut, setting, aspect)) {
       candidate.odds -= 1.0;
     } else if (!known.projection && !fits_shape(setting, *eye)) {
       continue;

@@ -56,8 +56,7 @@ class RowReader {
   virtual const std::map<size_t, unsigned>& beyond_floats() const = 0;
 };
 
-// view: 1 reads the right eye of a file with FileInfo::is_pair. Throws Error(kInput) as read_image() does, and also for
-// an EXR whose data window is not its whole picture.
+// view: 1 reads the right eye of a file with FileInfo::is_pair. Throws Error(kInput) as read_image() does.
 std::unique_ptr<RowReader> open_rows(const std::string& path, int view = 0);
 
 // Some channels of a file, by name and in this order. Integers are decoded from sRGB, floats are returned unchanged.

@@ -14,6 +14,12 @@ namespace ods {
 
 constexpr double kVideoRate = 30.0;  // pictures per second
 
+// Two eyes squeezed into 16:9, which decoders like and players stretch.
+static bool is_squeezed_sphere(const Subject& subject, Extent file) {
+  const bool has_eyes = arrangement_of(subject.layout()).is_halves() && is_full_lat_long(subject.projection());
+  return has_eyes && std::abs(file.width * 9 - file.height * 16) <= 16;
+}
+
 static void check_aspect(const Subject& subject, LintReport& report) {
   if (subject.projection().kind == kPerspective) return skip(report, Check::kShape, "a window may have any shape");
   judge(report, Check::kShape);
@@ -23,8 +29,10 @@ static void check_aspect(const Subject& subject, LintReport& report) {
   const int natural = natural_height(subject.projection(), width);
   // Rounding moves an edge by one pixel, squeezing by another.
   const double off = std::max(0, std::abs(height - natural) - squeeze.height) / static_cast<double>(natural);
-  if (off == 0.0) return;
+  if (off == 0.0 || is_squeezed_sphere(subject, report.file)) return;
   std::string cure = "crop or pad the picture to that shape, or say which part of the sphere it shows (`range`)";
+  if (is_full_lat_long(subject.projection()))
+    cure += "; if the whole sphere is there, squeezed, ods convert stretches it";
   if (std::abs(height * 2 - natural) <= 2) cure = "its eyes look squeezed: read it as top-bottom-half, or stretch them";
   if (std::abs(height - natural * 2) <= 4)
     cure = "its eyes look squeezed: read it as side-by-side-half, or stretch them";

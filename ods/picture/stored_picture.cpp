@@ -391,7 +391,8 @@ static StoredPicture describe(const Readers& readers, StereoFormat format, const
     if (picture.color_fault.empty()) picture.color_fault = reader->info().color_fault;
   }
   if (!picture.color_fault.empty()) picture.guesses.push_back(picture.color_fault);
-  if (info.parts > 1) picture.guesses.push_back(fmt::format("it has {} parts; only the first is read", info.parts));
+  if (info.unread_parts > 0)
+    picture.guesses.push_back(fmt::format("it has {} more parts, which are not read", info.unread_parts));
   picture.size = eye_size(picture, info, path);
   return picture;
 }

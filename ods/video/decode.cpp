@@ -96,7 +96,12 @@ static std::string read_format(AVPixelFormat format, VideoStream& stream) {
                     descriptor->comp[1].plane == 1 && descriptor->comp[2].plane == 2 &&
                     descriptor->comp[0].shift == 0 && descriptor->comp[0].depth >= 8;
   const int shape = fits ? descriptor->log2_chroma_w * 2 + descriptor->log2_chroma_h : -1;
-  if (shape != 3 && shape != 2 && shape != 0) return fmt::format("its pixels are {}, not planes of Y'CbCr", name);
+  if (shape != 3 && shape != 2 && shape != 0) {
+    return fmt::format(
+        "its pixels are {}, not planes of Y'CbCr: make it frames (ffmpeg -i FILE 'x.%04d.png'), or a video of such "
+        "planes (ffmpeg -i FILE -c:v ffv1 -pix_fmt yuv444p10le FILE.mkv)",
+        name);
+  }
   stream.chroma = shape == 3 ? Chroma::k420 : shape == 2 ? Chroma::k422 : Chroma::k444;
   stream.bits = descriptor->comp[0].depth;
   stream.has_alpha = descriptor->nb_components == 4;

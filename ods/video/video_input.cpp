@@ -149,7 +149,9 @@ VideoInput open_video(const std::string& path, const FormatHint& known) {
   all.projection = known.projection ? *known.projection
                    : is_window      ? phone_window(track.layers->fov, *eye, prototype.guesses)
                                     : projection_of(video.metadata, path);
-  prototype.camera = find_format(file, path, all).camera;
+  const StereoFormat format = find_format(file, path, all);
+  prototype.camera = format.camera;
+  prototype.has_ipd = format.has_ipd;
   set_orientation(prototype.camera, video.metadata);
   if (video.metadata.ipd > 0.0) {
     prototype.camera.ipd = static_cast<float>(video.metadata.ipd);

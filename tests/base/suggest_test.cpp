@@ -19,6 +19,9 @@ TEST(TakenBy, AFileOfAnotherKindLeadsToItsCommands) {
   for (const std::string_view picture : {"\x89PNG\r\n"sv, "\xff\xd8\xff\xe0"sv, "II*\0"sv, "\x76\x2f\x31\x01"sv}) {
     EXPECT_NE(taken_by(picture).find("it is a picture: ods probe, lint, convert"), std::string::npos);
   }
+  for (const std::string_view video : {"RIFF\1\2\3\4AVI LIST"sv, "OggS\0"sv, "G@\x11\x10"sv, "\x06\x0e\x2b\x34\2"sv}) {
+    EXPECT_NE(taken_by(video).find("-c copy FILE.mkv"), std::string::npos);
+  }
   for (const std::string_view other : {""sv, "ft"sv, "hello, world"sv, "{}"sv}) EXPECT_EQ(taken_by(other), "");
 }
 

@@ -46,6 +46,16 @@ TEST_F(CliConvert, ToOtherProjectionsAndBack) {
   }
 }
 
+// The words of ods probe: it calls one eye mono.
+TEST_F(CliConvert, MonoIsALayoutOfWhatIsRead) {
+  const std::string room = make("room.png");
+  ASSERT_EQ(convert(room, "one.png", "-q --layout mono --projection perspective --width 32"), 0) << err;
+  EXPECT_EQ(ods::read_info(folder.path("one.png")).width, 32);
+  EXPECT_EQ(run("compare --layout mono " + room + " " + room), 0) << err;
+  EXPECT_EQ(convert(room, "two.png", "--to-layout mono"), 2);
+  EXPECT_NE(err.find("--mono makes one eye"), std::string::npos) << err;
+}
+
 TEST_F(CliConvert, WhatIsNotGivenStays) {
   const std::string room = make("room.exr", "--layout bottom-top --yaw 30 --merge cosine,50,80 --ipd 0.07");
   ASSERT_EQ(convert(room, "cubes.exr", "--to cube-6x1 --yaw 15 --sidecar"), 0) << err;

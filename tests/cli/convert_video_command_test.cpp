@@ -257,6 +257,17 @@ TEST_F(KilledConversion, OfFramesGoesOnUnlessAFrameIsAnother) {
   EXPECT_FALSE(folder.read(to) == whole);
 }
 
+// A format that does not hold the codec gets another, which has what players take.
+TEST_F(ConvertVideoCommand, SaysWhatBitsAndChromaTheNewCodecLacks) {
+  const std::string deep = make("deep_360_TB.mp4", 2, "--bits 10 --chroma 444");
+  EXPECT_EQ(convert(deep, "a_180_LR.webm", "--to vr180"), 0) << err;
+  EXPECT_NE(err.find("has 10 bits chroma 444, the new video less, for players: --bits 10 --chroma 444"),
+            std::string::npos)
+      << err;
+  EXPECT_EQ(convert(deep, "b_180_LR.webm", "--to vr180 --bits 10 --chroma 444"), 0) << err;
+  EXPECT_EQ(err.find("the new video less"), std::string::npos) << err;
+}
+
 TEST_F(ConvertVideoCommand, RefusalsSayWhatToDo) {
   const std::string video = make("video_360_TB.mp4", 2);
   ods::made::write_frames(path("shot_TB.#.png"), {1, 2});

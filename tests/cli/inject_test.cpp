@@ -265,6 +265,14 @@ TEST_F(Inject, WhatContradictsTheVideoNeedsAWord) {
   }
 }
 
+// Decoders like 16:9: many videos have both spheres squeezed into it.
+TEST_F(Inject, EyesSqueezedInto16To9DoNotContradictTheVideo) {
+  for (const auto& [width, height] : {std::pair{1920, 1080}, std::pair{3840, 2160}}) {
+    EXPECT_TRUE(inject(boxes("", width, height, "", v1_box("top-bottom")), "")) << err;
+    EXPECT_EQ(err.find("is not the shape"), std::string::npos) << err;
+  }
+}
+
 // Its sidecar is another witness.
 TEST_F(Inject, ASidecarThatContradictsTheVideoNeedsAWord) {
   const Tagged video = boxes("", 256, 256, st3d(1) + sv3d("x", kWhole), v1_box("top-bottom"));

@@ -19,6 +19,7 @@ constexpr Extent kSize{32, 16};
 // The left half of a picture is at 2 metres and half covered, the right one at 4 and not.
 MadePicture front_picture(const StereoCamera& camera, Extent size = kSize) {
   MadePicture made = make_picture(camera, size, kBoth);
+  made.picture.has_ipd = true;
   add_layer<float>(made, {"R", "G", "B", "A"}, LayerRule::kLight, SampleType::kFloat, [](int eye, vec2 uv, float* out) {
     const float alpha = uv.x < 0.5f ? 0.5f : 1.0f;
     out[0] = alpha * 0.2f, out[1] = alpha * static_cast<float>(eye), out[2] = alpha, out[3] = alpha;
@@ -30,6 +31,7 @@ MadePicture front_picture(const StereoCamera& camera, Extent size = kSize) {
 
 MadePicture back_picture(const StereoCamera& camera, bool has_depth = true) {
   MadePicture made = make_picture(camera, kSize, kBoth);
+  made.picture.has_ipd = true;
   add_colour(made, [](int, vec2 uv, float* out) { out[0] = uv.y, out[1] = 0.0f, out[2] = 0.5f; });
   if (has_depth)
     add_layer<float>(made, {"Z"}, LayerRule::kNearest, SampleType::kFloat, [](int, vec2, float* out) { *out = 3.0f; });
@@ -82,7 +84,7 @@ TEST(Over, WarnsOfOtherEyes) {
   StereoCamera narrow, merged;
   narrow.ipd = 0.05f;
   merged.top.mode = kMergeCosine;
-  const MadePicture back = back_picture(StereoCamera(), false);
+  MadePicture back = back_picture(StereoCamera(), false);
   const auto said = [&](const StereoCamera& camera) {
     return ::testing::PrintToString(over_warnings(front_picture(camera).picture, back.picture));
   };
@@ -90,6 +92,9 @@ TEST(Over, WarnsOfOtherEyes) {
   EXPECT_NE(said(merged).find("pole merge"), std::string::npos) << said(merged);
   EXPECT_EQ(over_warnings(front_picture(StereoCamera()).picture, back.picture).size(), 0u);
   EXPECT_EQ(over_fault(front_picture(narrow).picture, back.picture, {}), "");  // taken as it is
+  back.picture.has_ipd = false;  // footage of others does not say what eyes it was made for
+  EXPECT_EQ(over_warnings(front_picture(narrow).picture, back.picture).size(), 0u);
+  EXPECT_EQ(over_warnings(front_picture(merged).picture, back.picture).size(), 0u);
 }
 
 // Maps that were read from two files are one map if they are the same.

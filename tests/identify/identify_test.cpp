@@ -213,14 +213,19 @@ TEST_F(Unknown, FacesInAnotherOrderAreTold) {
   }
 }
 
-// Two eyes of vr180, as a file beside each other, changed by `change`.
-StoredPicture vr180_file(const TemporaryFolder& folder, World world, const std::function<Image(const Image&)>& change) {
-  Image both(960, 480, 3);
+using Change = std::function<Image(const Image&)>;
+
+// Two eyes, of two cameras in vr180 beside each other, else of ODS above each other, as a file, changed by `change`.
+StoredPicture stereo_file(const TemporaryFolder& folder, World world, bool is_half, const Change& change) {
+  Image both(960, is_half ? 480 : 960, 3);
   for (const int eye : {kLeft, kRight}) {
     StereoCamera camera;
-    camera.projection = named("vr180");
-    const Image own = seen(world, camera, eye, {480, 480}, true);
-    for (int y = 0; y < own.height; y++) std::copy_n(own.at(0, y), 3 * own.width, both.at(eye == kLeft ? 0 : 480, y));
+    camera.projection = named(is_half ? "vr180" : "lat-long");
+    const Image own = seen(world, camera, eye, {is_half ? 480 : 960, 480}, is_half);
+    const int from = eye == kLeft ? 0 : 480;
+    for (int y = 0; y < own.height; y++) {
+      std::copy_n(own.at(0, y), 3 * own.width, is_half ? both.at(from, y) : both.at(0, from + y));
+    }
   }
   const std::string path = folder.path("file.jpg");
   Picture picture;
@@ -247,10 +252,21 @@ Image of_height(const Image& image, int height) {
 
 TEST_F(Unknown, Vr180SqueezedInto16To9IsRecognised) {
   for (const World world : kWorlds) {
-    const Identity seen = identify(vr180_file(folder, world, [](const Image& both) { return of_height(both, 540); }));
+    const Identity seen =
+        identify(stereo_file(folder, world, true, [](const Image& both) { return of_height(both, 540); }));
     ASSERT_FALSE(seen.readings.empty());
     EXPECT_EQ(reading_text(seen.best()), "side-by-side, vr180") << world_name(world);
     EXPECT_FALSE(seen.bars.any());
+  }
+}
+
+TEST_F(Unknown, SpheresSqueezedInto16To9AreRecognised) {
+  for (const World world : kWorlds) {
+    const Identity seen =
+        identify(stereo_file(folder, world, false, [](const Image& both) { return of_height(both, 540); }));
+    ASSERT_FALSE(seen.readings.empty());
+    EXPECT_EQ(reading_text(seen.best()), "top-bottom, lat-long") << world_name(world);
+    EXPECT_TRUE(seen.is_sure()) << world_name(world) << " " << seen.best().certainty;
   }
 }
 
@@ -261,7 +277,7 @@ TEST_F(Unknown, BlackBarsAreNoPartOfVr180) {
     return file;
   };
   for (const World world : kWorlds) {
-    const Identity seen = identify(vr180_file(folder, world, with_bars));
+    const Identity seen = identify(stereo_file(folder, world, true, with_bars));
     ASSERT_FALSE(seen.readings.empty());
     EXPECT_EQ(reading_text(seen.best()), "side-by-side, vr180") << world_name(world);
     EXPECT_NEAR(seen.bars.top, 30, 1) << world_name(world);

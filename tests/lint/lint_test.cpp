@@ -284,8 +284,11 @@ TEST_P(LintForm, FindsWhatIsWrongWithTheForm) {
   const Studio studio(GetParam());
   const Pair& pair = plain_pair(studio);
   const int squat = kWidth * 9 / 20;
-  expect_only(Fault::kWrongAspect,
-              save(Pair{resized(pair.left, kWidth, squat), resized(pair.right, kWidth, squat)}, "squat_TB.png"));
+  const Pair squeezed{resized(pair.left, kWidth, squat), resized(pair.right, kWidth, squat)};
+  expect_only(Fault::kWrongAspect, save(squeezed, "squat_TB.png"));
+  EXPECT_NE(told(lint(save(squeezed, "squat_TB.png"))).text.find("ods convert stretches it"), std::string::npos);
+  const int wide = kWidth * 9 / 32;  // both fill 16:9, which players stretch
+  expect_silence(save(Pair{resized(pair.left, kWidth, wide), resized(pair.right, kWidth, wide)}, "wide_360_TB.png"));
   expect_only(Fault::kRaggedSeam,
               save(Pair{drifting(pair.left, 0.04f, 0.0f), drifting(pair.right, 0.04f, 0.0f)}, "sinking.png"));
   expect_only(Fault::kRaggedSeam,

@@ -45,7 +45,6 @@ class Decoder {
 
   // What the header says: color and color_fault are empty.
   FileInfo info;
-  bool is_whole_picture = true;              // false: an EXR whose data window is not its display window
   int rows_together = 1;                     // that the file packs together
   std::vector<bool> whole_numbers;           // by channel: 32-bit integers, which read() returns as floats; empty: none
   std::map<size_t, unsigned> beyond_floats;  // by channel: an integer above 2^24 that read() met
@@ -66,6 +65,9 @@ std::unique_ptr<Decoder> open_heif(const PictureBytes& file, int view);
 
 // The picture as it is to be shown (ods/image/orientation.h).
 std::unique_ptr<Decoder> turned(std::unique_ptr<Decoder> stored, int orientation);
+
+// A picture of this size of which a part is stored, at this place, or more than all: zeros where nothing is.
+std::unique_ptr<Decoder> windowed(std::unique_ptr<Decoder> stored, int left, int top, int width, int height);
 
 // Throws Error(kInput) where a picture is larger than image_limits.h allows a file of this size to be. `tile`: the
 // longer side of its tiles.

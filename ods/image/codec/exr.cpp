@@ -24,8 +24,10 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 
 #include "ods/base/text.h"
 #include "ods/image/codec/decoder.h"
@@ -80,7 +82,9 @@ class ExrInput final : public Imf::IStream {
 };
 
 struct ExrChannel {
-  std::string name;
+  std::string name;    // with the view of its part
+  std::string stored;  // its name in the part
+  int part = 0;
   Imf::PixelType type;
   std::string layer() const { return name.substr(0, name.rfind('.') + 1); }  // npos + 1: none
   size_t rank() const {
@@ -88,21 +92,53 @@ struct ExrChannel {
   }
 };
 
-// A file has them by the alphabet. Here: by layer, and in it first R, G, B, A.
-std::vector<ExrChannel> channels_of(const Imf::Header& header, const std::string& path) {
+// A part has its channels by the alphabet. Here: by layer, and in it first R, G, B, A.
+void sort_channels(std::vector<ExrChannel>& channels) {
+  std::stable_sort(channels.begin(), channels.end(), [](const ExrChannel& a, const ExrChannel& b) {
+    const std::string one = a.layer(), other = b.layer();
+    return one != other ? one < other : a.rank() < b.rank();
+  });
+}
+
+// view: goes before the last word, as files of one part have it: right.R, normal.right.X; empty: none.
+std::vector<ExrChannel> channels_of(const Imf::Header& header, int part, const std::string& view,
+                                    const std::string& path) {
   std::vector<ExrChannel> channels;
   const Imf::ChannelList& list = header.channels();
   for (auto each = list.begin(); each != list.end(); ++each) {
     if (each.channel().xSampling != 1 || each.channel().ySampling != 1) {
       throw cannot_read(path, fmt::format("its channel {} has fewer pixels than the picture", each.name()));
     }
-    channels.push_back({each.name(), each.channel().type});
+    std::string name = each.name();
+    if (!view.empty()) name.insert(name.rfind('.') + 1, view + ".");  // npos + 1: before all of it
+    channels.push_back({name, each.name(), part, each.channel().type});
   }
-  std::stable_sort(channels.begin(), channels.end(), [](const ExrChannel& a, const ExrChannel& b) {
-    const std::string one = a.layer(), other = b.layer();
-    return one != other ? one < other : a.rank() < b.rank();
-  });
   return channels;
+}
+
+bool is_deep(const Imf::Header& header) {
+  return header.hasType() && Imf::isDeepData(header.type());
+}
+
+// The view that a part shows; empty: it does not say.
+std::string view_of(const Imf::Header& header) {
+  return header.hasView() ? header.view() : "";
+}
+
+// The parts that show both eyes in the windows of the first one; otherwise only that.
+std::vector<int> parts_of(const Imf::MultiPartInputFile& file) {
+  std::vector<int> parts;
+  bool has_left = false, has_right = false;
+  for (int i = 0; i < file.parts(); i++) {
+    const Imf::Header& header = file.header(i);
+    const std::string view = view_of(header);
+    const bool fits =
+        header.dataWindow() == file.header(0).dataWindow() && header.displayWindow() == file.header(0).displayWindow();
+    if (is_deep(header) || !fits || (view != "left" && view != "right")) continue;
+    parts.push_back(i);
+    (view == "left" ? has_left : has_right) = true;
+  }
+  return has_left && has_right && parts[0] == 0 ? parts : std::vector{0};
 }
 
 // By the names that FileInfo has them.
@@ -134,9 +170,13 @@ class ExrDecoder final : public Decoder {
  public:
   explicit ExrDecoder(const PictureBytes& file);
   void read(int begin, int end, size_t first, size_t count, std::byte* to) override;
+  // The data window's first pixel, from the display window's, and the size of that.
+  Imath::V2i place() const { return window_.min - file_->header(0).displayWindow().min; }
+  Imath::V2i shown() const { return file_->header(0).displayWindow().size() + Imath::V2i(1); }
 
  private:
-  void describe(const Imf::Header& header, int parts);
+  void describe();
+  int add_parts();
   bool read_fast(int begin, int end, size_t first, size_t count, std::byte* to);
   void read_any(int begin, int end, size_t first, size_t count, std::byte* to);
 
@@ -144,9 +184,10 @@ class ExrDecoder final : public Decoder {
   bool on_disk_;
   std::unique_ptr<ExrInput> input_;
   std::unique_ptr<Imf::MultiPartInputFile> file_;
-  std::unique_ptr<Imf::InputPart> part_;  // for read_any(): it makes room for rows
+  std::map<int, Imf::InputPart> parts_;  // for read_any(): they make room for rows
   Imath::Box2i window_;
   std::vector<ExrChannel> channels_;
+  bool has_views_ = false;         // in parts
   std::unique_ptr<ExrRows> rows_;  // of the channels from first_ on; nullptr: ExrRows cannot read the file
   std::optional<size_t> first_;
 };
@@ -157,34 +198,52 @@ ExrDecoder::ExrDecoder(const PictureBytes& file) : name_(file.name), on_disk_(fi
       [&] {
         input_ = std::make_unique<ExrInput>(file);
         file_ = std::make_unique<Imf::MultiPartInputFile>(*input_, threads);
-        const Imf::Header& header = file_->header(0);
-        if (header.hasType() && Imf::isDeepData(header.type())) throw cannot_read(name_, "it is not a flat image");
-        describe(header, file_->parts());
+        if (is_deep(file_->header(0))) throw cannot_read(name_, "it is not a flat image");
+        describe();
       },
       [&](const std::string& words) { return cannot_read(name_, words); });
 }
 
-void ExrDecoder::describe(const Imf::Header& header, int parts) {
+// Returns how many parts it has read.
+int ExrDecoder::add_parts() {
+  const std::vector<int> parts = parts_of(*file_);
+  int count = 0;
+  std::set<std::string> names;
+  for (const int part : parts) {
+    const Imf::Header& header = file_->header(part);
+    const std::vector<ExrChannel> more = channels_of(header, part, parts.size() > 1 ? view_of(header) : "", name_);
+    if (std::ranges::any_of(more, [&](const ExrChannel& each) { return names.contains(each.name); })) continue;
+    for (const ExrChannel& each : more) names.insert(each.name);
+    channels_.insert(channels_.end(), more.begin(), more.end());
+    count++;
+  }
+  sort_channels(channels_);
+  return count;
+}
+
+void ExrDecoder::describe() {
+  const Imf::Header& header = file_->header(0);
   window_ = header.dataWindow();
-  channels_ = channels_of(header, name_);
+  const int read = add_parts();
   if (channels_.empty()) throw cannot_read(name_, "it has no channels");
   info.width = window_.max.x - window_.min.x + 1;
   info.height = window_.max.y - window_.min.y + 1;
   info.is_float = true;
-  info.parts = parts;
+  info.unread_parts = file_->parts() - read;
   for (const ExrChannel& channel : channels_) {
     info.channels.push_back(channel.name);
     info.samples.push_back(channel.type == Imf::HALF ? SampleType::kHalf : SampleType::kFloat);
     whole_numbers.push_back(channel.type == Imf::UINT);
   }
   add_attributes(header, info);
-  is_whole_picture = window_ == header.displayWindow();
+  has_views_ = read > 1;
+  if (has_views_) info.text.erase("view");  // it is that of one part
   if (header.hasTileDescription())
     rows_together = std::min(info.height, static_cast<int>(std::min(header.tileDescription().ySize, 1u << 30)));
 }
 
 bool ExrDecoder::read_fast(int begin, int end, size_t first, size_t count, std::byte* to) {
-  if (!on_disk_) return false;
+  if (!on_disk_ || has_views_) return false;
   if (first_ != first) {
     first_ = first;
     rows_ = ExrRows::open(name_, {info.channels.begin() + static_cast<ptrdiff_t>(first), info.channels.end()});
@@ -195,18 +254,21 @@ bool ExrDecoder::read_fast(int begin, int end, size_t first, size_t count, std::
 
 void ExrDecoder::read_any(int begin, int end, size_t first, size_t count, std::byte* to) {
   const size_t pixel = bytes_of_pixel(first, count), row = pixel * static_cast<size_t>(info.width);
-  Imf::FrameBuffer buffer;
+  std::map<int, Imf::FrameBuffer> buffers;
   char* at = reinterpret_cast<char*>(to) - static_cast<ptrdiff_t>(pixel) * window_.min.x -
              static_cast<ptrdiff_t>(row) * (window_.min.y + begin);  // where pixel 0, 0 would be
   for (size_t c = first; c < first + count; c++) {
-    buffer.insert(info.channels[c], Imf::Slice(channels_[c].type, at, pixel, row));
+    const ExrChannel& channel = channels_[c];
+    buffers[channel.part].insert(channel.stored, Imf::Slice(channel.type, at, pixel, row));
     at += bytes_of(info.samples[c]);
   }
   guarded(
       [&] {
-        if (!part_) part_ = std::make_unique<Imf::InputPart>(*file_, 0);
-        part_->setFrameBuffer(buffer);
-        part_->readPixels(window_.min.y + begin, window_.min.y + end - 1);
+        for (const auto& [number, buffer] : buffers) {
+          Imf::InputPart& part = parts_.try_emplace(number, *file_, number).first->second;
+          part.setFrameBuffer(buffer);
+          part.readPixels(window_.min.y + begin, window_.min.y + end - 1);
+        }
       },
       [&](const std::string& words) { return cannot_read(name_, words); });
 }
@@ -229,7 +291,10 @@ void ExrDecoder::read(int begin, int end, size_t first, size_t count, std::byte*
 std::unique_ptr<Decoder> open_exr(const PictureBytes& file) {
   const std::string fault = exr_header_fault(file.size, file.read);
   if (!fault.empty()) throw cannot_read(file.name, fault);
-  return std::make_unique<ExrDecoder>(file);
+  auto decoder = std::make_unique<ExrDecoder>(file);
+  const Imath::V2i place = decoder->place(), size = decoder->shown();
+  check_picture_size(file, size.x, size.y);
+  return windowed(std::move(decoder), place.x, place.y, size.x, size.y);
 }
 
 // --- writing ---------------------------------------------------------------------------------------------------------

@@ -246,9 +246,6 @@ FileRows::FileRows(const std::string& path, int view, int least_wide) {
   decoder_ = std::move(opened.decoder);
   color_ = opened.color;
   info_ = decoder_->info;
-  if (!decoder_->is_whole_picture) {
-    throw cannot_read(path, "its data window is not its whole picture; crop or fill it first");
-  }
   if (!info_.is_float && !is_our_own(color_, false)) {
     to_srgb_.emplace(color_);
     widen();

@@ -82,7 +82,7 @@ FileInfo exr_info(const ExrHeader& header) {
   info.is_float = true;
   for (const ExrAttribute& each : header.attributes) {
     if (each.name == "channels") info.channels = channel_names(each.value);
-    if (each.name == "dataWindow" && each.value.size() == 16) {
+    if (each.name == "displayWindow" && each.value.size() == 16) {
       const auto side = [&](size_t low, size_t high) {
         const int64_t pixels = int64_t{number_at<int32_t>(each.value, high)} - number_at<int32_t>(each.value, low) + 1;
         return static_cast<int>(std::clamp<int64_t>(pixels, 0, kMaxSide));

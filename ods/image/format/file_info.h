@@ -14,7 +14,7 @@ namespace ods {
 struct FileInfo {
   int width = 0;
   int height = 0;
-  int parts = 1;                                      // of an EXR; all else here is that of the first
+  int unread_parts = 0;                               // of an EXR: those beside the first, unless they show two eyes
   bool is_pair = false;                               // it has a second picture of this size, of the right eye (HEIC)
   bool is_float = false;                              // scene-linear; else display-encoded
   std::vector<std::string> channels;                  // R, G, B, A first

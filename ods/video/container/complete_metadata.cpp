@@ -146,13 +146,14 @@ bool is_told_by_shape(const SphericalMetadata& known, const VideoTrack& track, c
 
 // --- contradictions --------------------------------------------------------------------------------------------------
 
-// Squeezed eyes are square.
+// Squeezed eyes are square, or as wide as the decoders of headsets like it.
 std::string shape_fault(const SphericalMetadata& metadata, Extent size) {
   if (metadata.projection != VideoProjection::kEquirect || metadata.is_partial() || size.height == 0) return {};
   const double aspect = static_cast<double>(size.width) / size.height;
   const EyeArrangement eyes = arrangement_of(metadata.stereo.value_or(VideoStereo::kOneView));
   const double whole = !eyes.is_halves() ? 2.0 : eyes.how == EyePacking::kStacked ? 1.0 : 4.0;
-  if (std::abs(aspect / whole - 1.0) < 0.02 || (eyes.is_halves() && std::abs(aspect / 2.0 - 1.0) < 0.02)) return {};
+  const auto has_aspect = [&](double of) { return std::abs(aspect / of - 1.0) < 0.02; };
+  if (has_aspect(whole) || (eyes.is_halves() && (has_aspect(2.0) || has_aspect(16.0 / 9.0)))) return {};
   return fmt::format("it says {}, and {}x{} is not the shape of that", metadata_text(metadata), size.width,
                      size.height);
 }

@@ -64,8 +64,66 @@ TEST(ExrDecoder, ReadsTheFirstPart) {
   for (size_t i = 0; i < pixels[0].size(); i++) pixels[0][i] = static_cast<std::byte>(i % 61);
   write_exr(folder.path("a.exr"), parts, pixels);
   const auto decoder = open_exr(picture_on_disk(folder.path("a.exr")));
-  EXPECT_EQ(decoder->info.parts, 2);
+  EXPECT_EQ(decoder->info.unread_parts, 1);
   EXPECT_TRUE(read_all(*decoder) == pixels[0]);
+}
+
+// As compositors and Blender write the two eyes, each with its layers.
+TEST(ExrDecoder, ReadsThePartsOfBothViews) {
+  const TemporaryFolder folder;
+  std::vector<ExrForm> parts(5);
+  const char* const views[] = {"right", "left", "right", "left", "left"};
+  std::vector<Bytes> pixels;
+  for (size_t i = 0; i < parts.size(); i++) {
+    if (i >= 2) parts[i].channels = {"Z", "normal.X"};  // the last part says what the fourth does
+    parts[i].tile = i == 1 ? 16 : 0;
+    parts[i].prepare = [view = views[i]](Imf::Header& header) { header.setView(view); };
+    pixels.emplace_back(bytes_of_pixels(parts[i]));
+    for (size_t k = 0; k < pixels[i].size(); k++) pixels[i][k] = static_cast<std::byte>((k * (i + 3)) % 61);
+  }
+  write_exr(folder.path("a.exr"), parts, pixels);
+  const auto decoder = open_exr(picture_on_disk(folder.path("a.exr")));
+  EXPECT_EQ(decoder->info.unread_parts, 1);
+  EXPECT_FALSE(decoder->info.text.contains("view"));
+  EXPECT_EQ(decoder->info.channels,
+            (std::vector<std::string>{"left.R", "left.G", "left.B", "left.Z", "normal.left.X", "normal.right.X",
+                                      "right.R", "right.G", "right.B", "right.Z"}));
+  EXPECT_TRUE(read_rows(*decoder, 0, kHeight, 0, 3) == pixels[1]);
+  EXPECT_TRUE(read_rows(*decoder, 0, kHeight, 6, 3) == pixels[0]);
+  const Bytes deep = read_rows(*decoder, 0, kHeight, 9, 1);
+  for (size_t i = 0; i < kWidth * kHeight; i++) ASSERT_EQ(std::memcmp(&deep[2 * i], &pixels[2][4 * i], 2), 0) << i;
+  expect_bands(*decoder);
+}
+
+// A compositor writes only the box that its element fills, or more than the picture.
+TEST(ExrDecoder, ReadsThePictureOfWhichTheDataWindowIsAPartOrMore) {
+  const TemporaryFolder folder;
+  for (const auto& [left, top] : {std::pair{7, 21}, std::pair{-5, -19}, std::pair{-5, 21}, std::pair{7, 200}}) {
+    for (const int tile : {0, 16}) {
+      SCOPED_TRACE(testing::Message() << left << ", " << top << ", tiles of " << tile);
+      ExrForm form;
+      form.types.assign(3, Imf::FLOAT);
+      form.left = 100 + left, form.top = 100 + top, form.tile = tile;
+      form.prepare = [](Imf::Header& header) { header.displayWindow() = {{100, 100}, {159, 149}}; };
+      const std::vector<float> values = exr_values(3, 1);
+      write_exr_of(folder.path("a.exr"), form, values);
+      const auto decoder = open_exr(picture_on_disk(folder.path("a.exr")));
+      ASSERT_EQ(decoder->info.width, 60);
+      ASSERT_EQ(decoder->info.height, 50);
+      const Bytes bytes = read_all(*decoder);
+      std::vector<float> expected;
+      for (int y = 0; y < 50; y++) {
+        for (int x = 0; x < 3 * 60; x++) {
+          const int column = x - 3 * left, row = y - top;
+          const bool inside = column >= 0 && column < 3 * kWidth && row >= 0 && row < kHeight;
+          expected.push_back(inside ? values[static_cast<size_t>(row * 3 * kWidth + column)] : 0.0f);
+        }
+      }
+      ASSERT_EQ(bytes.size(), expected.size() * sizeof(float));
+      EXPECT_EQ(std::memcmp(bytes.data(), expected.data(), bytes.size()), 0);
+      expect_bands(*decoder);
+    }
+  }
 }
 
 TEST(ExrDecoder, SaysThatAChannelHasFewerPixels) {

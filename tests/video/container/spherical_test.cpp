@@ -290,7 +290,9 @@ TEST(Players, WarningsAreForWhatIsWrongAndForNothingElse) {
   track.v1 = stacked;
   track.size = {8192, 8192};  // in no level of H.264
   EXPECT_EQ(video_warnings(video, track, "a.mp4").size(), 1u);
-  track.size = {1920, 1080};  // no shape of two spheres
+  track.size = {1920, 1080};  // two spheres squeezed
+  EXPECT_TRUE(video_warnings(video, track, "a.mp4").empty());
+  track.size = {1920, 1200};  // no shape of two spheres
   EXPECT_EQ(video_warnings(video, track, "a.mp4").size(), 1u);
   track.size = {512, 256};
   track.v1.reset(), track.v2 = metadata_of(VideoStereo::kSideBySide, VideoProjection::kEquirect);
