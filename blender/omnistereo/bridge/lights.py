@@ -7,17 +7,61 @@ area light of area A the radiance W / (4 A) on its front, and a sun's strength i
 it.
 """
 import math
+import os
 
 import bpy
 
 from .glb import UNSIGNED_SHORT
 from .places import TO_GLTF, columns
 from .report import some
+from .stage import Stage, pixels
 
 SIDES = 64  # of the polygon that stands for a disc
 
 
-def color_of(light, report):
+PLACED = {"LIGHT_FALLOFF", "NEW_GEOMETRY", "LIGHT_PATH", "CAMERA", "FRESNEL", "LAYER_WEIGHT", "OBJECT_INFO"}
+
+
+def _mirror():
+    """A square across +Y, at 1 m."""
+    material = bpy.data.materials.new("ods mirror")
+    material.use_nodes = True
+    tree = material.node_tree
+    glossy = tree.nodes.new("ShaderNodeBsdfGlossy")
+    glossy.inputs["Color"].default_value, glossy.inputs["Roughness"].default_value = (1.0, 1.0, 1.0, 1.0), 0.0
+    tree.links.new(glossy.outputs[0], next(n for n in tree.nodes if n.type == "OUTPUT_MATERIAL").inputs["Surface"])
+    mesh = bpy.data.meshes.new("ods mirror")
+    mesh.from_pydata([(-1, 1, -1), (1, 1, -1), (1, 1, 1), (-1, 1, 1)], [], [(0, 1, 2, 3)])
+    mesh.materials.append(material)
+    return bpy.data.objects.new("ods mirror", mesh)
+
+
+def _measured(light, folder):
+    """What the nodes shine at a distance of 1 m, on the axis: of a lamp of radiance 1, which only mirrors show."""
+    copy = light.copy()
+    copy.type = "AREA"
+    copy = bpy.data.lights[copy.name]  # of the new type
+    copy.shape, copy.size, copy.energy, copy.color, copy.spread = "SQUARE", 1.0, 4.0, (1.0, 1.0, 1.0), math.pi
+    if hasattr(copy, "use_temperature"):
+        copy.use_temperature = False
+    lamp, mirror = bpy.data.objects.new("ods lamp", copy), _mirror()
+    lamp.rotation_euler = (math.pi / 2, 0.0, 0.0)
+    stage = Stage()
+    stage.scene.cycles.max_bounces = 1
+    stage.data.type, stage.data.ortho_scale = "ORTHO", 0.1
+    for each in (lamp, mirror):
+        stage.scene.collection.objects.link(each)
+    path = os.path.join(folder, "lamp.exr")
+    stage.render(path, 4, 4, 16)
+    found = pixels(path)[..., :3].mean(axis=(0, 1)).tolist()
+    os.remove(path)
+    stage.remove()
+    mesh = mirror.data
+    bpy.data.batch_remove([lamp, mirror, copy, mesh.materials[0], mesh])
+    return found
+
+
+def color_of(light, folder, report):
     """Colour times what the light's own nodes make of it."""
     color = [float(c) for c in light.color]
     if getattr(light, "use_temperature", False) and hasattr(light, "temperature_color"):
@@ -29,8 +73,10 @@ def color_of(light, report):
         return [0.0] * 3
     emission = output.inputs["Surface"].links[0].from_node
     if emission.type != "EMISSION" or any(i.is_linked for i in emission.inputs):
-        report.warn(f"the nodes of light '{light.name}' are not followed: it has its colour and power")
-        return color
+        if any(n.type.startswith("TEX_") or n.type in PLACED for n in light.node_tree.nodes):
+            report.warn(f"light '{light.name}': its nodes may vary it with direction and distance, which does not come "
+                        "across: it is as 1 m in front of it")
+        return [c * e for c, e in zip(color, _measured(light, folder))]
     strength = emission.inputs["Strength"].default_value
     return [c * e * strength for c, e in zip(color, emission.inputs["Color"].default_value)]
 
@@ -117,12 +163,12 @@ class Lamp:
         self.key, self.node, self.pointer = key, node, pointer
 
 
-def add_light(glb, key, name, light, matrix, report):
-    """A light datablock at a place."""
+def add_light(glb, key, name, light, matrix, folder, report):
+    """A light datablock at a place. folder: for what is measured."""
     strength = strength_of(light.type, light, matrix) * light.energy
     if not strength > 0.0:
         return None
-    power = [c * strength for c in color_of(light, report)]
+    power = [c * strength for c in color_of(light, folder, report)]
     if light.type == "AREA":
         material, node = _add_area(glb, name, light, power)
         pointer = f"/materials/{material}/extensions/KHR_materials_emissive_strength/emissiveStrength"
