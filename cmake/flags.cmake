@@ -30,8 +30,8 @@ if(ODS_SANITIZE)  # g++ 12 sees ghosts in <regex>
   target_link_options(ods_flags INTERFACE -fsanitize=${ODS_SANITIZE})
 endif()
 
-# Up to sixteen files of a folder are compiled as one, in less than half the time. What two of them need belongs in one place; a name
-# that two tests have for different things, in `namespace ods::FILE`.
+# Up to sixteen files of a folder are compiled as one, in less than half the time. What two of them need belongs in one
+# place; a name that two tests have for different things, in `namespace ods::FILE`.
 function(unite target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${ODS_UNITY} UNITY_BUILD_MODE GROUP)
   foreach(source ${ARGN})

@@ -23,7 +23,7 @@ def light(name, place, color):
 t, e = light('a warm', -2, (1, 1, 1))
 n = t.nodes.new('ShaderNodeBlackbody'); n.inputs[0].default_value = 2700; t.links.new(n.outputs[0], e.inputs[0])
 t, e = light('b strong', 0, (1, .5, .25))
-n = t.nodes.new('ShaderNodeValue'); n.outputs[0].default_value = 3; t.links.new(n.outputs[0], e.inputs[1])
+n = t.nodes.new('ShaderNodeLightFalloff'); n.inputs[0].default_value = 3; t.links.new(n.outputs['Quadratic'], e.inputs[1])
 t, e = light('c even', 2, (1, 1, 1))
 n = t.nodes.new('ShaderNodeLightFalloff'); n.inputs[0].default_value = 5; t.links.new(n.outputs['Linear'], e.inputs[1])
 bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])

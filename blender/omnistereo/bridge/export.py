@@ -266,7 +266,8 @@ def export_scene(context, folder, size=0, report=None):
     materials.finish_in_file(glb, strengths, translucent, scales)
     _add_unseen(glb, prepared, marks)
     lights.name_oddities({light for _, _, light, _ in prepared.lights}, report)
-    lamps = [lights.add_light(glb, *each, folder, report) for each in prepared.lights]
+    meter = lights.Meter(folder)
+    lamps = [lights.add_light(glb, *each, meter, report) for each in prepared.lights]
     lamps = [lamp for lamp in lamps if lamp]
     seers = sorted((o for o in scene.objects if o.type == "CAMERA"), key=lambda o: o != scene.camera)
     cameras = {each: camera.add_node(glb, each, each.matrix_world) for each in seers}

@@ -17,9 +17,7 @@ from .report import some
 from .stage import Stage, pixels
 
 SIDES = 64  # of the polygon that stands for a disc
-
-
-PLACED = {"LIGHT_FALLOFF", "NEW_GEOMETRY", "LIGHT_PATH", "CAMERA", "FRESNEL", "LAYER_WEIGHT", "OBJECT_INFO"}
+PLACED = {"NEW_GEOMETRY", "LIGHT_PATH", "CAMERA", "FRESNEL", "LAYER_WEIGHT", "OBJECT_INFO"}
 
 
 def _mirror():
@@ -61,7 +59,26 @@ def _measured(light, folder):
     return found
 
 
-def color_of(light, folder, report):
+class Meter:
+    """What the nodes of each light shine, measured once."""
+
+    def __init__(self, folder):
+        self.folder, self.found = folder, {}
+
+    def measure(self, light):
+        if light.name_full not in self.found:
+            self.found[light.name_full] = _measured(light, self.folder)
+        return self.found[light.name_full]
+
+
+def _varies(node):
+    """Whether what it says may depend on where the light falls."""
+    if node.type == "LIGHT_FALLOFF":
+        return any(output.is_linked for output in node.outputs if output.name != "Quadratic")
+    return node.type.startswith("TEX_") or node.type in PLACED
+
+
+def color_of(light, meter, report):
     """Colour times what the light's own nodes make of it."""
     color = [float(c) for c in light.color]
     if getattr(light, "use_temperature", False) and hasattr(light, "temperature_color"):
@@ -73,10 +90,10 @@ def color_of(light, folder, report):
         return [0.0] * 3
     emission = output.inputs["Surface"].links[0].from_node
     if emission.type != "EMISSION" or any(i.is_linked for i in emission.inputs):
-        if any(n.type.startswith("TEX_") or n.type in PLACED for n in light.node_tree.nodes):
+        if any(_varies(node) for node in light.node_tree.nodes):
             report.warn(f"light '{light.name}': its nodes may vary it with direction and distance, which does not come "
                         "across: it is as 1 m in front of it")
-        return [c * e for c, e in zip(color, _measured(light, folder))]
+        return [c * e for c, e in zip(color, meter.measure(light))]
     strength = emission.inputs["Strength"].default_value
     return [c * e * strength for c, e in zip(color, emission.inputs["Color"].default_value)]
 
@@ -163,12 +180,12 @@ class Lamp:
         self.key, self.node, self.pointer = key, node, pointer
 
 
-def add_light(glb, key, name, light, matrix, folder, report):
-    """A light datablock at a place. folder: for what is measured."""
+def add_light(glb, key, name, light, matrix, meter, report):
+    """A light datablock at a place."""
     strength = strength_of(light.type, light, matrix) * light.energy
     if not strength > 0.0:
         return None
-    power = [c * strength for c in color_of(light, folder, report)]
+    power = [c * strength for c in color_of(light, meter, report)]
     if light.type == "AREA":
         material, node = _add_area(glb, name, light, power)
         pointer = f"/materials/{material}/extensions/KHR_materials_emissive_strength/emissiveStrength"
