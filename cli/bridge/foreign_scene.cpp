@@ -80,13 +80,20 @@ ForeignScene read_result(const std::string& folder) {
   return scene;
 }
 
-// What Blender cannot read is left to Assimp, if that is there and reads such files.
+[[noreturn]] void fail_without_program(const std::string& path, const ForeignFormat& format) {
+  if (!format.assimp) fail(path, "needs Blender to be read: install it, or say where it is with --blender PATH");
+  if (!format.blender) fail(path, "needs Assimp's command to be read: install it (assimp-utils)");
+  fail(path, "needs Blender or Assimp's command to be read: install one (blender, assimp-utils), or --blender PATH");
+}
+
+// Assimp converts what it reads where there is no Blender, or where Blender cannot read the file.
 void convert(const std::string& path, const ForeignFormat& format, const BlenderOptions& options,
              const std::string& kept) {
   const ods::PrivateFolder folder(cache_folder() + "/.new-");
-  const std::string blender = format.blender ? find_blender(options) : "";
+  const bool can_blender = format.blender && !find_blender(options).empty();
   const bool can_assimp = format.assimp && has_assimp();
-  if (!blender.empty()) {
+  if (!can_blender && !can_assimp) fail_without_program(path, format);
+  if (can_blender) {
     note(fmt::format("Blender converts '{}'; the result is kept in '{}' until the file changes", path,
                      fs::path(kept).parent_path().native()));
     try {
@@ -99,12 +106,6 @@ void convert(const std::string& path, const ForeignFormat& format, const Blender
       }
       note(error.what());
     }
-  } else if (!format.assimp) {
-    fail(path, "needs Blender to be read: install it, or say where it is with --blender PATH");
-  } else if (!can_assimp && !format.blender) {
-    fail(path, "needs Assimp's command to be read: install it (assimp-utils)");
-  } else if (!can_assimp) {
-    fail(path, "needs Blender or Assimp's command to be read: install one (blender, assimp-utils), or --blender PATH");
   }
   note(fmt::format("Assimp converts '{}': no lights, cameras, node materials or world", path));
   run_assimp(path, folder.path());

@@ -80,9 +80,8 @@ std::string taken_by(std::string_view start) {
   }
   if (const std::string_view what = foreign_video(start); !what.empty()) {
     return fmt::format(
-        "; it is {} file: ods reads mp4, mov, mkv and webm, and 'ffmpeg -i FILE -map 0 -c copy FILE.mkv' makes one of "
-        "it, "
-        "without a loss",
+        "; it is {} file: ods reads mp4, mov, mkv and webm, and 'ffmpeg -i FILE -map 0 -c copy FILE.mkv' makes one "
+        "of it, without a loss",
         what);
   }
   if (begins("glTF")) return "; it is a scene: ods render, video, info and view take scenes";

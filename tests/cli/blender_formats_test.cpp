@@ -4,19 +4,11 @@
 // Scenes of other programs that Blender itself imports.
 #include <gtest/gtest.h>
 
-#include "tests/support/cli_runner.h"
-#include "tests/support/programs.h"
+#include "tests/support/blender_cli.h"
 
 namespace ods::blender_formats_test {
 
-class BlenderFormats : public Cli {
- protected:
-  void SetUp() override {
-    static const std::string kMissing = missing("Blender", "blender --version");
-    if (!kMissing.empty()) GTEST_SKIP() << kMissing;
-    setenv("XDG_CACHE_HOME", folder.path("cache").c_str(), 1);
-  }
-};
+class BlenderFormats : public BlenderCli {};
 
 TEST_F(BlenderFormats, AreConverted) {
   folder.write("t.obj", "o x\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

@@ -7,8 +7,7 @@
 #include <filesystem>
 
 #include "ods/scene/load/load.h"
-#include "tests/support/cli_runner.h"
-#include "tests/support/programs.h"
+#include "tests/support/blender_cli.h"
 
 namespace ods::blender_lights_test {
 
@@ -29,14 +28,7 @@ n = t.nodes.new('ShaderNodeLightFalloff'); n.inputs[0].default_value = 5; t.link
 bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
 )";
 
-class BlenderLights : public Cli {
- protected:
-  void SetUp() override {
-    static const std::string kMissing = missing("Blender", "blender --version");
-    if (!kMissing.empty()) GTEST_SKIP() << kMissing;
-    setenv("XDG_CACHE_HOME", folder.path("cache").c_str(), 1);
-  }
-};
+class BlenderLights : public BlenderCli {};
 
 TEST_F(BlenderLights, ShineAsTheirNodesSay) {
   folder.write("make.py", kScene);

@@ -193,9 +193,9 @@ def prepare(context, report):
         except (AttributeError, TypeError):
             pass  # of a library
     strange = sorted({light.name for _, _, light, _ in prepared.lights if not hasattr(light, "energy")})
+    prepared.lights = [each for each in prepared.lights if hasattr(each[2], "energy")]
     if strange:  # Blender 2 wrote its hemispheric light, which is gone, into Collada
         report.warn(f"{some(strange)}: lights of a kind that Blender does not have do not come across")
-        prepared.lights = [each for each in prepared.lights if each[2].name not in strange]
     _stop_scattering(prepared.instances, depsgraph)
     for group in prepared.instances:
         scene.collection.objects.link(group.prototype)
