@@ -116,15 +116,15 @@ void announce_file(const std::string& file) {
   std::fflush(stdout);  // a program may be waiting for it
 }
 
-int run_command(const std::function<void()>& body) {
-  if (only_checks()) return body(), kExitOk;
+int run_to_exit_code(const std::function<ExitCode()>& body) {
+  if (only_checks()) return body();
   std::set_terminate(end_without_memory);
   try {
-    body();
+    const ExitCode code = body();
     // Writing stdout to a full disk fails only now.
     if (std::fflush(stdout) != 0 || std::ferror(stdout))
       return fail(kExitOutput, "standard output could not be written");
-    return kExitOk;
+    return code;
   } catch (const ods::Error& error) {
     return fail(exit_code(error.kind()), error.what());
   } catch (const std::bad_alloc&) {

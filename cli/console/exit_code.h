@@ -7,8 +7,9 @@
 
 enum ExitCode {
   kExitOk = 0,
-  kExitFailure = 1,  // anything else
+  kExitFailure = 1,  // any other failure
   kExitUsage = 2,    // the command line is wrong
   kExitInput = 3,    // a file is missing, malformed or unsupported
   kExitOutput = 4,   // a file could not be written
+  kExitFault = 5,    // the command judged its input, and found a fault
 };
