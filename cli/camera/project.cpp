@@ -13,6 +13,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/options/camera_source.h"
 #include "ods/camera/layout.h"
@@ -23,8 +24,8 @@ namespace {
 
 constexpr const char* kProjectExamples =
     "  ods project 0,1.5,-2 1,0,-3 --width 4096 --position 0,1.6,0\n"
-    "  ods project --from picture.camera.json --json < points.txt\n"
-    "  ods project --from picture.camera.json --from-pixel left,2048.5,1024.5,3.2";
+    "  ods project --camera-file picture.camera.json --json < points.txt\n"
+    "  ods project --camera-file picture.camera.json --from-pixel left,2048.5,1024.5,3.2";
 
 // Pixels are counted from the left and top edge of the eye's own picture: the middle of the first is 0.5.
 struct Found {
@@ -92,22 +93,31 @@ void print_point_of(const std::string& word, const Sidecar& file, const Camera& 
   }
 }
 
-void project(int argc, char** argv) {
+struct ProjectJob {
   CameraSource source;
-  std::vector<std::string> words;
-  std::string pixel;
+  std::vector<std::string> points;  // X,Y,Z each; none: lines of stdin
+  std::string pixel;                // EYE,X,Y,DEPTH, to be unprojected; empty: none
   bool json = false;
-  Options options(
-      "project",
+};
+
+ProjectJob parse_project(Options& options) {
+  ProjectJob job;
+  options.describe(
       "Projects world points into each eye's picture. It reads no scene, so it does not know what hides them.",
       kProjectExamples);
-  options.arguments("X,Y,Z...", words, "points, in metres; without any, reads lines from stdin");
-  options.text("--from-pixel", "EYE,X,Y,DEPTH", pixel, "unproject: the point at that depth along the pixel's ray");
-  options.flag("--json", json, "print JSON, one object per line");
-  add_camera_source(options, source);
+  options.arguments("X,Y,Z...", job.points, "points, in metres; without any, reads lines from stdin");
+  options.text("--from-pixel", "EYE,X,Y,DEPTH", job.pixel, "unproject: the point at that depth along the pixel's ray");
+  options.flag("--json", job.json, "print JSON, one object per line");
+  add_camera_source(options, job.source);
   options.group("Console");
   add_console_options(options);
-  if (!options.parse(argc, argv)) return;
+  options.parse();
+  return job;
+}
+
+void project(const ProjectJob& job) {
+  const auto& [given, points, pixel, json] = job;
+  CameraSource source = given;
   const Sidecar file = read_camera_source(source);
   const Camera camera = make_camera(file.camera);
   const auto print = [&](std::string word) {
@@ -122,8 +132,8 @@ void project(int argc, char** argv) {
     }
   };
   if (!pixel.empty()) print_point_of(pixel, file, camera, json);
-  for (const std::string& word : words) print(word);
-  if (!words.empty() || !pixel.empty()) return;
+  for (const std::string& word : points) print(word);
+  if (!points.empty() || !pixel.empty()) return;
   if (isatty(STDIN_FILENO)) throw UsageError("which points? ods project X,Y,Z, or lines of X,Y,Z on stdin");
   for (std::string line; std::getline(std::cin, line);) {
     if (!line.empty()) print(line);
@@ -132,6 +142,5 @@ void project(int argc, char** argv) {
 
 }  // namespace
 
-int ods_project(int argc, char** argv) {
-  return run_command([=] { project(argc, argv); });
-}
+extern const Command kProject =
+    make_command<parse_project, project>("project", "project world points into each eye's picture");

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/options/picture_options.h"
 #include "ods/camera/codec_level.h"
@@ -97,22 +98,29 @@ void print_json(std::span<const NamedSize> sizes) {
   std::puts(json.dump(2).c_str());
 }
 
-void sizes(int argc, char** argv) {
-  std::string name;
+struct SizesJob {
+  std::string name;  // of one size; empty: all
   bool json = false;
-  Options options("sizes", "Lists the named sizes and the video levels that they fit in.", kSizesExamples);
-  options.optional_argument("NAME", name, "show one size in detail");
+};
+
+SizesJob parse_sizes(Options& options) {
+  SizesJob job;
+  options.describe("Lists the named sizes and the video levels that they fit in.", kSizesExamples);
+  options.optional_argument("NAME", job.name, "show one size in detail");
   options.group("Console");
-  options.flag("--json", json, "print JSON");
+  options.flag("--json", job.json, "print JSON");
   add_console_options(options);
-  if (!options.parse(argc, argv)) return;
-  const std::span<const NamedSize> chosen = name.empty() ? ods::named_sizes() : std::span(&size_by_name(name), 1);
-  if (json) return print_json(chosen);
-  name.empty() ? print_table(chosen) : print_one(chosen.front());
+  options.parse();
+  return job;
+}
+
+void list_sizes(const SizesJob& job) {
+  const bool one = !job.name.empty();
+  const std::span<const NamedSize> chosen = one ? std::span(&size_by_name(job.name), 1) : ods::named_sizes();
+  if (job.json) return print_json(chosen);
+  one ? print_one(chosen.front()) : print_table(chosen);
 }
 
 }  // namespace
 
-int ods_sizes(int argc, char** argv) {
-  return run_command([=] { sizes(argc, argv); });
-}
+extern const Command kSizes = make_command<parse_sizes, list_sizes>("sizes", "list the named sizes");

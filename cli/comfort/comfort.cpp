@@ -14,6 +14,7 @@
 #include "cli/comfort/heat.h"
 #include "cli/comfort/page_of.h"
 #include "cli/comfort/video_report.h"
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/projection_options.h"
@@ -57,14 +58,11 @@ void judge_film(const ComfortJob& job) {
   if (ods::worst_level(video) == ods::ComfortLevel::kError) throw std::runtime_error(kStrains);
 }
 
-void comfort(int argc, char** argv) {
-  ComfortJob job;
-  if (!read_comfort_job(job, argc, argv)) return;
+void comfort(ComfortJob job) {
+  settle_input(job);
   job.input == ComfortInput::kVideo ? judge_film(job) : judge_still(job);
 }
 
 }  // namespace
 
-int ods_comfort(int argc, char** argv) {
-  return run_command([=] { comfort(argc, argv); });
-}
+extern const Command kComfort = make_command<parse_comfort, comfort>("comfort", "find what strains a viewer's eyes");

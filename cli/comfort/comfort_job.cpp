@@ -76,11 +76,11 @@ void parse_rules(const std::string& word, ods::ComfortOptions& comfort) {
 }
 
 // The file says how a picture was made.
-void refuse_camera(const Options& options, const ComfortJob& job) {
+void refuse_camera(const ComfortJob& job) {
   const std::vector<std::string> own = {"",       "--rules", "--focus",    "--viewer-ipd", "--gaze",
                                         "--heat", "--html",  "--json",     "--layout",     "--projection",
                                         "-q",     "--quiet", "--no-color", "--progress",   "--head-roll"};
-  for (const GivenWord& word : options.given_words()) {
+  for (const GivenWord& word : job.given) {
     if (std::ranges::find(own, word.name) != own.end()) continue;
     throw UsageError(fmt::format("{} is for scenes, and '{}' is a {}", word.name, job.scene.name,
                                  job.input == ComfortInput::kVideo ? "video" : "picture"));
@@ -97,10 +97,11 @@ ComfortInput input_of(const std::string& path) {
 
 }  // namespace
 
-bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
+ComfortJob parse_comfort(Options& options) {
+  ComfortJob job;
   ods::Viewer& viewer = job.comfort.viewer;
-  Options options("comfort", kComfortSummary, kComfortExamples);
-  add_scene_argument(options, job.scene, [&](const ForeignScene& scene) { take_camera(job.camera, scene); });
+  options.describe(kComfortSummary, kComfortExamples);
+  add_scene_argument(options, job.scene);
   options.group("Viewer");
   options.custom(
       "--focus", "METRES", "1.3", [&](const std::string& word) { viewer.focus = parse_focus(word); },
@@ -123,21 +124,27 @@ bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
   options.number("--width", job.width, 64, 8192, "width of the pictures of a scene that are judged");
   options.flag("--json", job.json, "print JSON");
   add_input_layout_option(options, job.format.layout, "layout of a picture's eyes, if it is not detected");
-  add_camera_options(options, job.camera, job.scene.blender);
+  add_camera_options(options, job.camera);
   options.group("Console");
   add_progress_options(options, job.progress);
-  if (!options.parse(argc, argv)) return false;
-  job.input = input_of(job.scene.name);
-  if (job.input != ComfortInput::kScene) {
-    if (job.input == ComfortInput::kVideo && !job.heat.empty())
-      throw UsageError("--heat is for pictures and scenes: --html shows a video's");
-    refuse_camera(options, job);
-    if (options.given("--projection")) job.format.projection = job.camera.stereo.projection;
-    return true;
-  }
+  options.parse();
   job.scene.has_places = job.camera.position.has_value();
   job.scene.camera = job.camera.view_point;
-  int height = 0;
-  finish_camera_options(job.camera, job.width, height);
-  return true;
+  job.given = options.given_words();
+  return job;
+}
+
+void settle_input(ComfortJob& job) {
+  job.input = input_of(job.scene.name);
+  if (job.input == ComfortInput::kScene) {
+    int height = 0;
+    read_foreign(job.scene);
+    take_base(job.camera, job.scene.foreign, job.scene.blender);
+    return finish_camera_options(job.camera, job.width, height);
+  }
+  if (job.input == ComfortInput::kVideo && !job.heat.empty()) {
+    throw UsageError("--heat is for pictures and scenes: --html shows a video's");
+  }
+  refuse_camera(job);
+  if (job.camera.changes.projection.named) job.format.projection = *job.camera.changes.projection.named;
 }

@@ -23,8 +23,11 @@ struct ComfortJob {
   std::string heat;        // where to save the levels as a picture; empty: nowhere
   std::string html;        // likewise the report as a page
   bool json = false;
+  std::vector<GivenWord> given;  // the command line
   ProgressMode progress = ProgressMode::kAuto;  // of a video
 };
 
-// False if help was requested. Throws UsageError and ods::Error.
-bool read_comfort_job(ComfortJob& job, int argc, char** argv);
+ComfortJob parse_comfort(Options& options);
+
+// Looks at what the input is, and applies the options that it has. Throws UsageError and ods::Error.
+void settle_input(ComfortJob& job);

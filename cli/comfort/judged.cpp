@@ -186,8 +186,8 @@ Looked look_at_scene(const ComfortJob& job) {
   options.width = job.width;
   options = ods::with_height(options, camera);
   const ods::CpuRenderer renderer(scene);
-  if (job.camera.merge_limit) {
-    ods::use_merge_map(camera, ods::merge_map_of(ods::shares_seen(renderer, camera, *job.camera.merge_limit)));
+  if (job.camera.changes.merge_limit) {
+    ods::use_merge_map(camera, ods::merge_map_of(ods::shares_seen(renderer, camera, *job.camera.changes.merge_limit)));
   }
   const Things things = things_of(scene);
   Looked looked{camera, {}, {}, {}, hidden_in_circle(renderer, camera, options, things)};

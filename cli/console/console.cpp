@@ -12,7 +12,6 @@
 #include <string_view>
 #include <system_error>
 
-#include "cli/console/checked_words.h"
 #include "cli/console/exit_code.h"
 #include "ods/base/error.h"
 #include "ods/base/text.h"
@@ -32,7 +31,7 @@ void print_json(const nlohmann::ordered_json& line) {
   std::fprintf(stderr, "%s\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
 }
 
-int fail(ExitCode code, const std::string& what) {
+ExitCode fail(ExitCode code, const std::string& what) {
   const std::string text = with_options(what);
   if (console.json) {
     print_json({{"error", text}, {"exit_code", static_cast<int>(code)}});
@@ -45,7 +44,7 @@ int fail(ExitCode code, const std::string& what) {
 }
 
 // Must not allocate.
-int fail_without_memory() {
+ExitCode fail_without_memory() {
   const std::string_view plain = "ods: error: not enough memory; a smaller scene or picture needs less\n";
   const std::string_view json = "{\"error\":\"not enough memory; a smaller scene or picture needs less\"}\n";
   const std::string_view line = console.json ? json : plain;
@@ -116,8 +115,7 @@ void announce_file(const std::string& file) {
   std::fflush(stdout);  // a program may be waiting for it
 }
 
-int run_to_exit_code(const std::function<ExitCode()>& body) {
-  if (only_checks()) return body();
+ExitCode run_to_exit_code(const std::function<ExitCode()>& body) {
   std::set_terminate(end_without_memory);
   try {
     const ExitCode code = body();

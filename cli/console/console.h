@@ -5,7 +5,6 @@
 #pragma once
 #include <functional>
 #include <string>
-#include <type_traits>
 
 #include "cli/console/exit_code.h"
 #include "ods/base/error.h"
@@ -41,14 +40,4 @@ void announce_file(const std::string& file);
 
 // Runs a command's body and returns its exit code. An exception becomes one line on stderr, "ods: error: text" or
 // {"error":"text","exit_code":3}, and the matching exit code (cli/console/exit_code.h).
-int run_to_exit_code(const std::function<ExitCode()>& body);
-
-// A body that returns nothing has succeeded when it returns.
-template <class Body>
-int run_command(const Body& body) {
-  if constexpr (std::is_void_v<std::invoke_result_t<Body>>) {
-    return run_to_exit_code([&] { return body(), kExitOk; });
-  } else {
-    return run_to_exit_code(body);
-  }
-}
+ExitCode run_to_exit_code(const std::function<ExitCode()>& body);

@@ -16,8 +16,8 @@ struct DepthInput {
 
 void add_depth_options(Options& options, DepthInput& depth);
 
-// Throws UsageError: an option of depth without --depth.
-void check_depth_options(const Options& options, const DepthInput& depth);
+// The options that need --depth.
+std::vector<std::string> depth_option_names();
 
 // Adds the depth to a picture, and says what there is to say. Throws as ods::add_depth().
 void give_depth(const DepthInput& depth, ods::StoredPicture& picture);

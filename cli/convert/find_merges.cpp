@@ -27,10 +27,10 @@ struct Look {
 class Looks {
  public:
   Looks(const ConvertJob& job, int step) : job_(job), step_(step), header_(job.picture) {
-    if (job.depth.path.empty()) return;
-    ods::DepthOptions options = job.depth.options;
+    if (job.given.depth.path.empty()) return;
+    ods::DepthOptions options = job.given.depth.options;
     options.edges = ods::DepthEdges::kSoft;
-    depth_.emplace(job.depth.path, job.picture, options, job.trim, first_of_all(job));
+    depth_.emplace(job.given.depth.path, job.picture, options, job.given.span(), first_of_all(job));
   }
 
   // The next look: every step-th picture, and the last one.
@@ -57,7 +57,7 @@ class Looks {
       look.header = ods::open_frame(all, static_cast<size_t>(look.picture), job_.picture);
       refuse_impossible(job_, *look.header);
     }
-    look.shares = ods::comfortable_shares(ods::seen_by_eyes(*look.header), job_.target.camera, *job_.merge_limit);
+    look.shares = ods::comfortable_shares(ods::seen_by_eyes(*look.header), job_.target.camera, *job_.given.camera.changes.merge_limit);
     look.header.reset();
   }
 
@@ -67,7 +67,7 @@ class Looks {
     const bool has_frames = job_.kind == ods::FootageKind::kFrames;
     if (has_frames && static_cast<size_t>(next_) >= job_.every_frame.size()) return std::nullopt;
     if (!depth_) return ods::DepthFootage::Give();
-    if (next_ > 0 && ods::footage_kind(job_.depth.path) == ods::FootageKind::kPicture) return std::nullopt;
+    if (next_ > 0 && ods::footage_kind(job_.given.depth.path) == ods::FootageKind::kPicture) return std::nullopt;
     std::optional<int> number;
     if (has_frames) number = job_.every_frame[static_cast<size_t>(next_)];
     return depth_->next_if_any(number);
@@ -84,11 +84,11 @@ class Looks {
 }  // namespace
 
 void find_merges(ConvertJob& job) {
-  if (!job.merge_limit || job.target.eyes[0] == ods::kMono) return;
+  if (!job.given.camera.changes.merge_limit || job.target.eyes[0] == ods::kMono) return;
   if (!job.turns.empty()) {
     throw UsageError("--merge auto and --stabilize exclude each other: stabilize the video and its depth first");
   }
-  const ods::FrameRate rate = job.footage ? job.footage->stream().rate : job.video.rate;
+  const ods::FrameRate rate = job.footage ? job.footage->stream().rate : job.given.video.rate;
   const int step = std::max(1, static_cast<int>(std::lround(ods::kLookSeconds * rate.value())));
   Looks looks(job, step);
   std::vector<std::vector<float>> shares;

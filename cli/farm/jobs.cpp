@@ -11,6 +11,7 @@
 #include <set>
 #include <thread>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
 #include "cli/console/options.h"
@@ -74,18 +75,21 @@ std::vector<JobReport> find_jobs(const JobsWishes& wishes) {
   return jobs;
 }
 
-void jobs(int argc, char** argv) {
+JobsWishes parse_jobs(Options& options) {
   JobsWishes wishes;
-  Options options("jobs",
-                  "Shows how much is done, running, waiting and failed of the jobs that ods submit sent to Slurm.",
-                  kJobsExamples);
+  options.describe("Shows how much is done, running, waiting and failed of the jobs that ods submit sent to Slurm.",
+                   kJobsExamples);
   options.optional_argument("NAME", wishes.name, "a job, or its folder; by default all");
   options.flag("--follow", wishes.follow,
                "show it again every five seconds until the job has ended; exit code 1 if it is not complete");
   options.flag("--json", wishes.json, "print it as JSON");
   options.group("Console");
   add_console_options(options);
-  if (!options.parse(argc, argv)) return;
+  options.parse();
+  return wishes;
+}
+
+void show_jobs(const JobsWishes& wishes) {
   if (wishes.follow) end_on_interrupts();
   std::vector<JobReport> found;
   std::string before;
@@ -108,6 +112,4 @@ void jobs(int argc, char** argv) {
 
 }  // namespace
 
-int ods_jobs(int argc, char** argv) {
-  return run_command([=] { jobs(argc, argv); });
-}
+extern const Command kJobs = make_command<parse_jobs, show_jobs>("jobs", "show the progress of Slurm jobs");

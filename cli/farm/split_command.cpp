@@ -10,7 +10,7 @@
 #include <iterator>
 #include <numeric>
 
-#include "cli/console/checked_words.h"
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/farm/command_words.h"
 #include "cli/options/picture_options.h"
@@ -31,38 +31,18 @@
 
 namespace fs = std::filesystem;
 
-// One a file, in the folders beside this one.
-int ods_convert(int argc, char** argv);
-int ods_denoise(int argc, char** argv);
-int ods_encode(int argc, char** argv);
-int ods_inject(int argc, char** argv);
-int ods_lint(int argc, char** argv);
-int ods_merge(int argc, char** argv);
-int ods_over(int argc, char** argv);
-
 namespace {
 
 using Words = std::vector<std::string>;
-using Split = std::optional<SplitCommand>;
 
 const Words kByFarm = {"--threads", "--progress", "--wait", "--only", "--skip-existing", "--restart", "--raw", "-q"};
 const Words kByMachine = {"--threads", "--progress"};
 const Words kLate = {"--wait", "120"};  // seconds: what network disks take to show another machine's files
 
-// The words as main() has them.
-class Arguments {
- public:
-  explicit Arguments(const Words& words) : words_(words) {
-    for (std::string& word : words_) pointers_.push_back(word.data());
-    pointers_.push_back(nullptr);
-  }
-  int count() const { return static_cast<int>(words_.size()); }
-  char** words() { return pointers_.data(); }
-
- private:
-  Words words_;
-  std::vector<char*> pointers_;
-};
+// The words of a command, without its name.
+Options options_of(const Words& words) {
+  return Options(words.front(), {words.begin() + 1, words.end()});
+}
 
 // The files of the scene beside it, which have to be there, too.
 void add_scene_files(SplitCommand& split, const SceneSource& scene) {
@@ -122,10 +102,9 @@ ods::TaskGroup split_group(const SplitCommand& split, const std::string& name, W
 
 // --- the commands ---------------------------------------------------------------------------------------------------
 
-Split split_video(const Words& words) {
-  VideoJob job;
-  Arguments arguments(words);
-  if (!read_video_job(job, arguments.count(), arguments.words())) return std::nullopt;
+SplitCommand split_video(const Words& words) {
+  Options options = options_of(words);
+  const VideoJob job = settled(parse_video(options));
   std::vector<GivenWord> given = job.render.given;
   const bool has_rig = !job.rig.empty();
   SplitCommand split = begin(given);
@@ -134,7 +113,6 @@ Split split_video(const Words& words) {
   std::vector<int> frames;
   if (has_rig) {
     const ods::SlitRig rig = open_rig(job.rig);
-    if (!job.render.has_layout) job.render.save.layout = rig.layout;
     const ods::VideoPlan plan = expect_video(job.render.save.layout, rig.eyes.size(), rig.eye, rig.camera.projection);
     encode_options(job.video, plan.size, 0);
     settings = stitch_settings(job.rig, given.front().value, job.render.save);
@@ -210,11 +188,10 @@ void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const
       without(without(given, kByFarm), {"-o", "--parts", "--layout", "--denoise", "--sidecar", "--keep-parts"});
   of_part.push_back({"-o", pattern});
   const Words render = command_words("render", of_part, {"--skip-existing"});
-  RenderJob checked;
   Words first = render;
   first.insert(first.end(), {"--part", fmt::format("1/{}", job.parts)});
-  Arguments arguments(first);
-  read_render_job(checked, arguments.count(), arguments.words());  // throws what the tasks would
+  Options options = options_of(first);
+  const RenderJob checked = settled(parse_render(options));  // throws what the tasks would
   const ods::FrameNames names = *ods::frame_names(pattern);
   split.restart = job.restart;
   if (job.restart) {
@@ -242,10 +219,9 @@ void split_views(SplitCommand& split, const std::vector<GivenWord>& given, const
                               "--only", split.output)};
 }
 
-Split split_render(const Words& words) {
-  RenderJob job;
-  Arguments arguments(words);
-  if (!read_render_job(job, arguments.count(), arguments.words(), true)) return std::nullopt;
+SplitCommand split_render(const Words& words) {
+  Options options = options_of(words);
+  const RenderJob job = settled(parse_render(options));
   std::vector<GivenWord> given = job.given;
   SplitCommand split = begin(given);
   add_scene_files(split, job.scene);
@@ -270,10 +246,9 @@ Split split_render(const Words& words) {
   return split;
 }
 
-Split split_stitch(const Words& words) {
-  StitchJob job;
-  Arguments arguments(words);
-  if (!read_stitch_job(job, arguments.count(), arguments.words())) return std::nullopt;
+SplitCommand split_stitch(const Words& words) {
+  Options options = options_of(words);
+  const StitchJob job = parse_stitch(options);
   if (job.frames.empty()) throw UsageError("one picture has nothing to split: --frames stitches many");
   std::vector<GivenWord> given = job.given;
   SplitCommand split = begin(given);
@@ -291,7 +266,7 @@ Split split_stitch(const Words& words) {
 
 struct Splitter {
   std::string_view name;
-  Split (*split)(const Words& words);
+  SplitCommand (*split)(const Words& words);
 };
 
 constexpr Splitter kSplitters[] = {{"video", split_video}, {"render", split_render}, {"stitch", split_stitch}};
@@ -300,15 +275,12 @@ constexpr Splitter kSplitters[] = {{"video", split_video}, {"render", split_rend
 
 struct OtherCommand {
   std::string_view name;
-  int (*run)(int argc, char** argv);
   std::optional<size_t> frames = std::nullopt;  // the argument whose frames become those of the output, one by one
   bool in_place = false;                        // without -o it changes its input
 };
 
 constexpr OtherCommand kOthers[] = {
-    {"convert", ods_convert, 0}, {"over", ods_over, 1},  {"denoise", ods_denoise},
-    {"merge", ods_merge},        {"encode", ods_encode}, {"inject", ods_inject, {}, true},
-    {"lint", ods_lint},
+    {"convert", 0}, {"over", 1}, {"denoise"}, {"merge"}, {"encode"}, {"inject", {}, true}, {"lint"},
 };
 
 std::vector<int> frames_of(const std::string& pattern, const std::vector<GivenWord>& given) {
@@ -316,11 +288,9 @@ std::vector<int> frames_of(const std::string& pattern, const std::vector<GivenWo
   return range == given.end() ? ods::frames_on_disk(*ods::frame_names(pattern)) : ods::parse_frames(range->value);
 }
 
-Split split_other(const OtherCommand& command, const Words& words) {
-  Arguments arguments(words);
-  const auto read = checked_words([&] { command.run(arguments.count(), arguments.words()); });
-  if (!read) return std::nullopt;
-  std::vector<GivenWord> given = *read;
+SplitCommand split_other(const OtherCommand& command, const Words& words) {
+  Options options = options_of(words);
+  std::vector<GivenWord> given = find_command(command.name)->parse(options).given;
   SplitCommand split = begin(given);
   split.memory = (size_t{2} << 30) + 8 * bytes_of_files(split);
   const std::string name(command.name);
@@ -342,7 +312,7 @@ Split split_other(const OtherCommand& command, const Words& words) {
 
 }  // namespace
 
-Split split_command(const Words& words) {
+SplitCommand split_command(const Words& words) {
   if (words.empty()) throw UsageError("no command: write it after --, as in: ods submit --to slurm -- video ...");
   for (const Splitter& each : kSplitters) {
     if (words.front() == each.name) return each.split(words);
@@ -352,6 +322,6 @@ Split split_command(const Words& words) {
   }
   std::vector<std::string> names = ods::names_of(kSplitters);
   std::ranges::copy(ods::names_of(kOthers), std::back_inserter(names));
-  throw UsageError(fmt::format("a farm's job is one of {}; '{}' is none{}", fmt::join(names, ", "), words.front(),
+  throw UsageError(fmt::format("'{}' cannot run on a farm; choose one of {}{}", words.front(), fmt::join(names, ", "),
                                ods::did_you_mean(words.front(), names)));
 }

@@ -32,6 +32,6 @@ struct SplitCommand {
   std::function<void()> prepare = [] {};  // what has to be on the disk before the first task starts
 };
 
-// Nothing if help was requested. words: "video", "scene.glb", "-o", ... Throws UsageError for a command that cannot be
-// split, and what the command itself throws for bad options and files.
-std::optional<SplitCommand> split_command(const std::vector<std::string>& words);
+// words: "video", "scene.glb", "-o", ... Throws UsageError for a command that cannot be split, and what the command's
+// parse() throws.
+SplitCommand split_command(const std::vector<std::string>& words);

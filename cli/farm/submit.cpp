@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/programs.h"
 #include "cli/farm/copy_inputs.h"
@@ -71,33 +72,30 @@ void send(const ods::FarmPlan& plan) {
   note(fmt::format("ods jobs {} --follow shows its progress", ods::shell_word(plan.name)));
 }
 
-void submit(int argc, char** argv) {
-  SubmitJob job;
-  if (!read_submit_job(job, argc, argv)) return;
-  std::optional<SplitCommand> split = split_command(job.command);
-  if (!split) return;
+void submit(const SubmitJob& job) {
+  SplitCommand split = split_command(job.command);
   const ods::SchedulerRow& scheduler = ods::row_in(ods::kSchedulerTable, *job.to);
   const bool is_slurm = scheduler.member == ods::Scheduler::kSlurm;
   FileCopies copies;
-  if (job.copies) copies = move_inputs(*split, make_plan(job, *split).folder);
-  ods::FarmPlan plan = make_plan(job, *split);
+  if (job.copies) copies = move_inputs(split, make_plan(job, split).folder);
+  ods::FarmPlan plan = make_plan(job, split);
   ods::check_quotable(plan);
   ods::check_writable(plan.folder + "/plan.json");
   scheduler.write(plan, job.wishes);  // throws for what it cannot be told
   if (is_slurm && !job.dry) check_idle(plan);
-  if (!job.dry && !split->restart && is_finished(plan, *split)) {
-    return note(fmt::format("'{}' is finished: there is nothing to do; remove it to make it again", split->output));
+  if (!job.dry && !split.restart && is_finished(plan, split)) {
+    return note(fmt::format("'{}' is finished: there is nothing to do; remove it to make it again", split.output));
   }
   if (!job.dry) {
     copy_files(copies);
-    split->prepare();
+    split.prepare();
   }
-  count_tasks(job, *split, plan);
+  count_tasks(job, split, plan);
   ods::SchedulerWishes wishes = job.wishes;
   if (is_slurm) ask_slurm(job, plan, wishes);
   std::vector<ods::FarmFile> files = scheduler.write(plan, wishes);
   files.insert(files.begin(), {"plan.json", ods::write_plan(plan)});
-  say_job(plan, *split);
+  say_job(plan, split);
   if (job.dry) return print(files, plan);
   write(files, plan);
   if (is_slurm) return send(plan);
@@ -107,6 +105,5 @@ void submit(int argc, char** argv) {
 
 }  // namespace
 
-int ods_submit(int argc, char** argv) {
-  return run_command([=] { submit(argc, argv); });
-}
+extern const Command kSubmit =
+    make_command<parse_submit, submit>("submit", "send a command to a render farm, split into tasks");

@@ -22,8 +22,7 @@ struct SubmitJob {
   std::vector<std::string> command;
 };
 
-// False if help was requested. Throws UsageError.
-bool read_submit_job(SubmitJob& job, int argc, char** argv);
+SubmitJob parse_submit(Options& options);
 
 // The plan for the scheduler: the folder, and everything but the number of tasks of the first group.
 ods::FarmPlan make_plan(const SubmitJob& job, const SplitCommand& split);

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/lint/compare_report.h"
 #include "cli/options/picture_options.h"
@@ -41,8 +42,9 @@ struct CompareJob {
   std::optional<float> max_rmse, min_psnr, max_error;
 };
 
-bool read_options(CompareJob& job, int argc, char** argv) {
-  Options options("compare", kCompareSummary, kCompareExamples);
+CompareJob parse_compare(Options& options) {
+  CompareJob job;
+  options.describe(kCompareSummary, kCompareExamples);
   options.argument(ValueKind::input_file("A"), job.a, "a picture; %V in the name: one file per eye");
   options.argument(ValueKind::input_file("B"), job.b, "a picture of the same size; its layout may differ");
   add_input_layout_option(options, job.layout, "layout of both files, if it is not detected");
@@ -56,7 +58,8 @@ bool read_options(CompareJob& job, int argc, char** argv) {
   options.group("Console");
   options.flag("--json", job.json, "print JSON");
   add_console_options(options);
-  return options.parse(argc, argv);
+  options.parse();
+  return job;
 }
 
 void encode(LoadedEyes& file) {
@@ -129,9 +132,7 @@ void check_limits(const CompareJob& job, const ods::Errors& whole) {
   if (limited && whole.not_finite > 0) fail(fmt::format("{} pixels are NaN or infinite", whole.not_finite));
 }
 
-void run_compare(int argc, char** argv) {
-  CompareJob job;
-  if (!read_options(job, argc, argv)) return;
+void run_compare(const CompareJob& job) {
   for (const std::string& input : {job.a, job.b}) refuse_overwriting(job.difference, input);
   const CompareReport report = compare(job);
   job.json ? print_json(report) : print_text(report);
@@ -141,6 +142,5 @@ void run_compare(int argc, char** argv) {
 
 }  // namespace
 
-int ods_compare(int argc, char** argv) {
-  return run_command([=] { run_compare(argc, argv); });
-}
+extern const Command kCompare =
+    make_command<parse_compare, run_compare>("compare", "measure the difference between two pictures");

@@ -5,7 +5,7 @@
 #pragma once
 #include "cli/options/camera_options.h"
 
-void add_camera_preset_option(Options& options, CameraOptions& camera);
+void add_camera_preset_option(Options& options, CameraChanges& changes);
 // add_circle_options() adds the options of the viewing circle: distance, merges, convergence, neck. add_eye_options()
 // adds them and the rest.
 void add_circle_options(Options& options, CameraOptions& camera);
@@ -19,5 +19,9 @@ std::string merge_curve_text(const ods::Image& merge_map);
 // Of a merge that follows from depth, for a note.
 std::string merge_by_depth_text(const ods::Image& merge_map);
 
-// Reads the pictures that --merge-map and --head-tilt-map name. Throws UsageError and ods::Error.
-void finish_eye_options(CameraOptions& camera);
+// The camera with the changes, except for its maps. Throws UsageError if the options do not fit together.
+ods::StereoCamera changed(ods::StereoCamera camera, const CameraChanges& changes);
+
+// Reads the pictures that --merge-map and --head-tilt-map name into a camera with the changes. Throws UsageError and
+// ods::Error.
+void read_maps(const CameraChanges& changes, ods::StereoCamera& camera);

@@ -3,15 +3,31 @@
 //
 // The options that state a picture's projection, shared by the commands that make or read one.
 #pragma once
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/console/options.h"
 #include "ods/camera/projection.h"
 #include "ods/picture/metadata/stereo_format.h"
 
+// The options that change a projection; what is absent stays as it is.
+struct ProjectionChanges {
+  std::optional<ods::ProjectionSetting> named;  // by --projection
+  std::optional<ods::ProjectionSetting> face;   // by --face: perspective, with its direction
+  std::optional<std::vector<float>> range;      // --range: 2 or 4 numbers
+  std::optional<float> fov;
+  std::optional<std::vector<float>> polynomial;  // --lens-polynomial
+  std::optional<ods::vec2> sensor;
+  std::optional<ods::vec2> direction;  // --lens-direction: pan and tilt
+  bool any() const { return named || face || range || fov || polynomial || sensor || direction; }
+};
+
 // option: the name of the one that names the projection.
-void add_projection_options(Options& options, ods::ProjectionSetting& projection,
-                            const std::string& option = "--projection");
+void add_projection_options(Options& options, ProjectionChanges& changes, const std::string& option = "--projection");
+
+// Throws UsageError for an option that the resulting projection does not have.
+ods::ProjectionSetting changed(ods::ProjectionSetting projection, const ProjectionChanges& changes);
 
 // Throws UsageError, whose message says that `option` was given the name.
 ods::ProjectionSetting projection_by_name(const std::string& option, const std::string& name);

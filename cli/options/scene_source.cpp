@@ -64,18 +64,12 @@ static void add_blender_options(Options& options, SceneSource& source) {
   options.number("--blender-limit", source.blender.seconds, 0.1f, 1e6f, "the seconds that Blender may take");
 }
 
-void add_scene_argument(Options& options, SceneSource& source,
-                        const std::function<void(const ForeignScene&)>& foreign) {
+void add_scene_argument(Options& options, SceneSource& source) {
   options.group("Scene");
   add_blender_options(options, source);
   add_confine_option(options, source);
   options.argument(
-      scene_kind(),
-      [&source, foreign](const std::string& name) {
-        source.name = name;
-        read_foreign(source);
-        if (source.foreign && foreign) foreign(*source.foreign);
-      },
+      scene_kind(), source.name,
       "a .glb or .gltf file, a .blend file or another that Blender reads (.fbx, .obj, .usd, ...), or a built-in scene "
       "(ods scenes lists them)");
   options.offer("SCENE", ods::names_of(ods::builtin_scenes()));

@@ -58,7 +58,7 @@ void add_time_options(Options& options, TimeOptions& time) {
   options.text("--only", "LIST|I/N", time.only,
                "make only these frames, or the I-th of N shares of them, as one of several processes; exposure and "
                "denoising still consider all frames");
-  options.number("--fps", time.fps, 0.01f, 1000.0f, "frames per second");
+  options.number("--fps", time.asked_fps, 0.01f, 1000.0f, "frames per second", "30");
   options.number("--duration", time.duration, 0.01f, 1e6f,
                  "length of the video and of camera moves, seconds; by default the animation's length, or 10");
   options.custom(

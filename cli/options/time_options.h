@@ -31,7 +31,8 @@ struct TimeOptions {
   std::string animation;      // empty: what ods::play() chooses
   std::string frames;         // empty or "all": the whole duration
   std::string only;           // those of the frames that this process makes, or its share, "3/8"; empty: all
-  float fps = 30.0f;
+  std::optional<float> asked_fps;  // --fps
+  float fps = 30.0f;               // that, or the converted scene's, or this
   std::optional<float> duration;  // seconds; of a video, or of the camera's move
   ods::CameraMove move;
   float shutter = 0.0f;        // shutter angle, degrees: 360 is the time between two frames

@@ -100,8 +100,8 @@ Exposures choose_exposure(const RenderJob& job, const ods::Scene& scene, ods::Fr
 }
 
 void settle_merge(RenderJob& job, ods::FrameRenderer& renderer, const std::vector<ods::SequenceFrame>& all) {
-  if (!job.camera.merge_limit) return;
-  ods::Image map = ods::comfortable_merge(renderer, all, *job.camera.merge_limit);
+  if (!job.camera.changes.merge_limit) return;
+  ods::Image map = ods::comfortable_merge(renderer, all, *job.camera.changes.merge_limit);
   note(merge_by_depth_text(map));
   ods::use_merge_map(job.camera.stereo, std::move(map));
 }
@@ -117,7 +117,7 @@ void warn_of_strain(const RenderJob& job, ods::FrameRenderer& renderer, const st
     const std::string line =
         strain_line(renderer.renderer(), renderer.scene(), shot.camera(), ods::ComfortLevel::kError);
     if (line.empty()) continue;
-    return warn(line + (job.camera.merge_limit ? "" : ", or --merge auto or a smaller --ipd") +
+    return warn(line + (job.camera.changes.merge_limit ? "" : ", or --merge auto or a smaller --ipd") +
                 "; ods comfort has more");
   }
 }

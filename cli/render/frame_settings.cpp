@@ -107,8 +107,9 @@ bool is_of_place(std::string_view setting) {
 }
 
 void add_camera(Settings& settings, const CameraOptions& camera) {
-  const auto& [rig, merge_map, merge_map_inverted, may_follow_depth, merge_limit, head_tilt_map, view_point, position,
-               yaw, pitch, roll] = camera;
+  const auto& [changes, rig, may_follow_depth, file, view_point, position, yaw, pitch, roll] = camera;
+  const std::string &merge_map = changes.merge_map, &head_tilt_map = changes.head_tilt_map;
+  const std::optional<float> merge_limit = changes.merge_limit;
   const auto chosen = [](const std::optional<float>& angle, const char* fallback) {
     return angle ? fmt::format("{}", *angle) : fallback;
   };
@@ -132,7 +133,7 @@ void add_camera(Settings& settings, const CameraOptions& camera) {
 }
 
 void add_time(Settings& settings, const TimeOptions& options) {
-  const auto& [time, animation, frames, only, fps, duration, move, shutter, own_grain, skip_existing, is_video] =
+  const auto& [time, animation, frames, only, asked_fps, fps, duration, move, shutter, own_grain, skip_existing, is_video] =
       options;
   const auto& [seconds, turns, pivot, fly_to] = move;
   add(settings, "--time", time ? fmt::format("{}", *time) : "0");

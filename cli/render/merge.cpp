@@ -8,6 +8,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/render/library_options.h"
@@ -38,8 +39,9 @@ void remove_parts(const MergeJob& job) {
   if (together) fs::remove(merged, error);  // if nothing else is in it
 }
 
-void merge_and_save(MergeJob& job, ProgressLines& lines) {
+void merge_and_save(const MergeOptions& given, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
+  MergeJob job = open_parts(given);
   const auto report = [&](double done) {
     lines.report(0.9 * done, seconds_since(start), {"merge", 0, 0, job.render.output});
   };
@@ -48,18 +50,16 @@ void merge_and_save(MergeJob& job, ProgressLines& lines) {
   lines.report(1.0, seconds_since(start), {"merge", 0, 0, job.render.output});
   lines.clear();
   for (const std::string& file : files) announce_file(file);
-  if (job.remove_parts) remove_parts(job);
+  if (given.remove_parts) remove_parts(job);
 }
 
-void merge(int argc, char** argv) {
-  MergeJob job;
-  if (!read_merge_job(job, argc, argv)) return;
-  run_long_job(job.render.progress, job.render.render.threads,
-               [&](ProgressLines& lines) { merge_and_save(job, lines); });
+void merge(const MergeOptions& given) {
+  if (are_merged(given)) return note(fmt::format("'{}' exists already, and its parts are gone", given.render.output));
+  run_long_job(given.render.progress, given.render.render.threads,
+               [&](ProgressLines& lines) { merge_and_save(given, lines); });
 }
 
 }  // namespace
 
-int ods_merge(int argc, char** argv) {
-  return run_command([=] { merge(argc, argv); });
-}
+extern const Command kMerge =
+    make_command<parse_merge, merge>("merge", "merge the parts of a picture that several machines rendered");

@@ -20,14 +20,15 @@ struct QualityPreset {
   bool exact;  // no light cache, no straight caustics
 };
 
-// The preset, and the options that take precedence over it besides --width and --noise.
+// The preset, and the options that override it besides --width.
 struct Quality {
   QualityPreset preset;
   std::optional<int> samples;
+  std::optional<float> noise;
   std::optional<ods::Indirect> indirect;
   std::optional<ods::Caustics> caustics;
 };
 
-// Options in a group of their own, and what remains to be done after parsing.
-void add_quality_options(Options& options, RenderJob& job, Quality& quality);
-void finish_quality(const Options& options, const Quality& quality, RenderJob& job);
+// Adds the options in a group of their own. finish_quality() sets what they and the preset say in job.render.
+void add_quality_options(Options& options, RenderJob& job);
+void finish_quality(RenderJob& job);

@@ -8,6 +8,7 @@
 
 #include "cli/console/progress.h"
 #include "cli/options/camera_options.h"
+#include "cli/options/picture_options.h"
 #include "cli/options/scene_source.h"
 #include "cli/options/time_options.h"
 #include "cli/render/quality.h"
@@ -19,12 +20,13 @@ struct RenderJob {
   SceneSource scene;
   CameraOptions camera;
   TimeOptions time;
-  ods::RenderOptions render;
-  ods::SaveOptions save;
+  Quality quality;
+  PictureForm form;
+  ods::RenderOptions render;  // its size and eyes after settled()
+  ods::SaveOptions save;      // its layout after settled()
   std::optional<ods::Denoiser> denoise;  // none: for all files but those that keep the scene's light
   std::optional<float> exposure;         // stops; none: FrameRenderer::find_exposure() chooses
   float brighter = 0.0f;                 // stops, added to what it chooses
-  bool has_layout = false;               // given by an option
   bool object_layer = false;             // an .exr gets the names of what its pixels show
   std::string output;
   std::string rig;                // a slit rig: render its views instead of the camera's picture
@@ -49,15 +51,14 @@ void add_exposure_option(Options& options, RenderJob& job);
 // The exposure with --brighter, within what --exposure takes: rounded, so that printed it is the same number.
 float brightened(float exposure, float brighter);
 
-// What a scene of another program says of camera and time: the default of the options.
-void take_foreign(RenderJob& job, const ForeignScene& scene);
-
-// What remains to be done after parsing, for ods video, too.
-void finish_render_job(const Options& options, const Quality& quality, RenderJob& job);
+// The part of parsing that ods video shares.
+void finish_render_options(Options& options, RenderJob& job);
 
 // Adds --wait SECONDS.
 void add_wait_option(Options& options, float& seconds, const char* noun);
 
-// False if help was requested. for_farm: ods submit reads the line, which may have --parts. Throws UsageError and
-// ods::Error.
-bool read_render_job(RenderJob& job, int argc, char** argv, bool for_farm = false);
+RenderJob parse_render(Options& options);
+
+// The job with what depends on files: has a scene of another program converted, whose camera and frame rate are the
+// defaults, reads the camera's file and maps, and finds size and layout. Throws UsageError and ods::Error.
+RenderJob settled(RenderJob job);

@@ -5,6 +5,7 @@
 #include "ods/scene/info.h"
 
 #include "cli/comfort/first_look.h"
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/options/camera_options.h"
 #include "cli/options/scene_source.h"
@@ -20,20 +21,30 @@ constexpr const char* kInfoExamples =
     "  ods info scene.glb --position 0,1.6,0      the nearest surface from there\n"
     "  ods info scene.glb --json";
 
-void info(int argc, char** argv) {
+struct InfoJob {
   SceneSource source;
   CameraOptions camera;
   bool json = false;
-  Options options("info", "Shows what is in a scene, and which parts of it are not rendered.", kInfoExamples);
-  add_scene_argument(options, source);
-  add_place_options(options, camera);
+};
+
+InfoJob parse_info(Options& options) {
+  InfoJob job;
+  options.describe("Shows what is in a scene, and which parts of it are not rendered.", kInfoExamples);
+  add_scene_argument(options, job.source);
+  add_place_options(options, job.camera);
   options.group("Console");
-  options.flag("--json", json, "print JSON");
+  options.flag("--json", job.json, "print JSON");
   add_console_options(options);
-  if (!options.parse(argc, argv)) return;
+  options.parse();
+  job.source.has_places = job.camera.position.has_value();
+  job.source.camera = job.camera.view_point;
+  return job;
+}
+
+void show_info(const InfoJob& job) {
   console.quiet = true;  // notes would repeat the result
-  source.has_places = camera.position.has_value();
-  source.camera = camera.view_point;
+  SceneSource source = job.source;
+  const CameraOptions& camera = job.camera;
   const ods::LightWishes wishes = wishes_for(source, false);
   SceneFindings found;
   const ods::Scene scene =
@@ -52,11 +63,9 @@ void info(int argc, char** argv) {
   for (std::string& loss : info.losses) loss = with_options(loss);
   for (std::string& warning : info.warnings) warning = with_options(warning);
   for (ods::UsedExtension& extension : info.extensions) extension.how = with_options(extension.how);
-  json ? print_json(info, found, position) : print_text(info, found, position);
+  job.json ? print_json(info, found, position) : print_text(info, found, position);
 }
 
 }  // namespace
 
-int ods_info(int argc, char** argv) {
-  return run_command([=] { info(argc, argv); });
-}
+extern const Command kInfo = make_command<parse_info, show_info>("info", "show what is in a scene");

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <iostream>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
@@ -43,14 +44,11 @@ void run(const StitchJob& job, ProgressLines& lines) {
   lines.clear();
 }
 
-void stitch(int argc, char** argv) {
-  StitchJob job;
-  if (!read_stitch_job(job, argc, argv)) return;
+void stitch(const StitchJob& job) {
   run_long_job(job.progress, job.threads, [&](ProgressLines& lines) { run(job, lines); });
 }
 
 }  // namespace
 
-int ods_stitch(int argc, char** argv) {
-  return run_command([=] { stitch(argc, argv); });
-}
+extern const Command kStitch =
+    make_command<parse_stitch, stitch>("stitch", "combine the views of those cameras into a picture");

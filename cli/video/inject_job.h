@@ -19,6 +19,7 @@ struct InjectJob {
   std::optional<int> track;  // of a video
   bool ambisonics = false;   // videos only
   bool for_apple = false;    // videos only
+  ProgressMode progress = ProgressMode::kAuto;
 };
 
 // Both throw UsageError, and what the library throws.

@@ -6,6 +6,7 @@
 
 #include <chrono>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/render/frame_settings.h"
@@ -38,7 +39,6 @@ void make_video(VideoJob job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
   const RenderJob& render = job.render;
   const std::optional<ods::SlitRig> rig = job.rig.empty() ? std::nullopt : std::optional(open_rig(job.rig));
-  if (rig && !render.has_layout) job.render.save.layout = rig->layout;
   const ods::VideoPlan expected =
       rig ? expect_video(render.save.layout, rig->eyes.size(), rig->eye, rig->camera.projection)
           : expect_video(render.save.layout, ods::eye_list(render.render.eyes).size(),
@@ -80,14 +80,11 @@ void make_video(VideoJob job, ProgressLines& lines) {
   if (job.keep_frames) note(fmt::format("the frames are in {}", journal.folder()));
 }
 
-void video(int argc, char** argv) {
-  VideoJob job;
-  if (!read_video_job(job, argc, argv)) return;
+void video(const VideoJob& given) {
+  const VideoJob job = settled(given);
   run_long_job(job.render.progress, job.render.render.threads, [&](ProgressLines& lines) { make_video(job, lines); });
 }
 
 }  // namespace
 
-int ods_video(int argc, char** argv) {
-  return run_command([=] { video(argc, argv); });
-}
+extern const Command kVideo = make_command<parse_video, video>("video", "render a scene as a stereo 360 video");

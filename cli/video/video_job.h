@@ -16,5 +16,7 @@ struct VideoJob {
   bool keep_frames = false, restart = false;
 };
 
-// False if help was requested. Throws UsageError and ods::Error.
-bool read_video_job(VideoJob& job, int argc, char** argv);
+VideoJob parse_video(Options& options);
+
+// The job with what depends on files, as settled() of RenderJob.
+VideoJob settled(VideoJob job);

@@ -131,7 +131,7 @@ Studio::Studio(const SceneSource& source, std::function<size_t(const std::string
 Studio::Settings Studio::suiting(const SceneSource& source, const ods::Scene& scene) {
   Settings settings;
   CameraOptions camera;
-  if (source.foreign) take_camera(camera, *source.foreign);
+  take_base(camera, source.foreign, source.blender);
   settings.sidecar.camera = shortened(place_camera(camera, scene));
   settings.live.camera = settings.sidecar.camera;
   const bool needs_none = ods::find_builtin(source.name) || scene.as_painted;

@@ -6,6 +6,7 @@
 
 #include <cstdio>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
 #include "cli/http/certificate.h"
@@ -86,13 +87,13 @@ void serve(const ViewJob& job) {
   server->run();
 }
 
+void view(ViewJob job) {
+  find_scene(job);
+  if (job.folder.empty()) return serve(job);
+  announce_file(export_site(open_items(job), job.folder));
+}
+
 }  // namespace
 
-int ods_view(int argc, char** argv) {
-  return run_command([=] {
-    ViewJob job;
-    if (!read_view_job(job, argc, argv)) return;
-    if (job.folder.empty()) return serve(job);
-    announce_file(export_site(open_items(job), job.folder));
-  });
-}
+extern const Command kView =
+    make_command<parse_view, view>("view", "show pictures and videos in the browser and in the headset");

@@ -27,11 +27,16 @@ enum class CameraTarget {
   kNumbers,  // for users and spreadsheets
 };
 
-// povray, povray-fork, blender, ...
-inline constexpr NameRow<CameraTarget> kCameraTargetTable[] = {
-    {CameraTarget::kPovray, "povray"},   {CameraTarget::kPovrayFork, "povray-fork"},
-    {CameraTarget::kBlender, "blender"}, {CameraTarget::kOsl, "osl"},
-    {CameraTarget::kArnold, "arnold"},   {CameraTarget::kMtoa, "mtoa"},
+struct CameraTargetRow {
+  CameraTarget member;
+  std::string_view name;
+  bool tested = true;  // in the program itself
+};
+
+inline constexpr CameraTargetRow kCameraTargetTable[] = {
+    {CameraTarget::kPovray, "povray"},   {CameraTarget::kPovrayFork, "povray-fork", false},
+    {CameraTarget::kBlender, "blender"}, {CameraTarget::kOsl, "osl", false},
+    {CameraTarget::kArnold, "arnold", false}, {CameraTarget::kMtoa, "mtoa", false},
     {CameraTarget::kGlsl, "glsl"},       {CameraTarget::kHlsl, "hlsl"},
     {CameraTarget::kPython, "python"},   {CameraTarget::kJson, "json"},
     {CameraTarget::kNumbers, "numbers"},

@@ -27,11 +27,16 @@ enum class RigTarget {
   kCsv,      // for spreadsheets and unknown programs: one line per view
 };
 
-// blender, povray, three, usd, ...
-inline constexpr NameRow<RigTarget> kRigTargetTable[] = {
-    {RigTarget::kBlender, "blender"}, {RigTarget::kPovray, "povray"}, {RigTarget::kThree, "three"},
-    {RigTarget::kUsd, "usd"},         {RigTarget::kGltf, "gltf"},     {RigTarget::kUnity, "unity"},
-    {RigTarget::kUnreal, "unreal"},   {RigTarget::kCsv, "csv"},
+struct RigTargetRow {
+  RigTarget member;
+  std::string_view name;
+  bool tested = true;  // in the program itself
+};
+
+inline constexpr RigTargetRow kRigTargetTable[] = {
+    {RigTarget::kBlender, "blender"},  {RigTarget::kPovray, "povray"}, {RigTarget::kThree, "three"},
+    {RigTarget::kUsd, "usd", false},   {RigTarget::kGltf, "gltf"},     {RigTarget::kUnity, "unity", false},
+    {RigTarget::kUnreal, "unreal", false}, {RigTarget::kCsv, "csv"},
 };
 static_assert(has_every_member(kRigTargetTable));
 inline constexpr auto kRigTargets = members_of(kRigTargetTable);

@@ -36,12 +36,12 @@ class CliConvert : public Cli {
 TEST_F(CliConvert, ToOtherProjectionsAndBack) {
   const std::string room = make("room.exr");
   for (const std::string name : {"cube-3x2", "vr180", "fisheye"}) {
-    ASSERT_EQ(convert(room, name + ".exr", "--to " + name), 0) << err;
+    ASSERT_EQ(convert(room, name + ".exr", "--to-projection " + name), 0) << err;
     const ods::StoredPicture made = open(name + ".exr");
     EXPECT_EQ(ods::projection_name(made.camera.projection), name);
     EXPECT_EQ(made.eyes.size(), 2u);
     EXPECT_EQ(made.eyes[0].layers.size(), 4u) << name;  // light, Z, N, albedo
-    EXPECT_EQ(convert(folder.path(name + ".exr"), "back.png", "-q --to lat-long --width 32"), 0) << err;
+    EXPECT_EQ(convert(folder.path(name + ".exr"), "back.png", "-q --to-projection lat-long --width 32"), 0) << err;
     EXPECT_EQ(err, "");
   }
 }
@@ -58,7 +58,7 @@ TEST_F(CliConvert, MonoIsALayoutOfWhatIsRead) {
 
 TEST_F(CliConvert, WhatIsNotGivenStays) {
   const std::string room = make("room.exr", "--layout bottom-top --yaw 30 --merge cosine,50,80 --ipd 0.07");
-  ASSERT_EQ(convert(room, "cubes.exr", "--to cube-6x1 --yaw 15 --sidecar"), 0) << err;
+  ASSERT_EQ(convert(room, "cubes.exr", "--to-projection cube-6x1 --yaw 15 --sidecar"), 0) << err;
   EXPECT_NE(out.find("cubes.camera.json"), std::string::npos) << out;
   const ods::StoredPicture made = open("cubes.exr");
   EXPECT_EQ(made.layout, ods::Layout::kBottomTop);
@@ -71,18 +71,18 @@ TEST_F(CliConvert, WhatIsNotGivenStays) {
 
 TEST_F(CliConvert, Vr180LiesSideBySideUnlessTold) {
   const std::string room = make("room.exr", "--layout bottom-top");
-  ASSERT_EQ(convert(room, "half.exr", "--to vr180"), 0) << err;
+  ASSERT_EQ(convert(room, "half.exr", "--to-projection vr180"), 0) << err;
   EXPECT_EQ(open("half.exr").layout, ods::Layout::kSideBySide);
-  ASSERT_EQ(convert(folder.path("half.exr"), "whole.exr", "--to lat-long --width 32"), 0) << err;
+  ASSERT_EQ(convert(folder.path("half.exr"), "whole.exr", "--to-projection lat-long --width 32"), 0) << err;
   EXPECT_EQ(open("whole.exr").layout, ods::Layout::kTopBottom);
-  ASSERT_EQ(convert(room, "told.exr", "--to vr180 --to-layout bottom-top"), 0) << err;
+  ASSERT_EQ(convert(room, "told.exr", "--to-projection vr180 --to-layout bottom-top"), 0) << err;
   EXPECT_EQ(open("told.exr").layout, ods::Layout::kBottomTop);
   ASSERT_EQ(run("camera --projection vr180 --width 64"), 0) << err;
   const std::string sidecar = folder.path("a.camera.json");
   ASSERT_EQ(run("camera --for json --projection vr180 --width 64 -o " + sidecar), 0) << err;
   std::vector<std::string> warnings;
   EXPECT_EQ(ods::load_sidecar(sidecar, warnings).layout, ods::Layout::kSideBySide);
-  ASSERT_EQ(run("camera --for json --from " + sidecar + " --yaw 20 -o " + sidecar), 0) << err;
+  ASSERT_EQ(run("camera --for json --camera-file " + sidecar + " --yaw 20 -o " + sidecar), 0) << err;
   EXPECT_EQ(ods::load_sidecar(sidecar, warnings).layout, ods::Layout::kSideBySide);
   ASSERT_EQ(run("camera --for json --projection vr180 --layout top-bottom --width 64 -o " + sidecar), 0) << err;
   EXPECT_EQ(ods::load_sidecar(sidecar, warnings).layout, ods::Layout::kTopBottom);
@@ -100,7 +100,7 @@ TEST_F(CliConvert, OptionsAreJudgedByThePicture) {
 
   const std::string half = make("half.png", "--projection vr180 --sidecar");
   std::filesystem::rename(folder.path("half.camera.json"), folder.path("other.json"));
-  EXPECT_EQ(convert(half, "whole.exr", "--camera " + folder.path("other.json")), 0) << err;
+  EXPECT_EQ(convert(half, "whole.exr", "--camera-file " + folder.path("other.json")), 0) << err;
   EXPECT_EQ(open("whole.exr").layout, ods::Layout::kSideBySide);
 }
 
@@ -158,7 +158,7 @@ TEST_F(CliConvert, GuessesAreReported) {
 
 TEST_F(CliConvert, EyesOfTheirOwn) {
   const std::string room = make("room.exr");
-  ASSERT_EQ(convert(room, "mono.png", "--mono --eyes right --pitch 20 --to perspective --fov 60 --width 20"), 0) << err;
+  ASSERT_EQ(convert(room, "mono.png", "--mono --eyes right --pitch 20 --to-projection perspective --fov 60 --width 20"), 0) << err;
   ASSERT_EQ(convert(room, "eye_%V.png"), 0) << err;
   EXPECT_TRUE(std::filesystem::exists(folder.path("eye_right.png")));
   ASSERT_EQ(convert(folder.path("eye_%V.png"), "both.png", "-q"), 0) << err;
@@ -227,10 +227,10 @@ TEST_F(CliConvert, RefusalsSayWhy) {
   const std::vector<std::vector<std::string>> cases = {
       {"--pitch 5", "yaw"},
       {"--ipd 0.1", ".exr"},
-      {"--to latlong", "did you mean 'lat-long'?"},
-      {"--to cube-3x2 --width 100", "multiple of 3"},
-      {"--to lat-long --fov 40", "--fov is for"},
-      {"--to fisheye --face up", "--face is for"},
+      {"--to-projection latlong", "did you mean 'lat-long'?"},
+      {"--to-projection cube-3x2 --width 100", "multiple of 3"},
+      {"--to-projection lat-long --fov 40", "--fov is for"},
+      {"--to-projection fisheye --face up", "--face is for"},
       {"--range 0,1e-20", "0.01 degrees"},
       {"--merge-map-inverted", "--merge-map FILE"},
       {"--height 40", "--width"},
@@ -283,7 +283,7 @@ TEST_F(CliConvert, OurCubesAreThoseOfV360InItsWords) {
       {"cube-1x6", 128, "c1x6", ":{0}forder=rlbfud:{0}frot=312002", 3},
       {"eac", 384, "eac", "", 9}};  // which it pads
   for (const auto& [name, across, v360, words, most] : kCubes) {
-    ASSERT_EQ(convert(folder.path("sphere_360.png"), "ours.png", fmt::format("-q --to {} --width {}", name, across)),
+    ASSERT_EQ(convert(folder.path("sphere_360.png"), "ours.png", fmt::format("-q --to-projection {} --width {}", name, across)),
               0);
     const ods::Extent size = open("ours.png").size;
     const auto with = [words = words](const char* side) { return fmt::format(fmt::runtime(words), side); };

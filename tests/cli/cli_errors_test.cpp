@@ -148,7 +148,7 @@ TEST_F(CliErrors, OfPicturesThatAreRead) {
           {"convert @p_TB.png -o @a.png --right-gain 1,0,1", kUsage, "--right-gain"},
           {"convert @p_TB.png -o @a.png --right-zoom 0", kUsage, "--right-zoom"},
           {"convert @p_TB.png -o @a.png --mono --eyes left --ipd 0.05 --right-roll 200", kUsage, "--right-roll"},
-          {"convert @p_TB.png -o @a.png --to nope", kUsage, "--to"},
+          {"convert @p_TB.png -o @a.png --to-projection nope", kUsage, "--to-projection"},
           {"denoise @absent.exr -o @a.exr", kInput, "absent.exr"},
           {"denoise @broken.png -o @a.exr", kInput, "broken.png"},
           {"denoise @p.exr -o @a.exr", kInput, "--statistics"},
@@ -168,10 +168,10 @@ TEST_F(CliErrors, OfPicturesThatAreRead) {
           {"over @p_TB.png @p_TB.png -o @a.png", kUsage, "alpha"},
           {"over @absent.png @p_TB.png -o @a.png", kInput, "absent.png"},
           {"over @p.exr @p.exr -o @a.mp4", kUsage, "a video output needs a video as background"},
-          {"camera --from @absent.json", kInput, "absent.json"},
+          {"camera --camera-file @absent.json", kInput, "absent.json"},
           {"render furnace -o @", kUsage, "it is a folder: add the name of a file"},
-          {"camera --from @empty.json", kInput, "empty.json"},
-          {"camera --from @broken.json", kInput, "broken.json"}});
+          {"camera --camera-file @empty.json", kInput, "empty.json"},
+          {"camera --camera-file @broken.json", kInput, "broken.json"}});
 }
 
 TEST_F(CliErrors, OfTitles) {

@@ -162,7 +162,7 @@ TEST_F(Cli, CamerasAtTheEndsOfTheirRangesComeBack) {
       const ods::Sidecar back = ods::load_sidecar(sidecar, warnings);
       camera.projection.aspect = back.camera.projection.aspect;
       EXPECT_EQ(back.camera, camera) << words;
-      ASSERT_EQ(run("camera --for json --from " + sidecar + " -o " + sidecar), 0) << err;
+      ASSERT_EQ(run("camera --for json --camera-file " + sidecar + " -o " + sidecar), 0) << err;
     }
   }
 }

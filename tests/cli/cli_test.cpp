@@ -18,24 +18,16 @@
 #include <thread>
 #include <vector>
 
+#include "cli/console/command.h"
 #include "tests/support/cli_runner.h"
 #include "tests/support/gltf_builder.h"
 
 namespace ods::cli_test {
 
 TEST_F(Cli, HelpStartsWithExamples) {
-  for (const char* words : {"--help",         "-h",
-                            "help",           "render --help",
-                            "info --help",    "camera --help",
-                            "project --help", "compare --help",
-                            "convert --help", "denoise --help",
-                            "lint --help",    "title --help",
-                            "over --help",    "sizes --help",
-                            "scenes --help",  "testcard --help",
-                            "video --help",   "encode --help",
-                            "rig --help",     "stitch --help",
-                            "probe --help",   "inject --help",
-                            "submit --help",  "jobs --help"}) {
+  std::vector<std::string> requests = {"--help", "-h", "help"};
+  for (const Command& command : commands()) requests.push_back(std::string(command.name) + " --help");
+  for (const std::string& words : requests) {
     EXPECT_EQ(run(words), 0) << words;
     EXPECT_EQ(err, "") << words;
     EXPECT_TRUE(out.find("Commands:") != std::string::npos || out.find("-q,--quiet") != std::string::npos) << words;
@@ -50,7 +42,7 @@ TEST_F(Cli, HelpStartsWithExamples) {
 TEST_F(Cli, HelpWinsWhereverItStands) {
   for (const char* words :
        {"convert absent.png --help", "convert absent.png -h", "convert -h absent.png", "convert absent.png -qh",
-        "camera --from absent.json --help", "camera --help --from absent.json", "convert --camera absent.json -h",
+        "camera --camera-file absent.json --help", "camera --help --camera-file absent.json", "convert --camera-file absent.json -h",
         "render furnace --width 0 --help", "render --progress loudly --help", "render --unknown -h",
         "render -h --width", "render furnace -o --help", "project x y --help"}) {
     EXPECT_EQ(run(words), 0) << words << "\n" << err;
@@ -404,10 +396,10 @@ TEST_F(Cli, WhatIsPrintedToAClosedStreamDoesNotEndInThePicture) {
 TEST_F(Cli, ASidecarStandsBesideItsPictureAndIsReadBack) {
   EXPECT_EQ(run(render("--sidecar --position 0,0,0.1 --yaw 30 --merge cosine,60,75")), 0) << err;
   EXPECT_EQ(out, folder.path("picture.png") + "\n" + folder.path("picture.camera.json") + "\n");
-  EXPECT_EQ(run("camera --for blender -q --from " + folder.path("picture.camera.json")), 0) << err;
+  EXPECT_EQ(run("camera --for blender -q --camera-file " + folder.path("picture.camera.json")), 0) << err;
   EXPECT_NE(out.find("pole_merge_angle_to = radians(75)"), std::string::npos) << out;
   EXPECT_NE(out.find("resolution_x = 16\n"), std::string::npos) << out;
-  EXPECT_EQ(run("camera --for json --yaw 40 --from " + folder.path("picture.camera.json")), 0) << err;
+  EXPECT_EQ(run("camera --for json --yaw 40 --camera-file " + folder.path("picture.camera.json")), 0) << err;
   EXPECT_NE(out.find("\"yaw\": 40.0"), std::string::npos) << "what is given goes before what the file says" << out;
 }
 
@@ -419,7 +411,7 @@ TEST_F(Cli, CamerasAreExportedOrRefusedInALine) {
   EXPECT_NE(err.find("not as asked"), std::string::npos) << err;
   EXPECT_NE(out.find("# Not as asked: Blender has no eye-to-neck"), std::string::npos) << out;
   folder.write("new.json", "{\"omnistereo_camera\": 7}");
-  EXPECT_EQ(run("camera --for json --from " + folder.path("new.json")), 3);
+  EXPECT_EQ(run("camera --for json --camera-file " + folder.path("new.json")), 3);
   EXPECT_NE(err.find("newer ods"), std::string::npos) << err;
   std::filesystem::remove(folder.path("new.json"));
   std::filesystem::remove(folder.path("camera.inc"));

@@ -281,7 +281,7 @@ const std::set<std::string> kOthers = {"--output",
                                        "--bake",
                                        "--blender",
                                        "--blender-limit",
-                                       "--camera-from"};
+                                       "--camera-file"};
 
 TEST_F(VideoOptions, EveryOptionIsOneOrTheOther) {
   ASSERT_EQ(run("video --help"), 0);

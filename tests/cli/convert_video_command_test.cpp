@@ -101,12 +101,12 @@ TEST_F(ConvertVideoCommand, StabilizingTurnsBack) {
 TEST_F(ConvertVideoCommand, FramesKeepTheirNumbersOrBecomeAVideo) {
   ods::made::write_frames(path("shot_360_TB.##.png"), {3, 4, 5, 6});
   const std::string shots = path("shot_360_TB.##.png");
-  ASSERT_EQ(convert(shots, "half_180_LR.##.png", "-q --to vr180 --frames 4-6x2"), 0) << err;
+  ASSERT_EQ(convert(shots, "half_180_LR.##.png", "-q --to-projection vr180 --frames 4-6x2"), 0) << err;
   EXPECT_NEAR(number_of("half_180_LR.04.png"), 4.0, 0.3);
   EXPECT_NEAR(number_of("half_180_LR.06.png"), 6.0, 0.3);
   EXPECT_FALSE(std::filesystem::exists(path("half_180_LR.05.png")));
 
-  ASSERT_EQ(convert(shots, "half_180_LR.mp4", "--to vr180 --fps 25 --codec h264"), 0) << err;
+  ASSERT_EQ(convert(shots, "half_180_LR.mp4", "--to-projection vr180 --fps 25 --codec h264"), 0) << err;
   EXPECT_NE(err.find("4 frames at 25 a second"), std::string::npos) << err;
   EXPECT_EQ(ods::read_video_file(path("half_180_LR.mp4")).tracks.size(), 1u);
 
@@ -190,13 +190,13 @@ TEST_F(KilledConversion, GoesOnAndGivesTheSameBytes) {
   const std::string film = make_long("film_360_TB.mp4");
   for (const std::string to : {"new_180_LR.mp4", "new_180_LR.mkv"}) {
     const std::string words = to.ends_with("mkv") ? " --codec hevc --preset ultrafast" : "";
-    ASSERT_EQ(run("convert " + film + " -q --to vr180 -o " + path(to) + words), 0) << err;
+    ASSERT_EQ(run("convert " + film + " -q --to-projection vr180 -o " + path(to) + words), 0) << err;
     const std::string whole = folder.read(to);
     std::filesystem::remove(path(to));
-    std::vector<std::string> arguments = {film, "--to", "vr180", "-o", path(to)};
+    std::vector<std::string> arguments = {film, "--to-projection", "vr180", "-o", path(to)};
     if (!words.empty()) arguments.insert(arguments.end(), {"--codec", "hevc", "--preset", "ultrafast"});
     ASSERT_NO_FATAL_FAILURE(kill_in_the_middle(arguments, to));
-    ASSERT_EQ(run("convert " + film + " --to vr180 -o " + path(to) + words), 0) << err;
+    ASSERT_EQ(run("convert " + film + " --to-projection vr180 -o " + path(to) + words), 0) << err;
     EXPECT_NE(err.find("goes on after "), std::string::npos) << err;
     EXPECT_TRUE(folder.read(to) == whole) << to;
     EXPECT_FALSE(std::filesystem::exists(path(to + ".unfinished")));
@@ -205,8 +205,8 @@ TEST_F(KilledConversion, GoesOnAndGivesTheSameBytes) {
 
 TEST_F(KilledConversion, IsRefusedWhereAnythingDiffers) {
   const std::string film = make_long("film_360_TB.mp4"), to = "new_180_LR.mp4";
-  ASSERT_NO_FATAL_FAILURE(kill_in_the_middle({film, "--to", "vr180", "-o", path(to)}, to));
-  const std::string parts = folder.read(to + ".unfinished"), words = "convert " + film + " --to vr180 -o " + path(to);
+  ASSERT_NO_FATAL_FAILURE(kill_in_the_middle({film, "--to-projection", "vr180", "-o", path(to)}, to));
+  const std::string parts = folder.read(to + ".unfinished"), words = "convert " + film + " --to-projection vr180 -o " + path(to);
 
   EXPECT_EQ(run(words + " --crf 30"), 2);
   EXPECT_NE(err.find(".unfinished' was made with other options: arguments was "), std::string::npos) << err;
@@ -237,7 +237,7 @@ TEST_F(KilledConversion, OfFramesGoesOnUnlessAFrameIsAnother) {
   };
   for (int i = 0; i < kFrames; i++) write(i, i % 20);
   const std::string to = "new_180_LR.mp4";
-  std::vector<std::string> arguments = {path("shot_360_TB.###.png"), "--to", "vr180", "--width", "64", "-o", path(to)};
+  std::vector<std::string> arguments = {path("shot_360_TB.###.png"), "--to-projection", "vr180", "--width", "64", "-o", path(to)};
   arguments.insert(arguments.end(), {"--codec", "h264", "--preset", "ultrafast"});
   const std::string words = fmt::format("convert {}", fmt::join(arguments, " "));
   ASSERT_EQ(run(words + " -q"), 0) << err;
@@ -260,11 +260,11 @@ TEST_F(KilledConversion, OfFramesGoesOnUnlessAFrameIsAnother) {
 // A format that does not hold the codec gets another, which has what players take.
 TEST_F(ConvertVideoCommand, SaysWhatBitsAndChromaTheNewCodecLacks) {
   const std::string deep = make("deep_360_TB.mp4", 2, "--bits 10 --chroma 444");
-  EXPECT_EQ(convert(deep, "a_180_LR.webm", "--to vr180"), 0) << err;
+  EXPECT_EQ(convert(deep, "a_180_LR.webm", "--to-projection vr180"), 0) << err;
   EXPECT_NE(err.find("has 10 bits chroma 444, the new video less, for players: --bits 10 --chroma 444"),
             std::string::npos)
       << err;
-  EXPECT_EQ(convert(deep, "b_180_LR.webm", "--to vr180 --bits 10 --chroma 444"), 0) << err;
+  EXPECT_EQ(convert(deep, "b_180_LR.webm", "--to-projection vr180 --bits 10 --chroma 444"), 0) << err;
   EXPECT_EQ(err.find("the new video less"), std::string::npos) << err;
 }
 

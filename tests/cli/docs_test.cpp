@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "ods/picture/metadata/format_source.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/save.h"
 #include "ods/render/unfinished.h"
@@ -472,5 +473,11 @@ TEST_P(Help, ExamplesWork) {
 
 INSTANTIATE_TEST_SUITE_P(Commands, Help, ::testing::ValuesIn(command_names()),
                          [](const auto& name) { return name.param; });
+
+TEST(Docs, ListTheSourcesOfAFormatInTheirOrder) {
+  std::string table = "| source | for example |\n|---|---|\n";
+  for (const FormatSourceRow& row : kFormatSourceTable) table += "| " + std::string(row.name) + " | " + std::string(row.text) + " |\n";
+  EXPECT_TRUE(has(read_file(fs::path(source_folder()) / "docs/identify.md"), table)) << table;
+}
 
 }  // namespace ods::docs_test

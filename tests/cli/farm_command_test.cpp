@@ -168,7 +168,7 @@ TEST_F(Farm, FramesAndViewsAreShared) {
 TEST_F(Farm, FramesThatBecomeFramesAreShared) {
   ASSERT_EQ(run("render -q toys --width 64 --samples 2 --frames 1-5 -o " + folder.path("in_TB.##.png")), 0) << err;
   ASSERT_EQ(run("title -q End --width 64 --at 0,0,2 -o " + folder.path("end.exr")), 0) << err;
-  for (const std::string words : {"convert IN --to cube-3x2 --frames 2-5", "over end.exr IN --opacity 0.5"}) {
+  for (const std::string words : {"convert IN --to-projection cube-3x2 --frames 2-5", "over end.exr IN --opacity 0.5"}) {
     std::string command = words;
     command.replace(command.find("IN"), 2, folder.path("in_TB.##.png"));
     if (const size_t at = command.find("end.exr"); at != std::string::npos) command.insert(at, folder.path(""));
@@ -205,7 +205,7 @@ TEST_F(Farm, OtherCommandsAreOneTask) {
   const std::vector<std::string> lint = {"lint", folder.path("a.png"), "--layout", "top-bottom"};
   EXPECT_EQ(plan("a")["groups"][0]["command"], lint);
   for (const std::string to : {"slurm", "openjd", "opencue", "kubernetes"}) {
-    const std::string convert = "-- convert " + folder.path("in.exr") + " --to cube-3x2 -o " + folder.path(to + ".png");
+    const std::string convert = "-- convert " + folder.path("in.exr") + " --to-projection cube-3x2 -o " + folder.path(to + ".png");
     ASSERT_EQ(run("submit -q --cpus 2 --mount / --to " + to + " " + convert), 0) << err;
     EXPECT_EQ(plan(to)["groups"].size(), 1u);
   }
@@ -231,7 +231,7 @@ TEST_F(Farm, ThePlanNamesEveryFile) {
       {"render toys --parts 2 --head-tilt-map @map.exr -o @p.exr", {"input @map.exr", "output @p.exr"}},
       {"stitch @rig.json @views/####/#.exr --report @s.png -o @out/s.#.exr",
        {"input @rig.json", "input @views", "output @out", "output @s.png"}},
-      {"convert @in.png --camera @in.camera.json --to cube-3x2 -o @c.png",
+      {"convert @in.png --camera-file @in.camera.json --to-projection cube-3x2 -o @c.png",
        {"input @in.png", "input @in.camera.json", "output @c.png"}}};
   for (const Job& job : jobs) {
     const bool frames = job.words.find("--parts") == std::string::npos && !job.words.starts_with("convert");

@@ -99,7 +99,7 @@ TEST_F(HeadsetBrowser, EveryControlOfThePanelDoesWhatItSays) {
   EXPECT_NEAR(brightness(left) / brightness(seen("left", 0, {128, 128})), 0.35, 0.03) << "the picture behind is dimmed";
   const auto expected = [this](const std::string& eye) {
     const std::string name = eye + ".png",
-                      mono = "-q --mono --to perspective --fov 90 --yaw 25 --pitch 10 --width 128 ";
+                      mono = "-q --mono --to-projection perspective --fov 90 --yaw 25 --pitch 10 --width 128 ";
     EXPECT_EQ(run("convert " + mono + "--eyes " + eye + " " + items[0].path + " -o " + folder.path(name)), 0) << err;
     return seen(name, 0, {128, 128});
   };

@@ -43,7 +43,7 @@ TEST_F(Wordless, AVr180PhotoOfTwoSquaresIsRecognised) {
   EXPECT_EQ(picture.at("readings").at(0).at("layout"), "top-bottom");
   EXPECT_GT(picture.at("readings").at(0).at("certainty").get<double>(), 0.5);
 
-  EXPECT_EQ(run("convert " + folder.path("photo.jpg") + " -o " + folder.path("to.png") + " --to fisheye"), 0) << err;
+  EXPECT_EQ(run("convert " + folder.path("photo.jpg") + " -o " + folder.path("to.png") + " --to-projection fisheye"), 0) << err;
   EXPECT_NE(err.find("vr180: its pixels look like it"), std::string::npos) << err;
   EXPECT_NE(err.find("top-bottom"), std::string::npos) << err;
 
@@ -61,7 +61,7 @@ TEST_F(Wordless, APairOfFisheyesIsRecognised) {
   EXPECT_EQ(picture.at("layout"), "side-by-side");
   EXPECT_EQ(picture.at("projection"), "fisheye");
 
-  EXPECT_EQ(run("convert " + folder.path("lenses.jpg") + " -o " + folder.path("to.png") + " --to vr180"), 0) << err;
+  EXPECT_EQ(run("convert " + folder.path("lenses.jpg") + " -o " + folder.path("to.png") + " --to-projection vr180"), 0) << err;
   EXPECT_NE(err.find("fisheye: its pixels look like it"), std::string::npos) << err;
   const int code = run("lint " + folder.path("lenses.jpg") + " --json");
   EXPECT_TRUE(code == 0 || code == 1) << err;
@@ -98,7 +98,7 @@ TEST_F(Wordless, DoubtNamesTheReadingsAndTheOptions) {
   for (const char* part : {"one eye, fisheye (", "one eye, fisheye-equisolid (", "--layout and --projection"}) {
     EXPECT_NE(out.find(part), std::string::npos) << part << "\n" << out;
   }
-  ASSERT_EQ(run("convert " + folder.path("lens.jpg") + " -o " + folder.path("to.png") + " --to vr180"), 0) << err;
+  ASSERT_EQ(run("convert " + folder.path("lens.jpg") + " -o " + folder.path("to.png") + " --to-projection vr180"), 0) << err;
   for (const char* part : {"one eye, fisheye (", "one eye, fisheye-equisolid (", "--layout and --projection"}) {
     EXPECT_NE(err.find(part), std::string::npos) << part << "\n" << err;
   }

@@ -6,14 +6,13 @@
 #include <cstdio>
 #include <iterator>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "ods/lint/players.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/video/container/apple.h"
 #include "tests/support/cli_runner.h"
 #include "tests/support/tagged_videos.h"
-
-int ods_inject(int argc, char** argv);  // of the command
 
 namespace ods::inject_test {
 
@@ -41,10 +40,7 @@ class Inject : public Cli {
     const pid_t child = fork();
     if (child == 0) {
       if (!std::freopen("/dev/null", "w", stdout) || !std::freopen(log.c_str(), "w", stderr)) _exit(99);
-      std::vector<char*> argv;
-      for (std::string& argument : arguments) argv.push_back(argument.data());
-      argv.push_back(nullptr);
-      const int result = ods_inject(static_cast<int>(arguments.size()), argv.data());
+      const int result = run_command(*find_command("inject"), {arguments.begin() + 1, arguments.end()});
       std::fflush(nullptr);
       _exit(result);
     }

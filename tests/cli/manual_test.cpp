@@ -114,7 +114,7 @@ TEST_F(Manual, BashOffersValues) {
   write_completion("bash");
   EXPECT_EQ(completed("ods re"), Names{"render"});
   EXPECT_EQ(completed("ods render room --quality \"\""), (Names{"draft", "preview", "final"}));
-  EXPECT_EQ(completed("ods convert a.png --to cub"), (Names{"cube-3x2", "cube-6x1", "cube-1x6"}));
+  EXPECT_EQ(completed("ods convert a.png --to-projection cub"), (Names{"cube-3x2", "cube-6x1", "cube-1x6"}));
   EXPECT_EQ(completed("ods render --layout top"), (Names{"top-bottom", "top-bottom-half"}));
   EXPECT_EQ(completed("ods render --camera-preset cyc"), Names{"cycles"});
   EXPECT_EQ(completed("ods video --size deovr-4"), Names{"deovr-4096"});

@@ -87,8 +87,10 @@ struct ExrChannel {
   int part = 0;
   Imf::PixelType type;
   std::string layer() const { return name.substr(0, name.rfind('.') + 1); }  // npos + 1: none
+  // R, G, B, A, then all others.
   size_t rank() const {
-    return std::min(std::string_view("RGBA").find(name.substr(layer().size())), std::string_view("RGBA").size());
+    const std::string own = name.substr(layer().size());
+    return own.size() == 1 ? std::min(std::string_view("RGBA").find(own), size_t{4}) : 4;
   }
 };
 

@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Finds the format of a picture file: layout, projection, camera. In order of precedence: what the caller knows; a
-// second eye in the file; the file's own ods:* attributes; the sidecar beside it (NAME.camera.json), which also has
-// the maps that attributes only name; GPano, envmap, the channels of two views; the file's name; what its pixels show,
-// if the caller has looked (ods/identify); its shape. Names end in words after _ or . : those of layout_of() (_TB, _LR,
-// _SBS, _OU ...), mono, 180, vr180, 360 and the names of projections, in upper or lower case, possibly followed by
-// numbers.
+// Finds the format of a picture file: layout, projection, camera. format_source.h has the sources in order of precedence;
+// the caller's hints are its options, and the pixels count if the caller has examined them (ods/identify). The sidecar
+// also has the maps that attributes only name. Names end in words after _ or . : those of layout_of() (_TB, _LR, _SBS,
+// _OU ...), mono, 180, vr180, 360 and the names of projections, in upper or lower case, possibly followed by numbers.
 #pragma once
 #include <optional>
 #include <string>

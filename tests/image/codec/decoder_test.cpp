@@ -57,6 +57,16 @@ TEST(ExrDecoder, ReadsEveryPacking) {
   }
 }
 
+// "GB" is not a part of "RGBA".
+TEST(ExrDecoder, PutsRedGreenBlueAndAlphaBeforeOtherChannels) {
+  const TemporaryFolder folder;
+  ExrForm form;
+  form.channels = {"A", "B", "G", "GB", "R", "RG"};
+  write_exr_of(folder.path("a.exr"), form, exr_values(6, 0));
+  EXPECT_EQ(open_exr(picture_on_disk(folder.path("a.exr")))->info.channels,
+            (std::vector<std::string>{"R", "G", "B", "A", "GB", "RG"}));
+}
+
 TEST(ExrDecoder, ReadsTheFirstPart) {
   const TemporaryFolder folder;
   const std::vector<ExrForm> parts(2);
