@@ -73,15 +73,16 @@ struct PathTracer : LightCacheReader {
     path.albedo = vec3(0.0f);
   }
 
-  // The other eye sees the point that the path's first ray hits, along this direction (unit length). density: of
-  // Counterpart, times the other pixel's number of samples over this pixel's. Before the first shade().
+  // Shares the path with the other eye, which sees the point that the path's first ray hits along this direction (unit
+  // length). density: Counterpart::density, times the other pixel's number of samples over this pixel's. Call it before
+  // the first shade().
   inline void share_path(vec3 direction, float density) {
     path.both_see = true;
     path.other_direction = direction;
     path.other_density = density;
   }
 
-  // The path continues straight through a surface.
+  // Continues the path straight through a surface.
   inline void go_on(Surface surface, float t) {
     path.ray.origin = offset_point(surface.position, -surface.geometric);
     if (path.bounce == 0) path.both_see = false;
@@ -90,14 +91,14 @@ struct PathTracer : LightCacheReader {
     if (path.passed > kMaxPassed) path.alive = false;
   }
 
-  // The same where shadow rays stop: only this ray goes beyond it.
+  // Continues straight through a surface that stops shadow rays: only this ray passes it.
   inline void pass_through(Surface surface, float t) {
     path.pdf = 0.0f;
     path.other_pdf = 0.0f;
     go_on(surface, t);
   }
 
-  // From here on the path has one colour, for all three.
+  // Restricts the path to one colour, weighted for all three.
   inline void take_wave(int wave) {
     path.wave = wave;
     path.chosen_wave = -1;
@@ -105,8 +106,9 @@ struct PathTracer : LightCacheReader {
                                              wave == kBlueWave ? 3.0f : 0.0f);
   }
 
-  // The ratio of indices at the surface of a volume. If they depend on the colour of light, the path chooses one.
-  // Smooth surfaces reflect all colours alike, so there it takes the colour only if it is refracted.
+  // The ratio of indices at the surface of a volume. If they depend on the colour of light, the path chooses one
+  // colour. Smooth surfaces reflect all colours in the same direction, so there it keeps the colour only if it is
+  // refracted.
   inline float volume_eta(Surface surface, int medium, int beyond) {
     path.chosen_wave = -1;
     if (path.wave < 0 && max(medium_dispersion(medium), medium_dispersion(beyond)) > 0.0f) {
@@ -125,8 +127,8 @@ struct PathTracer : LightCacheReader {
     return medium_ior(beyond, wave) / medium_ior(medium, wave);
   }
 
-  // The first surface as the other eye sees it. Not shared: what only one eye sees, what lies almost in line with an
-  // eye's ray, and shading normals that were bent towards a viewer.
+  // Evaluates the first surface for the other eye. Not shared are surfaces that only one eye sees, surfaces almost in
+  // line with an eye's ray, and shading normals that were bent towards a viewer.
   inline void share_surface(Surface surface, vec3 direction, float eta) {
     float here = -dot(direction, surface.geometric);
     float there = -dot(path.other_direction, surface.geometric);
@@ -165,7 +167,7 @@ struct PathTracer : LightCacheReader {
     if (path.alive) path.throughput = path.throughput * (1.0f / chance);
   }
 
-  // clear: the glass that the path passes if it passes this surface, at this distance.
+  // Scatters the path. clear: whether the surface is clear glass; the path then passes it at the distance t.
   inline void scatter(Surface surface, Bsdf bsdf, Media beyond, bool clear, float t) {
     vec2 pick = path_random(kScatterPair);
     BsdfSample found = sample_bsdf(bsdf, pick.x, path_random(kDirectionPair));
@@ -191,10 +193,11 @@ struct PathTracer : LightCacheReader {
     play_roulette(pick.y);
   }
 
-  // A ground that goes over into the background has next to no normal and no albedo, as that, or a denoiser would keep
-  // them apart. But some normal, as bare sky is what has none.
-  // Behind clear glass it is the surface there: that is what one sees.
-  // A mirror has its own depth, but the normal and the albedo of what it shows.
+  // Stores normal and albedo for the denoiser, and the depth.
+  // A ground that fades into the background gets a tiny normal and no albedo, so that the denoiser does not separate
+  // the two. The normal is not zero: zero means sky.
+  // Clear glass is skipped: the surface behind it is stored.
+  // A mirror has its own depth, but the normal and the albedo of the surface that it reflects.
   inline void note_hit(Surface surface, float t, bool fades) {
     if (path.bounce == 0) path.depth = path.travelled + t;
     path.normal = fades ? 0.01f * surface.normal : surface.normal;
@@ -206,7 +209,8 @@ struct PathTracer : LightCacheReader {
     if (path.bounce + path.passed > 0) path.albedo = path.albedo * min(path.throughput, vec3(1.0f));
   }
 
-  // The path's first surface is a catcher: from here on it goes to a light, or to a sky that is not in the light table.
+  // Handles a catcher as the path's first surface: the path continues to a light, or to a sky that is not in the light
+  // table.
   inline void catch_shadows(Surface surface, PathSettings settings) {
     surface.base_color = vec3(1.0f);
     surface.metallic = 0.0f;
@@ -241,8 +245,8 @@ struct PathTracer : LightCacheReader {
     path.shadow_alone = path.shadow_light;
   }
 
-  // One step of such a path: it ends at the light, at a catcher or at an emitter, and passes through all else. Only
-  // clear glass lets light through.
+  // One step of a path from a catcher to a light: it ends at the light, at a catcher or at an emitter, and passes
+  // through everything else. Only clear glass lets light through.
   inline void go_to_light(Hit hit) {
     bool arrived = hit.t < 0.0f || hit.t >= path.shadow_length;
     if (arrived) {
@@ -265,7 +269,7 @@ struct PathTracer : LightCacheReader {
     if (path.passed > kMaxPassed) path.alive = false;
   }
 
-  // The path takes the light that it would find from here on out of the cache, if that knows it.
+  // Ends the path with the light from the cache instead of tracing further, if the cache has it.
   inline bool end_in_cache(PathSettings settings, Surface surface, float distance) {
     vec3 light = cached_light(surface, distance);
     if (light.x < 0.0f) return false;
@@ -283,7 +287,7 @@ struct PathTracer : LightCacheReader {
     path.vertex_radiance = path.radiance;
   }
 
-  // The light that a surface sends back along the path's ray, less what its coat keeps.
+  // The light that a surface emits back along the path's ray, less the part that its coat absorbs.
   inline vec3 emission_seen(Surface surface, Hit hit) {
     if (!surface.layered) return surface.emission;
     Material material = scene_material(scene_mesh(scene_instance(hit.instance).mesh).material);
@@ -291,7 +295,8 @@ struct PathTracer : LightCacheReader {
     return surface.emission * emission_below_coat(material, corners_of(hit), cosine);
   }
 
-  // The path goes on straight behind a lamp of the role kPureLight. A shadow ray could have found what it meets there.
+  // Continues the path straight behind a lamp of the role kPureLight. A shadow ray could have found the surfaces behind
+  // it.
   inline void pass_pure_light(Surface surface, Hit hit, PathSettings settings) {
     path.throughput = path.throughput * medium_transmittance(current_medium(path.media), hit.t);
     if (surface.emission.x + surface.emission.y + surface.emission.z > 0.0f) {
