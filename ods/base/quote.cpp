@@ -12,7 +12,7 @@ bool is_quotable(std::string_view text) {
   const auto is_control = [](unsigned char c) { return c < ' ' || c == 0x7f; };
   if (std::ranges::any_of(text, is_control)) return false;
   try {
-    nlohmann::json(std::string(text)).dump();  // throws for what is not UTF-8
+    nlohmann::json(std::string(text)).dump();  // throws if the text is not UTF-8
   } catch (const nlohmann::json::exception&) {
     return false;
   }

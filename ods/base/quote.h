@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Text inside other languages. Texts are bytes; of file names only those that are UTF-8 without control characters can
-// be written in all of them: is_quotable().
+// Quotes text for other languages. Texts are bytes; a file name can be written in all of these languages only if it is
+// UTF-8 without control characters, see is_quotable().
 #pragma once
 #include <string>
 #include <string_view>
@@ -10,18 +10,18 @@
 
 namespace ods {
 
-// Whether every language below can hold the text: UTF-8, no line break and no other control character.
+// Returns whether every language below can represent the text: UTF-8, without line breaks and other control characters.
 bool is_quotable(std::string_view text);
 
-// A word for a POSIX shell, in quotes where it needs them.
+// A word for a POSIX shell, quoted if necessary.
 std::string shell_word(const std::string& word);
 // Words as one line for a shell.
 std::string shell_line(const std::vector<std::string>& words);
 
-// The text of an element or, between double quotes, of an attribute.
+// Escapes the text of an element or of an attribute in double quotes.
 std::string xml_text(const std::string& text);
 
-// With its double quotes: a string of JSON, YAML and JavaScript. Precondition: is_quotable().
+// A string of JSON, YAML and JavaScript, with its double quotes. Precondition: is_quotable().
 std::string json_text(const std::string& text);
 
 }  // namespace ods

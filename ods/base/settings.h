@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a picture, a video or what is left of one was made with, so that only work of the same kind is continued.
+// The settings that a picture, a video or an unfinished one was made with, so that only work with the same settings is
+// continued.
 #pragma once
 #include <string>
 #include <string_view>
@@ -10,13 +11,14 @@
 namespace ods {
 
 struct Setting {
-  std::string name;   // whoever makes the pictures chooses it: "samples", "scene"
-  std::string value;  // for a file: the MD5 of its contents
-  std::string path;   // for a file; otherwise empty
+  std::string name;   // chosen by the caller: "samples", "scene"
+  std::string value;  // for a file, the MD5 of its contents
+  std::string path;   // for a file, its path; otherwise empty
 };
 using Settings = std::vector<Setting>;
 
-// A line for each setting, with tabs between its fields; and back. Names, values and paths are one line each.
+// Writes a line for each setting, with tabs between its fields, and parses such lines. Names, values and paths are one
+// line each.
 std::string settings_text(const Settings& settings);
 Settings parse_settings(const std::string& text);
 
@@ -26,7 +28,7 @@ std::string settings_difference(const Settings& then, const Settings& now);
 
 inline constexpr std::string_view kRestartCure = "`restart` discards it and starts over";
 
-// Throws Error(kUsage) if there are any: "'PATH' was made with other options: samples was 64, now 128; CURE".
+// Throws Error(kUsage) if the settings differ: "'PATH' was made with other options: samples was 64, now 128; CURE".
 void expect_same_settings(const std::string& path, const Settings& then, const Settings& now,
                           std::string_view cure = kRestartCure);
 

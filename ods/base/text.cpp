@@ -20,7 +20,7 @@ std::string one_line(std::string text) {
   return text;
 }
 
-// The length of the character that the text starts with; 0: it is none.
+// The length of the character at the start of the text; 0 if it is not valid UTF-8.
 static size_t character_length(std::string_view text) {
   const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const unsigned first = byte(0), second = byte(1);
@@ -29,7 +29,7 @@ static size_t character_length(std::string_view text) {
   for (size_t i = 1; i < length; i++) {
     if (byte(i) < 0x80 || byte(i) > 0xbf) return 0;
   }
-  // Longer than needed, half of a pair, beyond the last character.
+  // Overlong, a surrogate, or beyond the last code point.
   const bool is_wrong = (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
                         (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f);
   return is_wrong ? 0 : length;
@@ -47,7 +47,7 @@ std::string valid_utf8(std::string_view text) {
 
 std::string library_words(const std::string& text) {
   std::string words = valid_utf8(one_line(text));
-  // What the exception said stands at the end; before it libraries quote names, which files choose.
+  // The text of the exception is at the end; libraries put names, which come from files, before it.
   if (words.ends_with("std::bad_alloc") || words.ends_with("(std::bad_alloc)")) throw std::bad_alloc();
   return words;
 }
