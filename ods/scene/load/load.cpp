@@ -29,7 +29,7 @@ Scene load_scene(const std::string& name, const SceneOptions& options) {
     return scene;
   }
   std::error_code error;
-  // Confined, load_gltf() gives the same message whether or not a file outside exists.
+  // If confined, load_gltf() gives the same message whether or not a file outside exists.
   if (options.confine.empty() && !std::filesystem::exists(name, error)) {
     throw Error(ErrorKind::kInput, fmt::format("{}: no such file, and no built-in scene{}", name,
                                                did_you_mean(name, names_of(builtin_scenes()))));
