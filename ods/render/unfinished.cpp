@@ -30,9 +30,9 @@ class Writer {
   explicit Writer(std::FILE* stream) : stream_(stream) {}
 
   void bytes(std::span<const std::byte> bytes) {
-    if (bytes.empty()) return;  // fwrite() wants an address even then
+    if (bytes.empty()) return;  // fwrite() needs an address even then
     checksum_ = crc32(bytes, checksum_);
-    std::fwrite(bytes.data(), 1, bytes.size(), stream_);  // AtomicFile notices errors
+    std::fwrite(bytes.data(), 1, bytes.size(), stream_);  // AtomicFile reports errors
   }
   template <typename Number>
   void number(const Number& value) {
@@ -108,7 +108,7 @@ class Reader {
   uint32_t checksum_ = 0;
 };
 
-// Calls stream.number() or stream.list() for all that the file has.
+// Calls stream.number() or stream.list() for every field of the file.
 template <typename Stream, typename About, typename Samples>
 void each_field(Stream& stream, About& picture, Samples& samples) {
   stream.settings(picture.settings), stream.list(picture.camera);

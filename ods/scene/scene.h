@@ -92,7 +92,7 @@ struct Scene {
 
   std::vector<PunctualLight> lights;
   Environment environment;
-  std::optional<Environment> background;  // what the camera sees behind everything; lights nothing. None: environment
+  std::optional<Environment> background;  // seen by the camera, gives no light; the environment if not set
 
   bool as_painted = false;  // its colours include their lighting: exposure and tone curve must not change them
 

@@ -15,7 +15,7 @@
 
 #include "ods/scene/placement.h"
 
-// All differences between Embree 3 and 4.
+// The differences between Embree 3 and 4.
 #if RTC_VERSION_MAJOR >= 4
 using EmbreeContext = RTCRayQueryContext;
 
@@ -85,22 +85,22 @@ struct RayContext {
   PathTracer* tracer;
   int ray;
   uint still;
-  uint index;  // of the first ray's sample
-  int clear;   // surfaces of clear glass that a shadow ray met
+  uint index;  // index of the first ray's sample
+  int clear;   // number of surfaces of clear glass that a shadow ray met
 };
 
 }  // namespace
 
-// A geometry's number in its scene is the number of our instance. If something moves, everything that does not is one
-// additional instance in the top scene.
+// A geometry's number in its scene is the index of our instance. If something moves, all static instances together are
+// one additional instance in the top scene.
 struct EmbreeScene::Handles {
   const Scene* scene = nullptr;
   RTCDevice device = nullptr;
   RTCScene top = nullptr;
   RTCScene still = nullptr;      // null if nothing moves
-  uint still_id = 0;             // in the top scene
+  uint still_id = 0;             // index in the top scene
   bool portable = false;         // Scene::portable
-  bool coherent = true;          // trace packets of rays as one; Embree 3.13 may never return where there are instances
+  bool coherent = true;          // trace packets of rays as one; with instances, Embree 3.13 may never return
   std::vector<RTCScene> shared;  // by mesh; null if the mesh is copied
   std::vector<char> moves;       // by instance
 
@@ -121,8 +121,8 @@ static int instance_of(uint geometry, uint instance, uint still) {
   return static_cast<int>(instance == RTC_INVALID_GEOMETRY_ID || instance == still ? geometry : instance);
 }
 
-// Embree calls this for the candidate hits of one or several rays on a surface with alpha, or that some rays do not
-// meet, or of shadow rays on one that may be clear glass.
+// Embree calls this for the candidate hits of one or several rays on surfaces with alpha, on surfaces that are
+// invisible to some rays, and, for shadow rays, on surfaces that may be clear glass.
 template <bool kShadow>
 static void filter(const RTCFilterFunctionNArguments* arguments) {
   auto* context = reinterpret_cast<RayContext*>(arguments->context);
@@ -152,7 +152,7 @@ static uint key_count(const Scene& scene, int motion) {
   return motion < 0 ? 1u : static_cast<uint>(scene.motion_keys);
 }
 
-// A mesh's vertices at a key of the shutter; placed: the instance whose matrix transforms them, or null.
+// Writes a mesh's vertices at a key of the shutter. placed: the instance whose matrix transforms them, or null.
 static void write_positions(const Scene& scene, const Mesh& mesh, uint key, const Instance* placed, float* positions) {
   const Vertex* vertices = scene.vertices.data() + mesh.first_vertex;
   const MotionVertex* bent = nullptr;
@@ -168,8 +168,8 @@ static bool has_absences(const Instance& instance) {
   return instance.role == kUnseen || instance.role == kPureLight;
 }
 
-// A mesh's triangles as Embree geometry; placed: the instance whose matrix transforms copies of the vertices, or null.
-// absences: some rays do not meet it.
+// Makes an Embree geometry of a mesh's triangles. placed: the instance whose matrix transforms copies of the vertices,
+// or null. absences: some rays do not meet it.
 static RTCGeometry make_geometry(RTCDevice device, const Scene& scene, const Mesh& mesh, const Instance* placed,
                                  bool absences) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -239,7 +239,7 @@ static std::vector<char> moving_instances(const Scene& scene) {
   return moves;
 }
 
-// Which meshes are instanced: those that move, and those that would need too many copies.
+// Selects the meshes that are instanced: those that move, and those that would need too many copies.
 static std::vector<bool> choose_shared(const Scene& scene, const std::vector<char>& moves,
                                        size_t max_copied_triangles) {
   std::vector<size_t> uses(scene.meshes.size());
@@ -258,7 +258,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles, const 
     : handles_(std::make_unique<Handles>()) {
   handles_->scene = &scene;
   handles_->portable = scene.portable;
-  // What every x86-64 processor has; other processors have one set only.
+  // The instruction set that every x86-64 processor has; other processors have only one.
   handles_->device = rtcNewDevice(scene.portable ? "isa=sse2" : nullptr);
   if (!handles_->device) throw std::bad_alloc();
   RTCDevice device = handles_->device;
@@ -354,9 +354,9 @@ static RayContext make_context(PathTracer& tracer, int ray, uint still) {
   return context;
 }
 
-// Computes anew where a ray meets the triangle that Embree has found. Embree divides by the processor's approximate
-// reciprocals, whose last bits are each maker's own. Source: Moeller and Trumbore, "Fast, Minimum Storage Ray-Triangle
-// Intersection" (1997).
+// Recomputes the position of the hit on the triangle that Embree has found. Embree divides by the processor's
+// approximate reciprocals, whose last bits differ between manufacturers. Source: Moeller and Trumbore, "Fast, Minimum
+// Storage Ray-Triangle Intersection" (1997).
 static void place_exactly(PathTracer& tracer, const Ray& ray, Hit& hit) {
   if (hit.t < 0.0f) return;
   const auto triangle = tracer.triangle_of(tracer.instance_now(hit.instance), tracer.corners_of(hit));
@@ -409,7 +409,7 @@ bool EmbreeScene::reaches_light(PathTracer& tracer) const {
   return true;
 }
 
-// Embree without AVX-512 checks the rays of unused lanes, too: they are the first ray again.
+// Embree without AVX-512 also checks the rays of unused lanes, so they are copies of the first ray.
 static void set_rays(RTCRay16& out, const RayPacket& packet) {
   for (int i = 0; i < RayPacket::kMost; i++) {
     const int from = i < packet.count ? i : 0;
@@ -421,7 +421,7 @@ static void set_rays(RTCRay16& out, const RayPacket& packet) {
   }
 }
 
-// The alpha of surfaces is decided as for the paths that begin with these rays.
+// Decides the alpha of surfaces as for the paths that begin with these rays.
 static RayContext packet_context(PathTracer& tracer, const RayPacket& packet, uint still) {
   tracer.start_path(packet.rays[0], no_media(), packet.seed, packet.index);
   return make_context(tracer, kPathRay, still);
@@ -432,7 +432,7 @@ static void start_ray(PathTracer& tracer, const RayPacket& packet, int i) {
   tracer.start_path(packet.rays[i], no_media(), packet.seed, packet.index + static_cast<uint>(i));
 }
 
-// Few rays are faster one by one. To the tracer they are the rays of a packet, all the same.
+// A few rays are faster one by one. For the tracer they remain rays of a packet.
 static bool is_small(const RayPacket& packet) {
   return packet.count <= 4;
 }
