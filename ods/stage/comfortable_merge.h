@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How much stereo a scene allows at each elevation (ods/comfort/merge_from_depth.h).
+// Computes how much stereo a scene allows at each elevation (ods/comfort/merge_from_depth.h).
 #pragma once
 #include <vector>
 
@@ -11,7 +11,7 @@
 
 namespace ods {
 
-// comfortable_shares() of what is seen from the camera's place, in the scene as the renderer has it.
+// comfortable_shares() for the depth seen from the camera's position, in the renderer's scene.
 std::vector<float> shares_seen(const CpuRenderer& renderer, const StereoCamera& camera, float limit);
 
 }  // namespace ods

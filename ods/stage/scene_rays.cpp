@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kNearDirections = 256;
 constexpr int kOpenDirections = 512;
-constexpr int kMostPanes = 32;  // of glass, one behind the other
+constexpr int kMostPanes = 32;  // of glass behind each other
 constexpr float kSteepest = 0.7071f;
 
 LightTable without_lights(const Scene& scene) {
@@ -35,7 +35,7 @@ SceneRays::SceneRays(const Scene& scene)
 }
 
 Sight SceneRays::look(vec3 from, vec3 direction) const {
-  PathTracer tracer = tracer_;  // it keeps state while it decides about alpha
+  PathTracer tracer = tracer_;  // it has state while it decides about alpha
   const Ray ray{from, direction};
   tracer.start_path(ray, no_media(), 0u, 0u);
   const Hit hit = embree_.closest_hit(tracer, ray, kHalfAlphaRay);
