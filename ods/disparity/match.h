@@ -28,7 +28,7 @@ struct Match {
   float theta = 0.0f;  // of the tile's centre
   float phi = 0.0f;
   float around = 0.0f;  // theta in the left eye minus theta in the right eye: for a parallel pair 2 asin(r / rho) >= 0
-  float down = 0.0f;    // likewise for phi; 0 in every omni-directional stereo pair
+  float down = 0.0f;    // phi in the left eye minus phi in the right eye; 0 in every omni-directional stereo pair
   float correlation = 0.0f;
 };
 
@@ -37,7 +37,7 @@ struct Matches {
   std::vector<Match> found;
   float pixel = 0.0f;  // size of a pixel of the view, radians
 
-  // The fraction of these tiles that were found.
+  // The matched fraction of these tiles.
   double share() const { return tiles > 0 ? static_cast<double>(found.size()) / tiles : 0.0; }
 };
 
