@@ -16,9 +16,9 @@ namespace {
 
 constexpr int kOutlierReach = 2;           // radius of the window for detecting outliers
 constexpr float kMostOfNeighbours = 2.0f;  // an outlier is brighter than its neighbours' total light over this
-constexpr float kSigmas = 3.0f;            // brighter than its surroundings by more of its own deviations: no outlier
-constexpr float kSeen = 0.03f;             // target fraction of the light that spread light adds
-constexpr float kMostSeen = 0.1f;          // maximum fraction; the rest brightens the whole picture
+constexpr float kSigmas = 3.0f;    // a pixel that is brighter by this many of its own deviations is not an outlier
+constexpr float kSeen = 0.03f;     // target fraction of the light that spread light adds
+constexpr float kMostSeen = 0.1f;  // maximum fraction; the rest brightens the whole picture
 constexpr float kNarrowest = 8.0f, kWidest = 64.0f;  // radius in pixels over which light is spread
 constexpr double kVisits = 8.0;                      // visits of a pixel by outliers, on average; limits the time
 
