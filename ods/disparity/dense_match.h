@@ -3,6 +3,11 @@
 //
 // Measures the displacement of each pixel of one eye's view in the other's, along its row, where the pixels have enough
 // detail.
+//
+// Semi-global matching: the Hamming distance of census transforms, smoothed along eight paths, checked from the other
+// eye's side. Sources: Zabih, Woodfill, "Non-parametric Local Transforms for Computing Visual Correspondence", 1994;
+// Hirschmueller, "Stereo Processing by Semi-Global Matching and Mutual Information", 2008. The paths go around the
+// sphere, and the transform's window has the same width on the sphere at every elevation.
 #pragma once
 #include <array>
 

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The sums of a picture's samples: the state of a picture that is being rendered.
+//
+// The sums are whole numbers. Adding them in another order gives the same bits, so threads may finish in any order and
+// several machines can render samples of the same picture.
 #pragma once
 #include <cstdint>
 #include <vector>
