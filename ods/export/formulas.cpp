@@ -81,8 +81,8 @@ CameraExport to_shader(const Sidecar& file, const FormulaView& view, const Shade
   return result;
 }
 
-// A vector in POV-Ray, whose functions have no local variables: a function computes twice what it calls twice, and four
-// times what that calls twice. So a step that a component would compute more than once becomes a link of a chain: a
+// A vector in POV-Ray, whose functions have no local variables: a function that is called twice is computed twice, and
+// its own callees four times. So a step that a component would compute more than once becomes a link of a chain: a
 // function of the previous links that are still needed, which passes these and its own value to the next function. The
 // last one selects the component. All other steps are written out where they are used.
 class PovrayVector {
@@ -99,7 +99,7 @@ class PovrayVector {
     }
   }
 
-  // The last function comes first, or POV-Ray would not know it when it reads the call.
+  // The last function comes first, because POV-Ray must know it when it reads the call.
   std::string functions() const {
     if (chain_.empty()) return "";
     std::string text = declare(chain_.size(), chosen());

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Python that renders all views in Blender, with whatever engine the scene uses. Blender's depth of a perspective
-// camera is along the axis. If a version of Blender lacks a property, the script says so when it runs.
+// camera is along the axis. If a version of Blender lacks a property, the script reports it when it runs.
 #include <fmt/format.h>
 
 #include "ods/export/rig_writers.h"

@@ -21,7 +21,7 @@ enum class RigTarget {
   kPovray,   // POV-Ray 3.7: an include file, and options
   kThree,    // a module for a three.js page
   kUsd,      // a moving camera: time code n is view n
-  kGltf,     // likewise: view n is shown at n/24 s
+  kGltf,     // a moving camera: view n is shown at n/24 s
   kUnity,    // C# for the editor
   kUnreal,   // Python for the editor
   kCsv,      // for spreadsheets and unknown programs: one line per view
@@ -46,11 +46,12 @@ struct RigScript {
 
 struct RigExport {
   std::vector<RigScript> scripts;
-  // What the target cannot do for this rig, one line each; the text includes them too.
+  // Limitations of the target for this rig, one line each; the text includes them too.
   std::vector<std::string> warnings;
 };
 
-// `name`: of the rig's file, without folder and without .json. The scripts name the rig and each other by it.
+// Exports a rig. name: of the rig's file, without folder and without .json. The scripts refer to the rig and to each
+// other by it.
 RigExport export_rig(const SlitRig& rig, RigTarget target, const std::string& name);
 
 }  // namespace ods
