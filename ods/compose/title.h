@@ -50,13 +50,13 @@ void fill_title_row(const Title& title, int eye, int y, std::span<float> row);
 // The text's angular width in degrees, from the centre of the viewing circle.
 float title_width(const Title& title);
 
-// Degrees. Reading a wider text takes turning the head: eyes turn some 30 degrees to either side with ease.
+// Degrees. Wider text requires turning the head: eyes turn about 30 degrees to either side with ease.
 inline constexpr float kComfortableWidth = 60.0f;
 
 // Metres: the setting's height, or less if the text would be wider than kComfortableWidth.
 float comfortable_height(const Title& title);
 
-// Metres: anything nearer strains the eyes, by the source's two rules and this camera's ipd.
+// Metres: closer objects strain the eyes, by the source's two rules and this camera's ipd.
 float nearest_comfortable(const StereoCamera& stereo, float pitch);
 
 }  // namespace ods
