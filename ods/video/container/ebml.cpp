@@ -26,7 +26,7 @@ struct ElementHeader {
 
 }  // namespace
 
-// The length of a number, from its first byte; throws MalformedFile if that is 0.
+// The length of a number, from its first byte. Throws MalformedFile if that is 0.
 static size_t length_of(uint64_t first) {
   if (first == 0) throw MalformedFile("a size in it is invalid");
   return static_cast<size_t>(std::countl_zero(static_cast<uint8_t>(first))) + 1;

@@ -155,7 +155,7 @@ bool can_update_v1(const SphericalMetadata& v1, const SphericalMetadata& metadat
   return v1.projection == VideoProjection::kEquirect && same_sphere(v1, metadata) && has_v1_stereo(metadata);
 }
 
-// Sets an element, adding it if missing. False if the XML cannot be parsed.
+// Sets an element, adding it if missing. Returns false if the XML cannot be parsed.
 static bool set_v1_word(std::string& xml, const std::string& name, const std::string& value) {
   const std::string open = "<GSpherical:" + name + ">", close = "</GSpherical:" + name + ">";
   if (const size_t from = xml.find(open); from != std::string::npos) {

@@ -42,7 +42,7 @@ void Free::operator()(AVFormatContext* context) const {
 }
 
 // The library's last log message, captured instead of printed. Without the sender's name and address, so that the same
-// failure gives the same text.
+// error gives the same text.
 static std::mutex complaint_mutex;
 static std::string complaint;
 
@@ -58,9 +58,9 @@ void keep_complaints() {
   av_log_set_callback(listen);
 }
 
-// FFmpeg's own text for its codes helps nobody ("Not yet implemented in FFmpeg, patches welcome").
+// FFmpeg's own text for its error codes is not helpful ("Not yet implemented in FFmpeg, patches welcome").
 static std::string reason_of(int code) {
-  constexpr int kLastSystemError = -4095;  // below are FFmpeg's own
+  constexpr int kLastSystemError = -4095;  // smaller values are FFmpeg's own
   switch (code) {
     case AVERROR_INVALIDDATA:
       return "it is damaged, or of a format that FFmpeg does not know";
