@@ -22,7 +22,7 @@ namespace ods {
 
 namespace {
 
-constexpr std::string_view kMatteAttributes = "cryptomatte/";  // how the names of its attributes begin
+constexpr std::string_view kMatteAttributes = "cryptomatte/";  // prefix of its attributes' names
 constexpr const char* kOwnLayer = "CryptoObject";
 
 // The names of a manifest: {"name": "hexadecimal number", ...}.
@@ -74,7 +74,7 @@ float matte_number(std::string_view name) {
   return std::bit_cast<float>(hash);
 }
 
-// The text of a manifest that is a file beside the picture; empty if it cannot be read.
+// The text of a manifest in a file beside the picture. Empty if it cannot be read.
 static std::string manifest_beside(const std::string& picture, const std::string& name) {
   constexpr size_t kMostBytes = size_t{64} << 20u;
   try {
@@ -171,7 +171,7 @@ void add_cryptomatte(PictureRows& rows, SaveOptions& save, std::vector<Image> nu
     const Image& own = (*all)[static_cast<size_t>(index)];
     const size_t stride = before + 4, width = static_cast<size_t>(own.width);
     fill(index, y, row.first(before * width));
-    // From the last pixel on, for they move to the right.
+    // From the last pixel backwards, because pixels move to the right.
     for (size_t x = width; x-- > 0;) {
       std::copy_backward(&row[x * before], &row[x * before] + before, &row[x * stride] + before);
       const float number = *own.at(static_cast<int>(x), y);

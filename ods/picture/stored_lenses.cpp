@@ -19,7 +19,7 @@ FisheyeLens inscribed_lens(Extent eye, float fov) {
   return lens;
 }
 
-// Where each eye is inside the bars that surround all of them.
+// Computes each eye's position inside the bars that surround all of them.
 static void take_bars(StoredPicture& picture, const Bars& bars) {
   const EyePacking how = arrangement_of(picture.layout).how;
   const int across = how == EyePacking::kBeside ? 2 : 1, down = how == EyePacking::kStacked ? 2 : 1;

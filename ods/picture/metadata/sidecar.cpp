@@ -19,7 +19,7 @@
 namespace ods {
 namespace {
 
-constexpr size_t kLargestFile = 1u << 30u;  // bytes; room for two of the largest maps
+constexpr size_t kLargestFile = 1u << 30u;  // bytes; enough for two of the largest maps
 
 // --- writing ---------------------------------------------------------------------------------------------------------
 
@@ -64,7 +64,7 @@ Json conventions() {
 
 // --- reading ---------------------------------------------------------------------------------------------------------
 
-// What the tables of a camera say of one object of the file; "" is the file itself.
+// Reads the fields in the tables of a camera from one object of the file; "" is the file itself.
 void read_object(JsonReader& in, std::string_view object, StereoCamera& camera) {
   for (const CameraModeRow& row : camera_modes()) {
     const Place place = place_of(row.place);
@@ -100,7 +100,7 @@ void read_projection(JsonReader& in, StereoCamera& camera) {
   if (!fault.empty()) in.fail("", "is impossible: " + fault);
 }
 
-// null: no axis of its own.
+// An axis of null is an axis that is not set.
 void read_pose(JsonReader& in, StereoCamera& camera) {
   if (in.find("axis") && !in.is_null("axis")) camera.axis = vec3(0.0f);
   read_object(in, "", camera);
