@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One picture file being encoded, whatever its format. A format's encoder is in the .cpp with its name.
+// A picture file of any format that is being encoded. A format's encoder is in the .cpp with its name.
 #pragma once
 #include <cstddef>
 #include <memory>
@@ -18,13 +18,13 @@ class Encoder {
   virtual ~Encoder() = default;
 
   // Rows [begin, end), from the top and each once: interleaved by pixel, in the header's types of samples. An encoder
-  // need not notice that the disk is full: AtomicFile does. Throws Error(kOutput).
+  // need not detect a full disk, because AtomicFile does. Throws Error(kOutput).
   virtual void write(int begin, int end, const std::byte* rows) = 0;
-  // After the last row. Throws Error(kOutput).
+  // Call after the last row. Throws Error(kOutput).
   virtual void finish() = 0;
 };
 
-// The file and the header must outlive what they return. Throw Error(kOutput).
+// The file and the header must outlive the result. Throw Error(kOutput).
 std::unique_ptr<Encoder> create_png(AtomicFile& file, const FileHeader& header);
 std::unique_ptr<Encoder> create_jpeg(AtomicFile& file, const FileHeader& header);
 std::unique_ptr<Encoder> create_tiff(AtomicFile& file, const FileHeader& header);

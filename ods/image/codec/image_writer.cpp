@@ -46,7 +46,7 @@ static std::unique_ptr<Encoder> create_encoder(AtomicFile& file, const FileHeade
 }
 
 // Writes rows in bands: large enough for OpenEXR to compress on all cores, small enough that no second picture is in
-// memory. Computes the next band meanwhile, as most formats compress on one core.
+// memory. Computes the next band meanwhile, because most formats compress on one core.
 void write_image(AtomicFile& file, const FileHeader& header, const RowSource& rows,
                  const std::function<void()>& band_done) {
   assert(header.width > 0 && header.height > 0 && !header.channels.empty());

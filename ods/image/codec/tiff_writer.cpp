@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// TIFF through libtiff, packed by libdeflate.
+// Encodes TIFF through libtiff, compressed by libdeflate.
 #include <libdeflate.h>
 #include <tbb/parallel_for.h>
 #include <tiffio.h>
@@ -24,7 +24,7 @@ class TiffOutput final : public TiffStream {
  public:
   explicit TiffOutput(std::FILE* stream) : stream_(stream) {}
   size_t read(void*, size_t) override { return 0; }
-  // Never reports a failure: AtomicFile notices.
+  // Never reports an error, because AtomicFile detects it.
   void write(const void* from, size_t count) override {
     if (at != place_) fseeko(stream_, static_cast<off_t>(at), SEEK_SET);
     std::fwrite(from, 1, count, stream_);
@@ -40,7 +40,7 @@ class TiffOutput final : public TiffStream {
 
 constexpr size_t kRowsPerStrip = 16;
 
-// Strips of 16 rows, several packed at once by libdeflate: the differences of neighbours where the numbers are
+// Strips of 16 rows, several compressed at once by libdeflate, with differences of adjacent samples if the numbers are
 // integers.
 class TiffEncoder final : public Encoder {
  public:
@@ -59,8 +59,8 @@ class TiffEncoder final : public Encoder {
   TiffOutput output_;
   TiffHandle handle_;
   size_t row_size_;
-  uint32_t strips_ = 0;          // that are written
-  std::vector<std::byte> rows_;  // that are not
+  uint32_t strips_ = 0;          // number of written strips
+  std::vector<std::byte> rows_;  // rows that are not written yet
 };
 
 TiffEncoder::TiffEncoder(AtomicFile& file, const FileHeader& header)

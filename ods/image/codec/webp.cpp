@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// WebP through libwebp; of an animation the first frame.
+// WebP through libwebp; for an animation, the first frame.
 #include <webp/decode.h>
 #include <webp/demux.h>
 #include <webp/encode.h>
@@ -19,7 +19,7 @@ namespace ods {
 
 namespace {
 
-// libwebp decodes whole pictures: on the first read().
+// libwebp decodes whole pictures, so this happens on the first read().
 class WebpDecoder final : public Decoder {
  public:
   explicit WebpDecoder(const PictureBytes& file);
@@ -31,7 +31,7 @@ class WebpDecoder final : public Decoder {
   void decode_first_frame();
 
   std::string name_;
-  std::vector<uint8_t> file_;  // until it is decoded
+  std::vector<uint8_t> file_;  // kept until it is decoded
   WebPBitstreamFeatures features_{};
   size_t channels_ = 0;  // of pixels_
   std::vector<uint8_t> pixels_;
@@ -108,7 +108,7 @@ struct WebpPicture : WebPPicture {
   ~WebpPicture() { WebPPictureFree(this); }
 };
 
-// libwebp encodes whole pictures: in finish().
+// libwebp encodes whole pictures, so this happens in finish().
 class WebpEncoder final : public Encoder {
  public:
   WebpEncoder(AtomicFile& file, const FileHeader& header) : file_(file), header_(header) {
@@ -135,12 +135,12 @@ void WebpEncoder::finish() {
   WebPConfig config;
   if (!WebPConfigInit(&config)) throw std::bad_alloc();
   config.quality = static_cast<float>(header_.quality);
-  config.method = 6;  // the slowest, which packs best
+  config.method = 6;  // the slowest, with the best compression
   WebpPicture picture;
   picture.width = header_.width, picture.height = header_.height;
   picture.custom_ptr = file_.stream();
   picture.writer = [](const uint8_t* bytes, size_t size, const WebPPicture* to) {
-    std::fwrite(bytes, 1, size, static_cast<std::FILE*>(to->custom_ptr));  // AtomicFile notices a failure
+    std::fwrite(bytes, 1, size, static_cast<std::FILE*>(to->custom_ptr));  // AtomicFile detects errors
     return 1;
   };
   const int row = static_cast<int>(header_.channels.size()) * header_.width;

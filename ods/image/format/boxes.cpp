@@ -24,7 +24,7 @@ namespace {
 struct BoxHeader {
   BoxType type;
   uint32_t size;   // of the header
-  uint64_t whole;  // of the box; 0: to the end of the file
+  uint64_t whole;  // of the box; 0 if it extends to the end of the file
 };
 
 }  // namespace

@@ -15,8 +15,9 @@ inline constexpr int64_t kSmallPixels = int64_t{1} << 24;
 inline constexpr int64_t kMaxPixelsPerByte = 1024;
 inline constexpr size_t kMaxFileBytes = size_t{1} << 32;  // per file, checked before reading
 
-// Why an image is refused before its pixels are allocated: a side too long, too many pixels, or more pixels than a file
-// of this size can plausibly hold. Empty: accepted. `longest` is the longest side of the image and its tiles.
+// The reason why an image is rejected before its pixels are allocated: a side too long, too many pixels, or more pixels
+// than a file of this size can plausibly contain. Empty if it is accepted. `longest` is the longest side of the image
+// and its tiles.
 std::string image_size_fault(int width, int height, int longest, size_t file_size);
 
 }  // namespace ods

@@ -172,7 +172,7 @@ struct Name {
 
 }  // namespace
 
-// The attributes in a tag; nothing if they are not valid XML. Cutting one out leaves a valid tag.
+// The attributes in a tag. Returns nullopt if they are not valid XML. Cutting one out leaves a valid tag.
 static std::optional<std::vector<Name>> names_in(std::string_view xml, const Tag& tag) {
   xml = xml.substr(0, tag.end - (tag.is_empty ? 2 : 1));
   std::vector<Name> names;
@@ -191,7 +191,7 @@ static std::optional<std::vector<Name>> names_in(std::string_view xml, const Tag
   }
 }
 
-// The end of the element that this tag starts; nothing if it is not closed.
+// The end of the element that this tag starts. Returns nullopt if it is not closed.
 static std::optional<size_t> end_of_element(std::string_view xml, const Tag& tag) {
   if (tag.is_empty) return tag.end;
   bool is_broken = false;
