@@ -1,21 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the pages of one server have in common while somebody wears a headset: what is shown and how. The desk sees what
-// the wearer sees, the wearer where the desk points. Each page tells the others all it knows, and of each thing the latest
-// change counts, whoever made it; so no message is missed for long.
+// The state that the pages of one server share while a headset is worn: the item and its view. The desk sees the
+// wearer's view, and the wearer sees the point that the desk marks. Each page sends its whole state, and of each field
+// the latest change of any page counts; so a lost message has no lasting effect.
 import { wrapDegrees } from './geometry.js';
 import { directionAt } from './places.js';
 
 const TICK = 100; // milliseconds
-const SPEAK = 2000; // at least so often
-const GONE = 6000; // without a word
-const APART = 0.7; // seconds that films may differ while they play
+const SPEAK = 2000; // maximum time between messages
+const GONE = 6000; // time without a message after which a page is gone
+const APART = 0.7; // maximum difference of seconds between playing videos
 
 const sleep = (time) => new Promise((done) => setTimeout(done, time));
 const round = (look) => Object.fromEntries(Object.entries(look).map(([name, value]) => [name, typeof value === 'number' ? Math.round(100 * value) / 100 : value]));
 
-// Each with its value now, undefined where there is none, and a way to take another page's.
+// Each field with its present value, undefined if there is none, and a function that applies the value of another page.
 const FIELDS = {
   shown: {
     of: ({ viewer: { item, choice } }) => ({ item, choice }),
@@ -62,7 +62,7 @@ export class Share {
     this.known[name] = { value, text: JSON.stringify(value), clock, by };
   }
 
-  // --- what this page says ---
+  // --- sending ---
 
   tick() {
     for (const name of Object.keys(FIELDS)) {
@@ -83,7 +83,7 @@ export class Share {
     fetch(`share?id=${this.id}`, { method: 'POST', body }).catch(() => {}).finally(() => (this.speaking = false));
   }
 
-  // The video's state since it was last touched; a page that has just opened one has nothing to say of it yet.
+  // The video's state since its last change; a page that has just opened one has no state of it yet.
   film() {
     const { viewer: { picture, item }, reel } = this;
     if (!picture?.video) return undefined;
@@ -104,13 +104,13 @@ export class Share {
     const { video, fps } = picture;
     if (Math.abs(video.currentTime - time) > (film.playing ? APART : 0.5 / fps)) picture.seek(time);
     if (film.playing === video.paused) {
-      if (film.playing && !session) video.muted = true; // else the browser waits for a click
+      if (film.playing && !session) video.muted = true; // otherwise the browser waits for a click
       picture.toggle();
     }
     Object.assign(reel, { film, now: performance.now() / 1000, time: video.currentTime });
   }
 
-  // --- what others say ---
+  // --- receiving ---
 
   async listen() {
     while (!this.heard.signal.aborted) {
@@ -121,7 +121,7 @@ export class Share {
         for (const [id, message] of Object.entries(messages)) this.take(id, message);
         await sleep(TICK / 2);
       } catch {
-        this.number = 0; // of a server that has been started again
+        this.number = 0; // of a server that was restarted
         await sleep(1000);
       }
     }
@@ -145,7 +145,7 @@ export class Share {
     if (this.button) this.button.hidden = !Object.values(this.others).some(({ look }) => look);
   }
 
-  // --- the desk looks where the wearer does, until somebody at the desk looks elsewhere ---
+  // --- the desk follows the wearer's look, until the user at the desk looks elsewhere ---
 
   follow(is) {
     this.follows = is;
@@ -167,7 +167,7 @@ export class Share {
     requestAnimationFrame(() => this.move());
   }
 
-  // Smoothly, as looks come ten times a second.
+  // Moves smoothly, because looks arrive ten times a second.
   move() {
     const { viewer, wanted } = this;
     const by = (name) => wrapDegrees(wanted[name] - viewer.state[name]);
