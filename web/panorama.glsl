@@ -364,7 +364,7 @@ vec2 moved(vec2 move, vec3 label, vec3 label_move, vec2 size) {
   return move;
 }
 
-// dx, dy: movement of the position from pixel to pixel, as fractions of a layer; square: of the pixel's width in texels.
+// dx, dy: movement of the position from pixel to pixel, in fractions of a layer; square: of the pixel's width in texels
 vec3 sampled(sampler2DArray tiles, vec3 at, vec2 dx, vec2 dy, float square) {
   if (!kCheap) return textureGrad(tiles, at, dx, dy).rgb;
   return textureLod(tiles, at, 0.5 * log2(max(square, 1.0))).rgb;
