@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How well pictures without depth are judged: built-in scenes, without noise of light, as JPEGs whose eyes are matched,
-// against the exact depth that they were rendered with; and the pictures named as arguments, .exr with depth. Prints
+// Accuracy of verdicts on pictures without depth: built-in scenes, without noise of light, as JPEGs whose eyes are
+// matched, compared with the exact depth of the rendering; and the pictures named as arguments, .exr with depth. Prints
 // the table of docs/comfort.md.
 #include <fmt/format.h>
 
@@ -27,7 +27,7 @@ using namespace ods;
 
 constexpr int kWidth = 2048;
 
-// Degrees are what eyes converge by: of each pixel, minutes of arc; NaN: unknown.
+// The angle in degrees by which eyes converge, for each pixel, in arc minutes; NaN if unknown.
 std::vector<double> vergences(const SeenDepth& seen) {
   std::vector<double> all;
   for (int y = 0; y < seen.depth.height; y++) {
