@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Renders a stereo 360 video through the library: video [SCENE [VIDEO]]. Run it again after an interruption: it goes
-// on.
+// Renders a stereo 360 video through the library: video [SCENE [VIDEO]]. Run it again after an interruption to resume.
 #include <cstdio>
 #include <numeric>
 
@@ -14,7 +13,7 @@
 int main(int argc, char** argv) try {
   const std::string name = argc > 1 ? argv[1] : "room";
   ods::Scene scene = ods::load_scene(name);
-  ods::play(scene.animation, "");  // whatever the file animates
+  ods::play(scene.animation, "");  // all animations of the file
 
   ods::StereoCamera camera;
   const ods::ViewPoint view = ods::default_view(scene);
@@ -30,7 +29,7 @@ int main(int argc, char** argv) try {
   ods::VideoOptions video;
   video.frames.resize(4);
   std::iota(video.frames.begin(), video.frames.end(), 0);
-  video.settings = {{"scene", name, ""}};  // the frames of another scene are refused
+  video.settings = {{"scene", name, ""}};  // rejects the frames of another scene
   ods::Progress progress;
   progress.report = [](double done) { std::fprintf(stderr, "%3.0f %%\r", 100.0 * done); };
   ods::render_video(scene, options, video, argc > 2 ? argv[2] : "room_360_TB.mp4", progress);
