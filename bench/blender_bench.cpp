@@ -31,9 +31,9 @@ using namespace ods;
 namespace fs = std::filesystem;
 
 const std::string kInterior = shared_scenes() + "/../tools/interior.py";
-constexpr int kWidth = 384, kSamples = 192;         // of the picture
-constexpr int kFilmWidth = 192, kFilmSamples = 16;  // of a frame
-constexpr int kFilmFrames = 24;                     // of 60
+constexpr int kWidth = 384, kSamples = 192;         // the picture's
+constexpr int kFilmWidth = 192, kFilmSamples = 16;  // a frame's
+constexpr int kFilmFrames = 24;                     // out of 60
 constexpr int kSeeds[] = {0, 7};
 constexpr std::array<const char*, 2> kEyes = {"left", "right"};
 

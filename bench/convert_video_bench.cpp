@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How fast videos are converted, over the ffmpeg program's v360 (lanczos) with the same encoder and settings,
+// Speed of video conversions, relative to the ffmpeg program's v360 (lanczos) with the same encoder and settings,
 // alternating in the same run; and the accuracy of both relative to the world in the video, which is a formula.
 // over_v360: our CPU seconds over its; below 1 is faster. bare: decoded and converted, but not encoded.
 #include <benchmark/benchmark.h>

@@ -42,7 +42,7 @@ using Shots = std::vector<std::shared_ptr<const Shot>>;
 
 Shots film_shots();
 
-// What an eye shows in a frame of a film.
+// The picture of an eye in a frame of a film.
 struct Moment {
   size_t shot = 0;
   double seconds = 0.0;
@@ -53,7 +53,7 @@ struct Film {
   Shots shots;  // one after the other, of equal length
   int frames = 60;
   double fps = 30.0;
-  double speed = 1.0;  // of all motions
+  double speed = 1.0;  // speed of all motions
   std::function<void(Moment& moment, int frame, int eye)> retime;
   std::vector<std::function<void(std::vector<ods::Image>& eyes, int frame)>> edits;
   int quality = 20;  // CRF
@@ -69,7 +69,7 @@ struct Film {
 std::string save(const Film& film, const std::string& stem);
 
 struct FilmPlant : Plant<Film> {
-  size_t shots = 1;  // of a film
+  size_t shots = 1;  // number per film
   // The text required in the evidence of a fault of time, or the shot that must show a fault of pictures. May be empty.
   std::function<std::string(double strength)> evidence = {};
   int shot = -1;

@@ -252,7 +252,7 @@ void reduce_bits(Image& eye, double bits) {
   for (float& light : eye.pixels) light = srgb_decode(std::round(srgb_encode(std::min(light, 1.0f)) * most) / most);
 }
 
-// The same curve and colours for both eyes.
+// Applies the same curve and colours to both eyes.
 void grade(std::vector<Image>& eyes, vec3 gain, float gamma) {
   for (Image& eye : eyes) {
     for (size_t i = 0; i < eye.pixels.size(); i++) {

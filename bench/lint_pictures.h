@@ -28,7 +28,7 @@ struct Made {
   ods::ConvertTarget target;
   std::vector<std::function<void(std::vector<ods::Image>& eyes)>> edits;
   ods::SaveOptions save;
-  std::string suffix;  // of the file's name: "_TB"
+  std::string suffix;  // suffix of the file's name: "_TB"
   std::string extension = ".jpg";
   ods::LintOptions lint;
   uint32_t seed = 0;

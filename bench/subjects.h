@@ -57,7 +57,7 @@ inline ods::RenderOptions options_of(int width, int samples) {
   return options;
 }
 
-// How light is compared: unchanged, or as displayed.
+// The light values to compare: unchanged, or as displayed.
 using LightView = float (*)(float light);
 inline float linear(float light) {
   return light;

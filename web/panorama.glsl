@@ -152,7 +152,7 @@ Place place_under(int which, vec3 label) {
   return place;
 }
 
-// How the position moves with a step of the direction, in texels. A step that leaves the face is taken backwards.
+// The movement of the position with a step of the direction, in texels. A step that leaves the face is taken backwards.
 // (Drivers inline every call and compile for seconds, so large functions are called from few places, in loops.)
 vec2 movement(int which, vec3 direction, vec3 step_by, Place from) {
   const float kPart = 0.25;
@@ -461,7 +461,7 @@ vec3 dubois(vec3 left, vec3 right) {
          mat3(-0.011, 0.377, -0.026, -0.032, 0.761, -0.093, -0.007, 0.009, 1.234) * right;
 }
 
-// How strongly a line at a multiple of `every` degrees covers the pixel, whose size is in degrees.
+// The coverage of the pixel by a line at a multiple of `every` degrees. The pixel size is in degrees.
 float line_at(float angle, float every, float stretch, float pixel) {
   float off = abs(angle - every * floor(angle / every + 0.5)) * stretch;
   return clamp(1.2 - off / pixel, 0.0, 1.0);

@@ -84,7 +84,7 @@ export class Player {
   }
 
   async enterHeadset() {
-    if (this.viewer.state.planet) this.act('planet'); // which is for flat screens
+    if (this.viewer.state.planet) this.act('planet'); // planet is for flat screens
     try {
       await (await this.loadHeadset()).toggle();
     } catch (error) {

@@ -6,7 +6,7 @@
 import { compile } from './panorama.js';
 
 export const BORDER = 16; // texels, as in panorama.glsl: two filter widths at the smallest mip level used close by
-const LEVELS = 6; // of mip maps
+const LEVELS = 6; // number of mip map levels
 const STEP = 1 << (LEVELS - 1); // layers are a multiple of this, so that every level has whole texels
 const LARGEST = 4096 + 2 * STEP; // of a layer: larger ones have no benefit, and some browsers fail to fill them
 

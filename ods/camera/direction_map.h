@@ -25,13 +25,14 @@ class DirectionMap {
   // The image position of a direction of any length but 0, both as in projection.h.
   virtual ImagePoint place(vec3 direction) const = 0;
 
-  // How far a direction is inside the picture's rim, radians; negative outside. Only lenses have a rim.
+  // The distance of a direction from the picture's rim, radians; positive inside, negative outside. Only lenses have a
+  // rim.
   virtual float inside(vec3 direction) const = 0;
 };
 
 // A fisheye lens whose image circle is anywhere in the picture, and may be cut by its edges.
 struct FisheyeLens {
-  vec2 center{0.0f};    // of the circle, pixels from the left and top edge of the eye's picture
+  vec2 center{0.0f};    // the circle's centre, pixels from the left and top edge of the eye's picture
   float radius = 0.0f;  // pixels
   float fov = 180.0f;   // degrees, from rim to rim of the circle
   int kind = kFisheye;  // is_fisheye()

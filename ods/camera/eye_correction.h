@@ -18,7 +18,7 @@ struct EyeCorrection {
   float roll = 0.0f;   // degrees clockwise
   float raise = 0.0f;  // degrees by which the picture moves up
   float zoom = 1.0f;   // > 0; enlarges headings and elevations about the middle of the picture
-  vec3 gain{1.0f};     // of linear red, green and blue, >= 0
+  vec3 gain{1.0f};     // factors of linear red, green and blue, >= 0
   float gamma = 1.0f;  // > 0; linear light is raised to this power before the gain
 
   bool operator==(const EyeCorrection&) const = default;

@@ -20,8 +20,8 @@ inline constexpr std::array<float, 5> kCyclesPolynomial = {-1.1735143712967577e-
 struct ProjectionSetting {
   int kind = kLatLong;
   // Ranges are in camera_fields.h.
-  vec2 longitude{-180.0f, 180.0f};  // of the left and right edge, at most 360 apart (kLatLong, kCylinder)
-  vec2 latitude{-90.0f, 90.0f};     // of the bottom and top edge; for a cylinder within +-89
+  vec2 longitude{-180.0f, 180.0f};  // left and right edge, at most 360 apart (kLatLong, kCylinder)
+  vec2 latitude{-90.0f, 90.0f};     // bottom and top edge; for a cylinder within +-89
   float fov = 180.0f;               // kFisheye...: from edge to edge, at most 360; kPerspective: horizontal, below 180
   float aspect = 1.0f;              // kPerspective: width over height
   // kFisheyePolynomial, whose field of view is `fov`: a sensor in millimetres, and K0 .. K4. At r millimetres from the
@@ -30,7 +30,7 @@ struct ProjectionSetting {
   vec2 sensor{36.0f, 24.0f};
   std::array<float, 5> polynomial = kCyclesPolynomial;
   float pan = 0.0f;   // has_lens(): direction of the lens, to the right
-  float tilt = 0.0f;  // and upwards; the viewing circle does not move
+  float tilt = 0.0f;  // direction of the lens, upwards; the viewing circle does not move
 
   bool operator==(const ProjectionSetting&) const = default;
 };

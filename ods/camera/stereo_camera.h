@@ -70,8 +70,8 @@ struct StereoCamera {
   PoleMergeSetting top;
   PoleMergeSetting bottom;
   std::shared_ptr<const Image> merge_map;  // for kMergeMap: lat-long, 1 channel, 1 is full stereo and 0 is merged
-  // How far the head tilts in each direction, from 90 degrees to the left (0) over level (0.5) to 90 degrees to the
-  // right (1, the right eye below the left one). Lat-long, 1 channel. A level head if not set.
+  // The tilt of the head in each direction, from 90 degrees to the left (0) over level (0.5) to 90 degrees to the right
+  // (1, the right eye below the left one). Lat-long, 1 channel. A level head if not set.
   std::shared_ptr<const Image> head_tilt_map;
   ProjectionSetting projection;
   int convergence = kParallel;

@@ -191,7 +191,7 @@ class MeshMap final : public DirectionMap {
 
   std::vector<Triangle> triangles_;
   int side_ = 0;                  // cells along a face
-  std::vector<uint32_t> starts_;  // of each cell's triangles in the list
+  std::vector<uint32_t> starts_;  // start of each cell's triangles in the list
   std::vector<uint32_t> listed_;
 };
 

@@ -18,7 +18,7 @@ namespace ods {
 
 struct OverOptions {
   bool by_depth = false;  // decide per pixel by depth; else the foreground is in front
-  float opacity = 1.0f;   // of the foreground
+  float opacity = 1.0f;   // the foreground's opacity
 };
 
 // The reason why the pictures cannot be composited, for messages. Empty if they can.

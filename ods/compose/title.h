@@ -31,7 +31,7 @@ struct Title {
   Image coverage;
   TitleSetting setting;
   vec3 right, up, middle;  // the card's axes, unit vectors
-  float pixels = 0.0f;     // of the coverage per metre
+  float pixels = 0.0f;     // pixels of the coverage per metre
   float reach = -1.0f;     // cosine of the largest angle between its centre and a ray that hits it
   float rise = 1.0f;       // sine of the largest angle above or below its centre line of a ray that hits it
 };

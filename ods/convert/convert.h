@@ -24,7 +24,7 @@
 
 namespace ods {
 
-// How to treat pixels that no source eye sees (disocclusions).
+// The treatment of pixels that no source eye sees (disocclusions).
 enum class Holes { kEmpty, kFilled };
 inline constexpr NameRow<Holes> kHolesTable[] = {
     {Holes::kEmpty, "empty"}, {Holes::kFilled, "filled"},  // from the background, never from the object in front of it

@@ -19,7 +19,7 @@ namespace ods {
 struct ConversionPlan {
   Mapping mapping;
   bool is_same = false;       // is_same_picture()
-  std::vector<RowPlan> rows;  // of all eyes, from top to bottom; if empty, rows are planned when they are filled
+  std::vector<RowPlan> rows;  // for all eyes, from top to bottom; if empty, rows are planned when they are filled
 };
 
 // `format`: a picture or its header; it must outlive the plan and must not move.

@@ -9,8 +9,8 @@ namespace ods {
 
 constexpr float kWidestSeam = 0.1f;  // radians: parallax doubles close objects in the seam
 
-// How much farther the direction is inside lens 1 than inside lens 0, radians. Sets `overlap` to the overlap of their
-// circles.
+// The depth of the direction inside lens 1 minus its depth inside lens 0, radians. Sets `overlap` to the overlap of
+// their circles.
 static float balance_of_lenses(const StoredPicture& picture, vec3 direction, float& overlap) {
   const float first = picture.maps[0]->inside(direction), second = picture.maps[1]->inside(direction);
   overlap = first + second;  // axes are opposite

@@ -53,7 +53,7 @@ struct RowPlan {
 // Plans row y of the target's eye with this index. Pixels that the target does not want are in neither list.
 RowPlan plan_row(const Mapping& mapping, int index, int y);
 
-// How the source position moves from one target pixel to the next. `place`: the pixel's.
+// The movement of the source position from one target pixel to the next. `place`: the pixel's.
 Footprint find_footprint(const Mapping& mapping, int index, int x, int y, const Place& place);
 
 // Returns whether the points, offset from a position, are all in the cell.

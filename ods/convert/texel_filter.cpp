@@ -23,7 +23,7 @@ namespace {
 // Points at equal steps. Their weights add up to 1, and rise and fall by equal steps.
 struct Tent {
   int count = 1;
-  float offset = 0.0f;  // of the first point
+  float offset = 0.0f;  // offset of the first point
   float step = 0.0f;
   float first_weight = 1.0f;
 

@@ -17,7 +17,7 @@
 
 namespace ods {
 
-// How the source position moves from one target pixel to the next, in texels.
+// The movement of the source position from one target pixel to the next, in texels.
 struct Footprint {
   vec2 dx{0.0f};  // to the right
   vec2 dy{0.0f};  // down

@@ -52,7 +52,7 @@ struct FrameBeside {
   // time of this frame, in world coordinates. If empty, the present position is used, as in scenes where only the
   // camera moves.
   std::span<const std::vector<vec3>> places;
-  // Whether both frames have the same random numbers in a pixel. Static pixels then have the same noise and are left
+  // Set if both frames have the same random numbers in a pixel. Static pixels then have the same noise and are left
   // out.
   bool same_noise = false;
 };

@@ -155,7 +155,7 @@ std::vector<Splash> splashes_of(const NoisyPicture& noisy, const std::vector<Out
 vec3 add_splash(const NoisyPicture& noisy, const Splash& splash, Level& level) {
   struct Share {
     size_t pixel;
-    vec3 radiance;  // of the light that it receives
+    vec3 radiance;  // radiance of the light that it receives
   };
   const EyeImage& eye = noisy.eye(splash.eye);
   std::vector<Share> shares;

@@ -15,7 +15,7 @@ namespace ods {
 // Names of layers, in upper or lower case: `halfA` for channels halfA.R, halfA.G, halfA.B. A name without a dot also
 // finds a layer whose last component it is: ViewLayer.halfA.
 struct NoiseLayers {
-  std::string variance{};  // of the pixel's mean; if empty, `variance`, as written by ods render
+  std::string variance{};  // variance of the pixel's mean; if empty, `variance`, as written by ods render
   std::string half_a{};    // pictures of half of the samples each; if empty and without variance: halfA and halfB, or
   std::string half_b{};    // other common names
   bool needed = true;      // if false, none of these layers is required (ods/denoise/oidn.h)

@@ -16,7 +16,7 @@ namespace ods {
 
 namespace {
 
-constexpr int kColumns = 256, kRows = 128;  // of the grid of examined pixels
+constexpr int kColumns = 256, kRows = 128;  // grid of examined pixels
 
 struct Look {
   vec3 direction;  // unit length; 0 if nothing is visible there

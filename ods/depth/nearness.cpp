@@ -22,7 +22,7 @@ namespace {
 // Statistics of a file's numbers.
 struct Survey {
   int64_t all = 0, nan = 0, negative = 0, zero = 0, infinite = 0;
-  float least = std::numeric_limits<float>::infinity(), most = -least;  // of the finite ones
+  float least = std::numeric_limits<float>::infinity(), most = -least;  // range of the finite ones
 };
 
 Survey survey(const Image& numbers) {

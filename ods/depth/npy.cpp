@@ -21,7 +21,7 @@ namespace {
 
 struct NpyHeader {
   char order = '<', type = 'f';
-  int bytes = 4;  // of a number
+  int bytes = 4;  // per number
   bool columns_first = false;
   std::vector<int> shape;
   uint64_t data = 0;  // offset

@@ -10,7 +10,7 @@ namespace ods {
 
 struct NpyArray {
   Image numbers;  // 1 channel; unsigned bytes and 16-bit words are 0..1 of their range, all others unchanged
-  int codes = 0;  // that range; 0 if the numbers are unchanged
+  int codes = 0;  // the range; 0 if the numbers are unchanged
 };
 
 // Reads floats and integers of 1 to 8 bytes, in either byte order, rows or columns first. Axes of length 1 do not

@@ -17,7 +17,7 @@ constexpr double kLeastDetail = 0.015;
 constexpr double kPeakLead = 0.04;
 
 struct Tile {
-  int x, y;  // of the tile's first pixel
+  int x, y;  // the tile's first pixel
   int columns, rows;
 };
 

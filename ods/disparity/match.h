@@ -14,7 +14,7 @@ namespace ods {
 // Angles are in radians. A tile has the same width on the sphere at every elevation:
 // its columns grow towards the poles.
 struct Search {
-  int rows = 12;  // of a tile, in pixels of the view
+  int rows = 12;  // size of a tile, in pixels of the view
   int columns = 16;
   int step = 12;         // from one row of tiles to the next, in pixels of the view
   float around = 0.21f;  // how far to search to either side; half of the parallax at 0.3 m
@@ -25,7 +25,7 @@ struct Search {
 };
 
 struct Match {
-  float theta = 0.0f;  // of the tile's centre
+  float theta = 0.0f;  // the tile's centre
   float phi = 0.0f;
   float around = 0.0f;  // theta in the left eye minus theta in the right eye: for a parallel pair 2 asin(r / rho) >= 0
   float down = 0.0f;    // phi in the left eye minus phi in the right eye; 0 in every omni-directional stereo pair

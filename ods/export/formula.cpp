@@ -152,7 +152,7 @@ Formula select(const Formula& condition, const Formula& below_zero, const Formul
 
 namespace {
 
-// How tightly an expression binds.
+// The precedence of an expression.
 enum Binding { kSum, kProduct, kAtom };
 
 class Printer {

@@ -130,7 +130,7 @@ class PovrayVector {
                        [&](const NamedFormula& step) { return count_step(part, step.name) > 0; });
   }
 
-  // How often a component computes a step if all steps are written out; the maximum over the components.
+  // The number of times that a component computes a step if all steps are written out; the maximum over the components.
   double evaluations(const std::string& name) const {
     double most = 0.0;
     for (const Formula& part : v_) {
@@ -164,7 +164,7 @@ class PovrayVector {
     for (Formula& part : v_) part = replace_step(part, name, value);
   }
 
-  // The values passed to function i: those of the previous links that it or a later one needs.
+  // The values passed to function i: values of the previous links that it or a later one needs.
   std::vector<std::string> needed_from(size_t i) const {
     std::vector<std::string> names;
     for (size_t link = 0; link < i; link++) {

@@ -28,7 +28,7 @@ bool is_plain_cosine(const PoleMergeSetting& merge);   // exponent 1, up to the 
 std::string one_merge(const PoleMergeSetting& merge);  // "cosine from 60 to 90 degrees"
 std::string merge_text(const StereoCamera& camera);    // for both poles
 std::string camera_title(const Sidecar& file);         // "both eyes, top-bottom, lat-long"
-Extent picture_size(const Sidecar& file);              // of the whole file; 0x0 if unknown
+Extent picture_size(const Sidecar& file);              // size of the whole file; 0x0 if unknown
 std::string yaw_pitch_roll(const StereoCamera& camera);
 
 // Comment lines: a title, and the features that the target lacks.

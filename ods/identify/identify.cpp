@@ -33,11 +33,11 @@ struct Cut {
   std::string reason;
   std::vector<Image> eyes;   // linear
   Image shown;               // the first eye, as a display shows it
-  Marks marks;               // of the first eye
+  Marks marks;               // marks of the first eye
   bool has_bars = false;     // black bars around the file
   double broken = 0.0;       // as breaks_in_middle()
   double other_faces = 0.0;  // evidence that it has the faces of a cube in an order that we do not support
-  PointPairs pairs;          // of both eyes
+  PointPairs pairs;          // pairs between both eyes
 };
 
 struct Candidate {

@@ -121,7 +121,7 @@ static float refine(const Halves& halves, std::vector<FisheyeLens>& lenses) {
   return best;
 }
 
-// How much brighter the picture is above than below, -1..1, in both lenses.
+// The brightness above minus the brightness below, -1..1, in both lenses.
 static float light_from_above(const Halves& halves, const std::vector<FisheyeLens>& lenses) {
   const Extent size{halves.first.width, halves.first.height};
   double up = 0.0, all = 0.0;

@@ -139,9 +139,9 @@ void find_kind_of_circle(const Image& eye, Marks& marks) {
 
 // --- pairs of texels -------------------------------------------------------------------------------------------------
 
-// How well pairs of texels join, compared with adjacent texels inside the picture and with unrelated pairs: 1 like
-// adjacent texels, -1 like unrelated ones. Roots of differences are summed, so that one sharp edge does not outvote all
-// others.
+// Measures how well pairs of texels join, compared with adjacent texels inside the picture and with unrelated pairs: 1
+// like adjacent texels, -1 like unrelated ones. Roots of differences are summed, so that one sharp edge does not
+// outvote all others.
 struct Joins {
   double pairs = 0.0, neighbours = 0.0, strangers = 0.0;
   int count = 0;
@@ -314,7 +314,7 @@ struct Side {
   size_t edge;           // edge of the face
   int x, y;              // a texel at the edge of a face
   int inner_x, inner_y;  // the next texel inwards
-  int outer_x, outer_y;  // and the next one outwards, beyond the face
+  int outer_x, outer_y;  // the next texel outwards, beyond the face
 };
 
 std::vector<Side> sides_of(const Cell& cell) {
@@ -332,7 +332,7 @@ std::vector<Side> sides_of(const Cell& cell) {
 
 }  // namespace
 
-constexpr size_t kWorstEdges = 4;  // of 24, tolerated because a stitcher or a codec may have spoilt them
+constexpr size_t kWorstEdges = 4;  // out of 24, tolerated because a stitcher or a codec may have spoilt them
 
 double faces_join(const Image& eye, const ProjectionSetting& cube) {
   const int columns = width_step(cube), rows = 6 / columns;

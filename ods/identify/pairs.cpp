@@ -200,8 +200,8 @@ std::optional<Move> move_of(const PointPair& pair, const Looker& looker, Apart (
               static_cast<double>(a.elevation)};
 }
 
-// Whether parallax grows downwards below the horizon, -1..1. It does for eyes in the right order, because the ground
-// gets closer, wherever the eyes converge; it decreases if they are swapped.
+// Evidence that parallax grows downwards below the horizon, -1..1. It does for eyes in the right order, because the
+// ground gets closer, wherever the eyes converge; it decreases if they are swapped.
 double growth_downwards(const std::vector<Move>& moves) {
   double n = 0.0, depth = 0.0, around = 0.0, both = 0.0, depths = 0.0, arounds = 0.0;
   for (const Move& move : moves) {

@@ -19,7 +19,7 @@ struct PointPair {
 };
 
 struct PointPairs {
-  Extent size;     // of each image
+  Extent size;     // size of each image
   int places = 0;  // number of places with detail in the first image
   std::vector<PointPair> found;
 };
@@ -27,7 +27,7 @@ struct PointPairs {
 // Matches two images of equal size, as a display shows them: 1 channel, 0..1.
 PointPairs find_pairs(const Image& left, const Image& right);
 
-// How well a projection explains pairs.
+// The fit of a projection to the pairs.
 struct Parallax {
   int count = 0;       // pairs with parallax
   double level = 0.0;  // the mean logarithm of the likelihood of their heights; 0 if all are equal in both eyes

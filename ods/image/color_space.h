@@ -26,7 +26,7 @@ struct ColorSpace {
   std::string name;   // for users: "gAMA 0.55556", "ICC profile 'Display P3'"; empty if unspecified
   std::string fault;  // the reason why the file's colour space is ignored; empty if it is used
   Curve curve = Curve::kDefault;
-  std::array<std::vector<float>, 3> light;  // of kLinear and kOther: linear light, 0..1, of each 16-bit code value
+  std::array<std::vector<float>, 3> light;  // for kLinear and kOther: linear light, 0..1, of each 16-bit code value
   bool has_our_primaries = true;
   glm::dmat3 to_rec709{1.0};  // from the file's linear light
 };

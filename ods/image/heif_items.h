@@ -20,7 +20,7 @@ struct HeifItems {
   std::string icc;             // its ICC profile; empty if it has none
   // Its colour primaries and transfer curve by ITU-T H.273 (nclx), if it has no profile.
   std::optional<std::array<uint16_t, 2>> color;
-  float fov = 0.0f;  // of its camera (cmin), horizontal degrees; 0 if unknown
+  float fov = 0.0f;  // field of view of its camera (cmin), horizontal degrees; 0 if unknown
 };
 
 // Throws MalformedFile, also for pictures that contain themselves or more pictures than decoders can handle;

@@ -87,7 +87,7 @@ struct FileHeader {
   int height = 0;
   std::vector<Channel> channels;      // alpha of integers is unassociated
   std::vector<Attribute> attributes;  // GPano:* becomes XMP; except in EXR, only text and GPano
-  int quality = 95;                   // of JPEG (4:4:4) and WebP, 1 to 100
+  int quality = 95;                   // for JPEG (4:4:4) and WebP, 1 to 100
   bool says_srgb = false;             // PNG: writes an sRGB chunk
   bool is_environment = false;        // EXR: marks it as a whole lat-long
   bool rows_alone = false;            // EXR: compresses each row separately, not 16 together

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a surface scatters light: glTF 2.0's metallic-roughness model with transmission, energy-conserving.
+// The scattering of light by a surface: glTF 2.0's metallic-roughness model with transmission, energy-conserving.
 //
 // Every material mixes three lobes:
 //   specular GGX reflection of metals and dielectrics with Schlick's Fresnel term, scaled up by the energy that single

@@ -30,7 +30,7 @@ struct Counterpart {
   float density;  // without the cosines
 };
 
-// Whether project_point() is a closed form for the points on rays of this direction (unit length).
+// Returns whether project_point() is a closed form for the points on rays of this direction (unit length).
 inline bool projects_quickly(Camera camera, vec3 direction) {
   if (camera.neck != 0.0f || has_head_tilt(camera)) return false;
   vec3 axis = camera.axis.x * camera.right + camera.axis.y * camera.up + camera.axis.z * camera.back;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a surface with layers (SurfaceLayers) scatters light: the lobes of bsdf.h as glTF's extensions change them, and
-// the lobes that the extensions add. From the top:
+// The scattering of light by a surface with layers (SurfaceLayers): the lobes of bsdf.h as glTF's extensions change
+// them, and the lobes that the extensions add. From the top:
 //
 //   clearcoat  GGX of index 1.5 about its own normal. It replaces the fraction clearcoat * F(cosine of the viewer) of
 //              everything below it, emission included (KHR_materials_clearcoat). It has no effect inside a volume,

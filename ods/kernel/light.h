@@ -54,7 +54,7 @@ inline float node_importance(LightNode node, Receiver receiver) {
 struct LightSample {
   vec3 direction;  // towards the light, unit length
   float distance;
-  vec3 end;       // where a shadow ray ends, just in front of the light; unused at kFarAway
+  vec3 end;       // end of a shadow ray, just in front of the light; unused at kFarAway
   vec3 radiance;  // arriving radiance; for lights without size (pdf 0) already divided by the probability of picking
                   // them
   float pdf;      // per solid angle, including the probability of picking the light

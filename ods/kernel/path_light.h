@@ -30,7 +30,7 @@ struct PathSettings {
 // A point whose light can be stored in the light cache, and the albedo there.
 struct CachePlace {
   vec3 position;
-  vec3 normal;  // of the triangle, on the side that the light leaves
+  vec3 normal;  // normal of the triangle, on the side that the light leaves
   vec3 albedo;
   float cell;  // size of the larger cell, metres; 0 if nothing is stored here
 };
@@ -118,7 +118,7 @@ const uint kLensPair = 0xffffffffu;
 const uint kTimePair = 0xfffffffeu;
 const uint kScatterPair = 1u;  // lobe, roulette
 const uint kDirectionPair = 2u;
-const uint kCandidatePair = 3u;  // which candidate; which colour remains after dispersion
+const uint kCandidatePair = 3u;  // selects the candidate; the colour that remains after dispersion
 const uint kLightPair = 4u;      // from here on three pairs per candidate: light, cell of an environment, point
 const uint kPairsPerBounce = 3u + 3u * uint(kLightCandidates);
 
@@ -166,8 +166,8 @@ struct PathLight : MediumReader {
     return unit_float(hash_pair(key, hash_pair(uint(hit.instance), uint(hit.triangle))));
   }
 
-  // Whether an instance is invisible to a ray of the path. Every device calls this at each candidate hit of an instance
-  // of these two roles.
+  // Returns whether an instance is invisible to a ray of the path. Every device calls this at each candidate hit of an
+  // instance of these two roles.
   inline bool is_absent(int ray, int instance) {
     int role = scene_instance(instance).role;
     bool of_camera = ray != kShadowRay && path.bounce == 0;
@@ -217,7 +217,8 @@ struct PathLight : MediumReader {
 
   // --- clear glass
 
-  // Whether light passes straight through a hit. Never in a solid for the camera and mirrors (scattered: false).
+  // Returns whether light passes straight through a hit. Never in a solid for the camera and mirrors (scattered:
+  // false).
   inline bool is_clear(Hit hit, bool scattered) {
     Material material = scene_material(scene_mesh(scene_instance(hit.instance).mesh).material);
     if (!(material.transmission > 0.0f) || material.unlit == 1) return false;

@@ -12,7 +12,7 @@ namespace ods {
 struct Vertex {
   vec3 position;
   vec3 normal;   // unit length
-  vec4 tangent;  // xyz: unit length; w = +1 or -1: side of the bitangent (glTF); xyz = 0: no tangent
+  vec4 tangent;  // xyz: unit length, or 0 if there is no tangent; w = +1 or -1: side of the bitangent (glTF)
   vec2 uv0;
   vec2 uv1;
   vec4 color;  // linear, multiplies the base colour; 1,1,1,1 if the file has none
@@ -28,7 +28,7 @@ struct Mesh {
   int motion;  // for a mesh that deforms while the shutter is open: its first row of MotionVertex; else -1
 };
 
-// How the camera sees an instance. In reflections and for light all are ordinary.
+// The visibility of an instance to the camera. In reflections and for light all are ordinary.
 const int kOrdinary = 0;
 const int kCatcher = 1;       // invisible except for the shadows that others cast on it (ods/kernel/path.h)
 const int kFadingGround = 2;  // has no albedo in the layers and nearly no normal, like the background
@@ -160,7 +160,7 @@ const int kLightSpot = 2;
 const int kLightDirectional = 3;
 const int kLightEnvironment = 4;
 
-// How a spot fades from its inner to its outer cone; t goes from 0 at the outer one to 1, linear in the cosine.
+// The falloff of a spot from its inner to its outer cone; t goes from 0 at the outer one to 1, linear in the cosine.
 const int kConeSquare = 0;        // t^2, as KHR_lights_punctual suggests
 const int kConeSmooth = 1;        // t^2 (3 - 2 t), as in Cycles
 const int kConeSmoothCosine = 2;  // kConeSmooth times the cosine of the angle from the axis: Cycles up to Blender 3.4
@@ -180,12 +180,12 @@ struct Light {
   vec3 position;      // point, spot
   vec3 direction;     // spot, directional: unit vector along which the light shines
   vec3 intensity;     // point, spot: W/sr (glTF: cd); directional: W/m2 (glTF: lux)
-  float range;        // point, spot: metres; <= 0: unlimited
+  float range;        // point, spot: metres; unlimited if <= 0
   float cone_scale;   // spot: t = clamp(cos * scale + offset, 0, 1) fades from inner to outer cone
   float cone_offset;  //
   int cone;           //       kConeSquare, ...
   float size;  // point, spot: radius of a sphere, metres; directional: half of its angle, radians. Rays do not hit it
-  float probability;  // of picking this light
+  float probability;  // probability of picking this light
 };
 
 // One slot of the alias table from which lights are picked; it contains the lights that have power.

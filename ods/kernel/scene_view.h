@@ -39,7 +39,7 @@ const int kSheenTable = kGlassTable + 2 * kGlassSize * kGlassSize * kGlassSize; 
 const int kSheenSize = 32;
 // [roughness across][roughness along][turn][cosine][2]: see anisotropic_albedo() in albedo.h
 const int kAnisotropicTable = kSheenTable + kSheenSize * kSheenSize;
-const int kAnisotropicSize = 16;  // of the first and the last axis
+const int kAnisotropicSize = 16;  // size of the first and the last axis
 const int kAnisotropicAlong = 8;
 const int kAnisotropicTurns = 4;
 const int kAnisotropicCells = kAnisotropicSize * kAnisotropicAlong * kAnisotropicTurns * kAnisotropicSize;

@@ -190,8 +190,8 @@ struct SurfaceReader : TextureReader {
     return alpha;
   }
 
-  // Whether a ray passes through a hit as if nothing were there: an alpha mask, or alpha blending decided at random by
-  // draw, uniform in [0, 1). Every device calls this at each candidate hit of a material that is not opaque.
+  // Returns whether a ray passes through a hit as if nothing were there: an alpha mask, or alpha blending decided at
+  // random by draw, uniform in [0, 1). Every device calls this at each candidate hit of a material that is not opaque.
   inline bool passes(Hit hit, float draw) {
     Material material = scene_material(scene_mesh(scene_instance(hit.instance).mesh).material);
     if (material.alpha_mode == kAlphaOpaque) return false;

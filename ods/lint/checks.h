@@ -67,8 +67,8 @@ struct Difference {
   size_t places = 0;
 };
 
-// How certain it is that the difference matters: below `harmless` it is not noticed, above `painful` every viewer
-// notices it.
+// The certainty that the difference matters: below `harmless` it is not noticed, above `painful` every viewer notices
+// it.
 double certainty_of(const Difference& difference, double harmless, double painful);
 
 // Every check calls one of these two for each Check that it is responsible for.

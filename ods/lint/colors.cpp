@@ -84,7 +84,7 @@ std::vector<Pair> find_pairs(const Subject& subject) {
 // y = slope x + offset, by least squares with the weights of a Cauchy distribution.
 struct Line {
   double slope = 0.0, offset = 0.0;
-  double error = 0.0;   // of the slope
+  double error = 0.0;   // error of the slope
   double spread = 0.0;  // standard deviation of y around the line
   double reach = 0.0;   // standard deviation of x
 };
@@ -121,7 +121,7 @@ struct Response {
   double gamma = 1.0;
   double gamma_error = 0.0;
   glm::dvec3 gain{1.0};
-  double error = 0.0;  // of a gain, relative
+  double error = 0.0;  // relative error of a gain
   size_t places = 0;
 };
 

@@ -111,11 +111,11 @@ constexpr Severity severity_of(Fault fault) {
 enum class Check {
   kLayout,       // how the eyes share the file, and whether they are at one place
   kTwoEyes,      // whether the eyes see from two points
-  kEyeOrder,     // which eye is which
+  kEyeOrder,     // the order of the eyes
   kCircle,       // a viewing circle, two cameras, or a mirrored circle
   kTopPole,      // stereo at the top pole
   kBottomPole,   // stereo at the bottom pole
-  kSeam,         // where the right edge meets the left one
+  kSeam,         // continuity between the right and the left edge
   kShape,        // width over height
   kMetadata,     // contradictions between file, name and sidecar
   kVideoLevels,  // limits of codecs

@@ -66,8 +66,8 @@ class FrameTrace {
   Extent eye_;
   Layout layout_;
   int frames_ = 0;
-  std::vector<double> times_;                 // of the frames, seconds
-  std::vector<Small> last_;                   // of each eye
+  std::vector<double> times_;                 // times of the frames, seconds
+  std::vector<Small> last_;                   // per eye
   std::vector<std::vector<Numbers>> rows_;    // means, per eye and frame
   std::vector<std::vector<Change>> changes_;  // per eye: from frame i to frame i + 1
   std::vector<std::vector<int>> cuts_;        // per eye: the first frames of all shots but the first

@@ -48,8 +48,8 @@ struct LintReport {
   std::vector<Finding> findings;  // the most certain first; includes findings whose certainty is nearly 0
   std::vector<Check> judged;      // every check is either here or in not_judged
   std::vector<NotJudged> not_judged;
-  int frames = 0;                  // of a video
-  int judged_frames = 0;           // of a video, the number judged as pictures
+  int frames = 0;                  // number of frames of a video
+  int judged_frames = 0;           // number of a video's frames judged as pictures
   std::vector<std::string> notes;  // things ignored in the file: NaN, a colour profile
 };
 

@@ -20,7 +20,7 @@ namespace ods {
 namespace {
 
 constexpr int kSectors = 16;
-constexpr double kPrecision = 0.25;  // of a match, in pixels of its view
+constexpr double kPrecision = 0.25;  // precision of a match, in pixels of its view
 constexpr double kGrounded = 0.2;    // a value of growth_downwards() beyond coincidence
 constexpr double kPi2 = 2.0 * std::numbers::pi;
 
@@ -38,7 +38,7 @@ struct Parallaxes {
   double sectors = 0.0;  // number of sectors with matches, 0..kSectors
 };
 
-// How well a pattern of signs explains the data, -1..1.
+// The agreement of a pattern of signs with the data, -1..1.
 template <class Pattern>
 double explained(const Parallaxes& parallaxes, Pattern pattern) {
   double sum = 0.0, most = 0.0;
@@ -86,8 +86,8 @@ void weigh(Parallaxes& parallaxes) {
   for (double each : count) parallaxes.sectors += each / (each + 1.0);
 }
 
-// Whether angular parallax grows downwards below the horizon, -1..1, judged at each heading separately. It does for
-// eyes in the right order, because the ground gets closer, wherever the eyes converge; it decreases if they are
+// Evidence that angular parallax grows downwards below the horizon, -1..1, judged at each heading separately. It does
+// for eyes in the right order, because the ground gets closer, wherever the eyes converge; it decreases if they are
 // swapped.
 double growth_downwards(const Parallaxes& parallaxes) {
   struct Sums {
@@ -235,7 +235,7 @@ static double check_swap(const Subject& subject, const Parallaxes& parallaxes, d
   return certainty;
 }
 
-// How well a magnified eye explains the signs. Magnification also causes vertical differences, unlike parallax.
+// The agreement of a magnified eye with the signs. Magnification also causes vertical differences, unlike parallax.
 static double explained_by_zoom(const Subject& subject, const Parallaxes& parallaxes) {
   constexpr double kSurely = 3.0;  // standard errors
   const Alignment::Term& zoom = subject.alignment.terms[kZoomTerm];

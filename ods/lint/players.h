@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How players will interpret a video or a picture, and why. Players differ in the metadata that they read; they are
-// grouped by that.
+// The interpretation of a video or a picture by players, and its reasons. Players differ in the metadata that they
+// read; they are grouped by that.
 // Sources: google/spatial-media (V2 has priority over V1); Meta, "Mobile media overview" (suffixes; square is
 // top-bottom); Skybox and DeoVR, their pages on file names. Names of layouts and projections:
 // layout_of() and named_projections().

@@ -24,7 +24,7 @@ namespace ods {
 
 namespace {
 
-constexpr int kBlocks = 128;          // of rows, each averaged
+constexpr int kBlocks = 128;          // blocks of rows, each averaged
 constexpr double kNoise = 0.003;      // as displayed: breaks below are not structure
 constexpr double kSharpest = 8.0;     // maximum weight of a break
 constexpr double kFewBits = 0.033;    // bits per pixel of a video: below this, codecs break the picture at its edges
@@ -93,7 +93,7 @@ Columns sharpness_of(const Columns& row, size_t wide) {
   return some;
 }
 
-// How much the steps after these columns exceed the adjacent steps, relative to the steps farther away.
+// The excess of the steps after these columns over the adjacent steps, relative to the steps farther away.
 Columns excess_of(const Columns& row) {
   const size_t n = row.size();
   Columns step(n), excess(n);
@@ -107,8 +107,8 @@ Columns excess_of(const Columns& row) {
   return compared_columns(excess);
 }
 
-// How sharply each of these columns breaks in all rows and in both eyes: a vertical edge of the scene is sharp in some
-// rows only, and at another column in each eye. sharpness: of a row's columns.
+// The sharpness of the break after each of these columns in all rows and in both eyes: a vertical edge of the scene is
+// sharp in some rows only, and at another column in each eye. sharpness: of a row's columns.
 Columns measure(const std::vector<Image>& eyes, const std::function<Columns(const Columns&)>& sharpness) {
   Columns score;
   for (int i = 0; i < kBlocks; i++) {
@@ -154,7 +154,7 @@ bool has_structure(const std::vector<Columns>& scores) {
   });
 }
 
-// How much more the seam's columns differ than the adjacent columns, as displayed: the mean of all rows. Differences
+// The difference of the seam's columns beyond that of adjacent columns, as displayed: the mean of all rows. Differences
 // below a code value or two are invisible.
 double step_at_seam(const std::vector<Image>& eyes, size_t wide) {
   double step = 0.0;

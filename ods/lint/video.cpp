@@ -37,7 +37,7 @@ Image packed_image(Layout layout, const std::vector<Image>& eyes) {
   return packed;
 }
 
-// Where the layout comes from, for findings about it.
+// The source of the layout, for findings about it.
 LayoutGuess layout_of(const VideoInput& video, const LintOptions& options) {
   LayoutGuess guess;
   if (video.prototype.eyes.size() == 2) guess.layout = video.prototype.layout;
@@ -190,7 +190,7 @@ class VideoJudge {
   std::map<Fault, std::vector<Finding>> findings_;  // per shot
   std::map<Check, int> judged_;
   std::map<Check, std::string> why_not_;
-  LintReport report_;  // of the last judged frame
+  LintReport report_;  // report of the last judged frame
 };
 
 }  // namespace

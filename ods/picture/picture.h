@@ -11,7 +11,7 @@
 
 namespace ods {
 
-// How to combine a layer's values when a picture is resized.
+// The method of combining a layer's values when a picture is resized.
 enum class LayerRule {
   kLight,    // colour: averaged in linear light, premultiplied by alpha
   kMean,     // values that may be averaged: normals, albedo
@@ -21,7 +21,7 @@ enum class LayerRule {
 // Depth of a ray that hit nothing.
 inline constexpr float kFarDepth = 1e10f;
 
-// Returns whether a depth is that of a surface: neither of a ray that hit nothing, nor invalid (NaN, 0 or less).
+// Returns whether a depth belongs to a surface: neither a ray that hit nothing, nor invalid (NaN, 0 or less).
 inline bool is_surface(float depth) {
   return depth > 0.0f && depth < 0.1f * kFarDepth;
 }

@@ -161,7 +161,7 @@ namespace {
 // One output file, with some eyes of a picture.
 struct File {
   const PictureRows& picture;
-  std::vector<int> indices;  // of the eyes in this file
+  std::vector<int> indices;  // indices of the eyes in this file
   FileFormat format;
   Layout layout;
   const SaveOptions& options;

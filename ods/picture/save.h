@@ -36,7 +36,7 @@
 namespace ods {
 
 struct SaveOptions {
-  Layout layout = Layout::kTopBottom;  // of two eyes; %V or %v in the name overrides it with kSeparate
+  Layout layout = Layout::kTopBottom;  // for two eyes; %V or %v in the name overrides it with kSeparate
   float exposure = 0.0f;               // EV: the light is multiplied by 2^exposure
   ToneCurve tone = ToneCurve::kNeutral;
   int jpeg_quality = 95;              // jpg and webp, 1..100

@@ -28,7 +28,7 @@ namespace ods {
 
 namespace {
 
-using Readers = std::vector<std::unique_ptr<RowReader>>;  // of the files of a picture
+using Readers = std::vector<std::unique_ptr<RowReader>>;  // readers of the files of a picture
 
 // A layer of one view of a file, and the destination of its pixels.
 struct Plane : ChannelLayer {

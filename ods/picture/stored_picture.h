@@ -40,14 +40,14 @@ struct StoredEye {
 };
 
 struct StoredPicture {
-  Extent size;                  // of each eye as stored; squeezed eyes remain squeezed
+  Extent size;                  // size of each eye as stored; squeezed eyes remain squeezed
   std::vector<StoredEye> eyes;  // one, or left and right, with the same layers
   bool is_float = false;        // scene-linear; else display-encoded
   Layout layout = Layout::kSeparate;
   std::string layout_reason;  // the source of the layout: "its name ends in _TB"
   StereoCamera camera;        // the known parts: projection, ipd, merge, convergence, pose
-  // How a camera stored its eyes if not in a projection: one map for each eye. `camera` then has the lat-long of the
-  // same directions.
+  // The mapping of a camera's eyes if they are not in a projection: one map for each eye. `camera` then has the
+  // lat-long of the same directions.
   std::vector<std::shared_ptr<const DirectionMap>> maps;
   bool front_and_back = false;       // with maps: the eyes, both kMono, are the two lenses of a camera of one eye
   bool has_ipd = false;              // known from caller, file or sidecar; else the default

@@ -18,7 +18,7 @@ struct TreeLight {
   vec3 axis{0.0f, 0.0f, 1.0f};  // unit vector: the direction that it faces, or the middle of several
   double open = 0.0;            // radians: maximum angle between the axis and its directions; pi for all directions
   double power = 0.0;           // power sent to the side that it faces,
-  double back_power = 0.0;      // and to the opposite side; one of them is positive
+  double back_power = 0.0;      // power sent to the opposite side; one of them is positive
 };
 
 struct LightTree {

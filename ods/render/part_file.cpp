@@ -162,7 +162,7 @@ std::string save_part(const std::string& path, const SampledPicture& picture, co
                         {kSettings, settings_text(picture.settings)},
                         {kSidecar, picture.camera}};
   options.rows_alone = true;    // so long that combining several saves nothing
-  options.has_checksum = true;  // of the header
+  options.has_checksum = true;  // a checksum of the header
   return save_picture(rows, &camera, options, path).front();
 }
 
@@ -217,8 +217,8 @@ namespace {
 
 // The byte offsets of an eye's numbers in a pixel of a part, in the order of each_plane() and channels_of().
 struct EyeOffsets {
-  std::vector<size_t> sums;     // of the requested planes
-  std::vector<size_t> checked;  // of all planes with a CRC in the row
+  std::vector<size_t> sums;     // numbers of the requested planes
+  std::vector<size_t> checked;  // numbers of all planes with a CRC in the row
   std::array<size_t, Words<uint32_t>::kCount> check{};
 };
 
@@ -237,7 +237,7 @@ PartsReader::File PartsReader::open(const std::string& path) const {
   if (info.width != options_.width || info.height != options_.height) {
     fail(path, fmt::format("is not {}x{} pixels large", options_.width, options_.height));
   }
-  std::vector<size_t> starts;  // of a pixel's channels
+  std::vector<size_t> starts;  // start of a pixel's channels
   for (const SampleType sample : info.samples) starts.push_back(file.stride), file.stride += bytes_of(sample);
   RenderOptions one = options_;
   one.width = one.height = 1;
@@ -268,7 +268,7 @@ PartsReader::File PartsReader::open(const std::string& path) const {
 
 PartsReader::PartsReader(std::vector<std::string> paths, const RenderOptions& options)
     : paths_(std::move(paths)), options_(options) {
-  constexpr size_t kMostOpen = 200;  // of the 1024 files that a process may have open
+  constexpr size_t kMostOpen = 200;  // out of the 1024 files that a process may have open
   for (const std::string& path : paths_) {
     File file = open(path);
     if (open_.size() < kMostOpen) open_.push_back(std::move(file));

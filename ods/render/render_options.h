@@ -40,7 +40,7 @@ constexpr std::string_view pixel_filter_name(PixelFilter filter) {
   return name_in(kPixelFilterTable, filter);
 }
 
-// How light passes through smooth solids of glass and liquid: refracted, which paths find by chance only, or straight,
+// The path of light through smooth solids of glass and liquid: refracted, which paths find by chance only, or straight,
 // as through a window (ods/kernel/path_light.h). The camera sees them refract in both modes.
 enum class Caustics { kPath, kStraight };
 inline constexpr NameRow<Caustics> kCausticsTable[] = {
@@ -52,7 +52,7 @@ constexpr std::string_view caustics_name(Caustics caustics) {
   return name_in(kCausticsTable, caustics);
 }
 
-// How indirect light is found: by whole paths, or by paths that end in a cache, which is filled first
+// The method of finding indirect light: by whole paths, or by paths that end in a cache, which is filled first
 // (ods/kernel/light_cache.h). The cache is much faster in rooms, with an error of a few per mille.
 enum class Indirect { kPath, kCache };
 inline constexpr NameRow<Indirect> kIndirectTable[] = {
@@ -64,7 +64,7 @@ constexpr std::string_view indirect_name(Indirect indirect) {
   return name_in(kIndirectTable, indirect);
 }
 
-// How paths find light. Use kBoth; the others exist for tests.
+// The method by which paths find light. Use kBoth; the others exist for tests.
 enum class LightSampling { kBoth, kLightsOnly, kBsdfOnly };
 
 // Maximum number of samples of a pixel.
@@ -83,7 +83,7 @@ std::optional<Part> parse_part(const std::string& text);
 std::string part_text(const Part& part);
 
 struct RenderOptions {
-  int width = 2048;             // of one eye
+  int width = 2048;             // size of one eye
   int height = 0;               // natural_height() of the camera's projection if 0
   int samples = 64;             // maximum per pixel, 1 .. kMaxSamples
   float noise = 0.0f;           // blocks of pixels stop at this noise, in Cycles' measure; 0 to disable

@@ -29,7 +29,7 @@ size_t block_count(const RenderOptions& options);
 
 struct SamplingPlan {
   int columns = 0;           // blocks across
-  std::vector<float> share;  // of each block: fraction of the samples of the pixels with the largest solid angle, 0..1
+  std::vector<float> share;  // per block: fraction of the samples of the pixels with the largest solid angle, 0..1
 };
 
 // Precondition: options.height > 0.

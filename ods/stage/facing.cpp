@@ -24,7 +24,7 @@ float elevation_of(int row) {
 
 struct Panorama {
   std::vector<std::array<Sight, kRows>> columns;
-  std::vector<int> sizes;  // of each instance: number of directions in which it is seen
+  std::vector<int> sizes;  // per instance: number of directions in which it is seen
   float farthest = 0.0f;   // distance of the farthest surface
 
   const Sight& at(int column, int row) const {

@@ -10,7 +10,7 @@ namespace ods {
 
 // Evidence for an object or a place, seen from outside and from Survey::stand.
 struct PlaceSigns {
-  float extent = 0.0f;         // of the core, metres
+  float extent = 0.0f;         // size of the core, metres
   float backs_outside = 0.0f;  // backs_seen_outside(): rarely less than 0.3 for places, but 0 if their walls are thick
   float backs_inside = 0.0f;   // fraction of the surfaces seen from the stand that show their backs
   float below = 0.0f;          // height of the floor in the core, relative to the core's height

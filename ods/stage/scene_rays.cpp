@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kNearDirections = 256;
 constexpr int kOpenDirections = 512;
-constexpr int kMostPanes = 32;  // of glass behind each other
+constexpr int kMostPanes = 32;  // panes of glass behind each other
 constexpr float kSteepest = 0.7071f;
 
 LightTable without_lights(const Scene& scene) {

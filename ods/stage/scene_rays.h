@@ -21,7 +21,7 @@ struct Sight {
   float distance = std::numeric_limits<float>::infinity();  // infinite if the ray leaves the scene
   bool front = true;                                        // it meets the surface's front, as defined by its winding
   bool clear = false;                                       // the surface is glass, which lets light through
-  vec3 normal{0.0f};                                        // of the triangle, on the ray's side
+  vec3 normal{0.0f};                                        // normal of the triangle, on the ray's side
   int instance = -1;
   int triangle = -1;
 

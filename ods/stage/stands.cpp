@@ -67,7 +67,7 @@ View look_around(const SceneRays& rays, vec3 eye, float unit) {
   return view;
 }
 
-// How safe the ground is: 1 on a wide floor, less on a bed or a table from which one could fall, 0 on a ledge.
+// The safety of the ground: 1 on a wide floor, less on a bed or a table from which one could fall, 0 on a ledge.
 float footing(const SceneRays& rays, vec3 eye, float floor, float unit) {
   int level = 0, lower = 0;
   for (int i = 0; i < 8; i++) {

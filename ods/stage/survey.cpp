@@ -95,7 +95,7 @@ Bounds core_bounds(const Scene& scene) {
 }
 
 float distance_to_see(const Scene& scene, const Bounds& core) {
-  constexpr float kCotangent = 1.7320508f;  // of 30 degrees
+  constexpr float kCotangent = 1.7320508f;  // cotangent of 30 degrees
   const vec3 middle = 0.5f * (core.low + core.high);
   float distance = 0.0f;
   for (const Triangle& triangle : sampled_triangles(scene)) {

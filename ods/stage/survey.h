@@ -59,8 +59,8 @@ struct Stand {
 // Lengths are in the scene's units.
 struct Survey {
   SceneKind kind = SceneKind::kNothing;
-  Bounds bounds;                 // of everything visible
-  Bounds core;                   // of most triangles: without a sky dome, a huge ground, or stray objects far away
+  Bounds bounds;                 // box around everything visible
+  Bounds core;                   // box around most triangles: without a sky dome, huge ground, or stray objects
   bool has_light = false;        // has_light() of ods/scene/scene.h
   std::optional<Stand> stand;    // the best one, for places
   std::optional<Stand> refused;  // for objects: a person could stand there, but it does not look like a place

@@ -40,7 +40,7 @@ inline constexpr float kLeastUnit = 1e-6f;
 inline constexpr float kMostUnit = 1e6f;
 
 // Limits between plausible sizes and wrong units, metres.
-inline constexpr float kSmallestPlace = 0.05f;   // of a whole room: even a doll's house is larger
+inline constexpr float kSmallestPlace = 0.05f;   // size of a whole room: even a doll's house is larger
 inline constexpr float kHighestRoom = 100.0f;    // floor to ceiling: higher than any cathedral's nave or hangar
 inline constexpr float kWidestPlace = 20000.0f;  // a landscape up to the horizon
 inline constexpr float kSmallestObject = 0.5f;   // smaller ones are specks at arm's length and beyond,
@@ -50,7 +50,7 @@ inline constexpr float kModelSize = 1.3f;        // the size at which such objec
 struct UnitGuess {
   float metres = 1.0f;  // per unit of the file
   std::string reason;   // for users, if it is not 1: "the room is 260 m high, so its unit is taken for centimetres"
-  Survey survey;        // of the scene with that unit, in the file's units
+  Survey survey;        // survey of the scene with that unit, in the file's units
 };
 
 // Guesses the unit of a scene: metres, unless real rooms, places and objects do not have that size.

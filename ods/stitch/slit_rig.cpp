@@ -76,7 +76,7 @@ Ray ray_at(const Camera& camera, int eye, float longitude, float latitude) {
 
 namespace {
 
-constexpr float kWidestTangent = 11.4f;  // of half of 170 degrees
+constexpr float kWidestTangent = 11.4f;  // tangent of half of 170 degrees
 
 // The tangents of the half angles that a view must cover.
 struct Window {

@@ -22,7 +22,7 @@
 
 namespace ods {
 
-// How a view measures depth.
+// The kind of depth in a view.
 enum class ViewDepth {
   kNone,
   kRay,    // metres from the view's own position, as in our pictures
@@ -50,7 +50,7 @@ struct SlitOptions {
 };
 
 struct SlitRig {
-  StereoCamera camera;  // of the stitched picture: lat-long, whole or a part
+  StereoCamera camera;  // camera of the stitched picture: lat-long, whole or a part
   Extent eye;           // size of one eye of it
   std::vector<int> eyes{kLeft, kRight};
   SlitOptions options;

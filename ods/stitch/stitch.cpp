@@ -123,7 +123,7 @@ class Stitcher {
   size_t pixels_from_ = 0;                   // bytes
   std::mutex mutex_;
   std::vector<ViewFault> faults_;
-  std::atomic<int64_t> unseen_{0};  // of the current batch
+  std::atomic<int64_t> unseen_{0};  // count of the current batch
   int64_t unseen_all_ = 0;
 };
 

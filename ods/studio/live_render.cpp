@@ -28,7 +28,7 @@ namespace {
 // The steps of rendering after a change, in order. Denoising needs at least two samples.
 struct Step {
   bool is_patch;
-  float size;  // of the base: pixels across; of the patch: relative to its full width
+  float size;  // for the base: pixels across; for the patch: relative to its full width
   int samples;
 };
 constexpr Step kSteps[] = {
@@ -174,12 +174,12 @@ struct LiveRender::State {
   LiveView view;
   int revision = 0;  // 0 if there are no settings yet
   bool ended = false;
-  Clock::time_point since;                         // when the settings changed
+  Clock::time_point since;                         // time of the last change of the settings
   mutable int waiting = 0;                         // threads that wait for a frame
   mutable Clock::time_point asked = Clock::now();  // last time that a frame was requested
   int last_number = 0;
-  std::shared_ptr<const LiveFrame> frames[2];  // of the base and the patch
-  LiveSeen seen[2];                            // of the base and the patch
+  std::shared_ptr<const LiveFrame> frames[2];  // the base and the patch
+  LiveSeen seen[2];                            // the base and the patch
   std::string fault;
 
   // Used only by the render thread.

@@ -25,7 +25,7 @@ struct LiveSettings {
   StereoCamera camera;
   float exposure = 0.0f;  // stops
   ToneCurve tone = ToneCurve::kNeutral;
-  double time = 0.0;  // of the scene's animation, seconds
+  double time = 0.0;  // time of the scene's animation, seconds
 
   bool operator==(const LiveSettings&) const = default;
 };
@@ -43,7 +43,7 @@ struct LiveView {
 // The step of rendering that follows a frame.
 struct LiveStep {
   bool is_patch = false;
-  int width = 0;  // of an eye, pixels
+  int width = 0;  // width of an eye, pixels
   int samples = 0;
 };
 
@@ -51,7 +51,7 @@ struct LiveFrame {
   int number = 0;    // number of the frame, ascending
   int revision = 0;  // returned by set()
   bool is_patch = false;
-  StereoCamera camera;  // of the base or of the patch
+  StereoCamera camera;  // camera of the base or of the patch
   Extent eye;
   std::vector<uint8_t> pixels;   // R, G, B as display values; rows from the top; the left eye, then the right one
   int samples = 0;               // per pixel

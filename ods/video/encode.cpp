@@ -170,7 +170,7 @@ static void set_threads(AVCodecContext& context, const EncoderFacts& facts, cons
   context.thread_count = options.threads;
   if (facts.name == "libx264") context.thread_count = x264_threads;
   if (facts.name == "libx265") {
-    constexpr int kFrames = 3, kBlock = 64;  // of its largest block; a frame trails the previous one by some rows
+    constexpr int kFrames = 3, kBlock = 64;  // size of its largest block; a frame trails the previous one by some rows
     const int rows = (context.height + kBlock - 1) / kBlock;
     context.thread_count = options.bitrate ? 1 : std::clamp((rows + 1) / 2, 1, kFrames);
   }
@@ -334,7 +334,7 @@ struct VideoEncoder::State {
   int64_t count = 0;                     // frames of this part so far
   int64_t end = 0;                       // over all pictures so far
   int64_t decoded = INT64_MIN;           // decode time of the last picture
-  std::map<int64_t, int64_t> durations;  // of the frames in the encoder, by start time
+  std::map<int64_t, int64_t> durations;  // durations of the frames in the encoder, by start time
   std::function<void(const EncodedPicture&)> keep;
 
   ~State() {

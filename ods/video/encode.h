@@ -39,7 +39,7 @@ struct EncodeOptions {
   std::optional<double> bitrate;   // Mbit/s, replaces packing.quality
   FrameRate rate;                  // pictures per second, on average
   std::optional<FrameRate> clock;  // ticks per second of FrameTime; if not set, a tick per picture
-  ColorCode color;                 // of the frames
+  ColorCode color;                 // colours of the frames
   ColorWords words;
   int threads = 0;    // 0 lets the encoder choose
   std::string sound;  // a file with sound to encode; if empty, only kept sound

@@ -17,7 +17,7 @@ namespace ods {
 struct FrameFiles {
   std::string pattern;  // shot.####.exr (ods/files/frames.h); with %V or %v in it, a file per eye
   std::vector<int> frames;
-  std::string path(size_t index) const;  // of a frame; %V is kept as in the pattern
+  std::string path(size_t index) const;  // path of a frame; %V is kept as in the pattern
 };
 
 // The requested frames, or all that exist. Throws Error(kUsage) if the pattern has no frame number; Error(kInput) for
@@ -29,7 +29,7 @@ struct VideoPlan {
   FormatHint known;  // the same for every frame
   Extent eye;        // as stored
   size_t eyes = 1;   // per frame
-  Extent size;       // of the video
+  Extent size;       // size of the video
   Layout layout = Layout::kTopBottom;
   SphericalMetadata metadata;
   std::vector<std::string> notes;  // for users: guesses, and properties that the video's metadata cannot express

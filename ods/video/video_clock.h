@@ -25,8 +25,8 @@ class VideoClock {
  private:
   int64_t even(int64_t ticks) const;
 
-  FrameRate clock_;     // of the new video
-  double start_ = 0.0;  // of the new video, in seconds of the old one
+  FrameRate clock_;     // clock of the new video
+  double start_ = 0.0;  // start of the new video, in seconds of the old one
   int64_t zero_ = 0;    // start of the new video in the old clock's ticks
   int64_t first_ = 0;   // in the old clock's ticks
   int64_t scale_ = 1;   // new ticks per old one

@@ -45,7 +45,7 @@ class FramePool {
   std::shared_ptr<Shelf> shelf_;
 };
 
-// How scene-linear light is displayed. Only float pictures need it; others are display-referred already.
+// The conversion of scene-linear light for display. Only float pictures need it; others are already display-referred.
 struct DisplayTransform {
   float exposure = 0.0f;  // EV
   ToneCurve tone = ToneCurve::kNeutral;

@@ -18,11 +18,11 @@ struct ExrForm {
   int width = 53;
   int height = 67;
   std::vector<std::string> channels = {"R", "G", "B"};
-  std::vector<Imf::PixelType> types;  // of the channels; empty for halves
+  std::vector<Imf::PixelType> types;  // types of the channels; empty for halves
   std::string packing = "zip";        // a name in names_of_packings()
   Imf::LineOrder order = Imf::INCREASING_Y;
   int tile = 0;  // the side of its tiles; 0 for none
-  int left = 0;  // of the data window
+  int left = 0;  // left edge of the data window
   int top = 0;
   std::function<void(Imf::Header&)> prepare;
 };

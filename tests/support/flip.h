@@ -19,7 +19,7 @@ inline constexpr float kFlipPixelsPerDegree = 67.0f;  // a monitor of 3840 pixel
 
 namespace flip {
 
-using Weight = std::function<float(float away)>;  // of a pixel at this distance
+using Weight = std::function<float(float away)>;  // weight of a pixel at this distance
 
 // 2 radius + 1 weights. Those above 0 add up to 1, those below to -1.
 inline std::vector<float> kernel_of(int radius, const Weight& weight) {
@@ -54,7 +54,7 @@ inline std::vector<float> blurred(const std::vector<float>& plane, int width, co
 
 inline constexpr std::array<float, 3> kWhite = {0.950428545f, 1.0f, 1.088900371f};
 
-inline vec3 xyz_of(vec3 c) {  // of linear sRGB, white is 1
+inline vec3 xyz_of(vec3 c) {  // from linear sRGB, white is 1
   return vec3((0.4124564f * c.x + 0.3575761f * c.y + 0.1804375f * c.z) / kWhite[0],
               (0.2126729f * c.x + 0.7151522f * c.y + 0.0721750f * c.z) / kWhite[1],
               (0.0193339f * c.x + 0.1191920f * c.y + 0.9503041f * c.z) / kWhite[2]);

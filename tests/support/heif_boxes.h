@@ -28,7 +28,7 @@ inline std::string with_meta(const std::string& file, const std::string& added, 
     all.children.push_back(parse_boxes(property, tail)[0]);
     const size_t index = all.children.size();
     Box& associations = *find_child(properties, box_type("ipma"));
-    std::string& body = associations.body;  // of version 0 and small numbers, as written by heif-enc
+    std::string& body = associations.body;  // version 0 and small numbers, as written by heif-enc
     size_t entry = 8;
     for (uint64_t i = 0; i < get_number(body, 4, 4); i++) {
       const uint64_t count = get_number(body, entry + 2, 1);

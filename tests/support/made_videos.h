@@ -49,8 +49,8 @@ struct Mp4Options {
   std::string entry_boxes;          // in the sample entry, after avcC
   std::string track_boxes;          // at the end of the first track
   std::string table_boxes;          // at the end of its tables
-  std::vector<int> widths = {256};  // of the video tracks
-  int height = 0;                   // of the tracks; 0 for square ones
+  std::vector<int> widths = {256};  // widths of the video tracks
+  int height = 0;                   // height of the tracks; 0 for square ones
   std::string sound_boxes;          // in the sample entry of a last track, of four channels; empty for no such track
   int chunks = 3;
   size_t padding = 0;  // bytes of each chunk after its word
@@ -159,7 +159,7 @@ inline std::string fragmented_mp4(bool absolute) {
 
 // The positions of the bodies of all boxes on a path of types.
 struct Found {
-  size_t begin, end;  // of the body
+  size_t begin, end;  // range of the body
   size_t box;         // its first byte
 };
 

@@ -8,7 +8,7 @@
 
 namespace ods {
 
-std::string source_folder();  // of the repository
+std::string source_folder();  // root of the repository
 std::string shared_scenes();  // a folder that may be missing
 std::string ods_command();
 std::string glslang();

@@ -15,7 +15,7 @@ namespace ods {
 
 struct MadePicture {
   StoredPicture picture;
-  std::vector<std::vector<std::byte>> memory;  // of each eye's layers
+  std::vector<std::vector<std::byte>> memory;  // memory of each eye's layers
 };
 
 // The values of a pixel, of every eye by its home.

@@ -25,7 +25,7 @@ namespace ods::made {
 // A video and the bytes that are kept unless another format is requested.
 struct Tagged {
   std::string title;
-  std::string name;  // of its file
+  std::string name;  // name of its file
   std::string video;
   std::vector<std::string> kept;
 };

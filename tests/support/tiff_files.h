@@ -28,7 +28,7 @@ struct TiffForm {
   std::function<void(TIFF*)> prepare;
 };
 
-size_t bytes_of_row(const TiffForm& form);  // of all planes
+size_t bytes_of_row(const TiffForm& form);  // bytes of all planes
 
 // `pixels`: rows of packed bits, interleaved.
 void write_tiff(const std::string& path, const TiffForm& form, const std::vector<std::byte>& pixels);

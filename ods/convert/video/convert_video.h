@@ -27,7 +27,7 @@ using MergeOfPicture = std::function<std::shared_ptr<const Image>(int picture)>;
 struct VideoConversion {
   ConvertTarget target;  // as in FrameConverter
   Layout layout = Layout::kTopBottom;
-  SphericalMetadata metadata;  // of the new video
+  SphericalMetadata metadata;  // metadata of the new video
   std::vector<TurnKey> turns;  // rotation of the camera; times from the first picture on. May be empty
   Resume resume = {};
   DepthFootage* depth = nullptr;                      // depth of the pictures; may be null

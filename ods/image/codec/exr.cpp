@@ -352,7 +352,7 @@ class TextOutput final : public Imf::OStream {
 
 // The header as OpenEXR will write it.
 ExrHeader written(const Imf::Header& header) {
-  constexpr int kVersion = 2;  // of the file format
+  constexpr int kVersion = 2;  // version of the file format
   ExrHeader result;
   for (auto each = header.begin(); each != header.end(); ++each) {
     TextOutput value;

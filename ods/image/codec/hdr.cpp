@@ -49,8 +49,8 @@ class ByteStream {
 
   PictureBytes file_;
   std::vector<uint8_t> buffer_;
-  size_t used_ = 0, held_ = 0;  // of the buffer
-  size_t end_ = 0;              // of the buffer in the file
+  size_t used_ = 0, held_ = 0;  // bytes in the buffer
+  size_t end_ = 0;              // end of the buffer in the file
 };
 
 // Reads components that are packed separately: runs of up to 127 equal bytes, and up to 128 literal bytes.
@@ -104,7 +104,7 @@ float to_float(const uint8_t* pixel, size_t component) {
 struct Order {
   char axes[2] = {'Y', 'X'};
   char signs[2] = {'-', '+'};
-  size_t counts[2] = {0, 0};  // of scanlines, and of pixels in each
+  size_t counts[2] = {0, 0};  // number of scanlines, and of pixels in each
   bool is_usual() const { return axes[0] == 'Y' && signs[0] == '-' && signs[1] == '+'; }
 };
 
@@ -134,7 +134,7 @@ class HdrDecoder final : public Decoder {
   std::string name_;
   ByteStream in_;
   Order order_;
-  size_t start_ = 0;            // of the first scanline
+  size_t start_ = 0;            // start of the first scanline
   int next_ = 0;                // scanline
   std::vector<uint8_t> row_;    // one scanline
   std::vector<uint8_t> whole_;  // all scanlines, if their order is unusual

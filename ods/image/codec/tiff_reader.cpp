@@ -57,9 +57,9 @@ class TiffInput final : public TiffStream {
 // The tiles or strips of a picture.
 struct TiffBlocks {
   bool are_tiles = false;
-  uint32_t width = 0, height = 0;  // of each
-  uint64_t bytes = 0;              // of each, in one plane
-  uint64_t row_bytes = 0;          // of a row in a block
+  uint32_t width = 0, height = 0;  // size of each
+  uint64_t bytes = 0;              // size of each, in one plane
+  uint64_t row_bytes = 0;          // size of a row in a block
 };
 
 enum class TiffWay {
@@ -102,7 +102,7 @@ class TiffDecoder final : public Decoder {
   TiffWay way_ = TiffWay::kBlocks;
   std::mutex inputs_mutex_;
   std::vector<std::unique_ptr<TiffInput>> inputs_;  // unused ones
-  struct Line {                                     // of a plane
+  struct Line {                                     // a line of one plane
     std::unique_ptr<TiffInput> input;
     int next = 0;
   };

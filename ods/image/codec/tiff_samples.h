@@ -20,14 +20,14 @@ enum class TiffNumber { kUnsigned, kSigned, kFloat };
 
 struct TiffSamples {
   size_t inputs = 1;  // numbers per pixel in the file
-  int bits = 8;       // of each number
+  int bits = 8;       // per number
   TiffNumber number = TiffNumber::kUnsigned;
   bool is_separate = false;                     // each number in its own plane
   bool zero_is_white = false;                   // for integers, of the first channel
   bool is_ink = false;                          // cyan, magenta, yellow and black become three colours
   std::vector<std::array<uint8_t, 3>> palette;  // if the number is an index; empty if there is none
-  std::vector<std::string> channels;            // of the result
-  SampleType sample = SampleType::kUint8;       // of each channel
+  std::vector<std::string> channels;            // channels of the result
+  SampleType sample = SampleType::kUint8;       // type of each channel
   std::optional<size_t> alpha;                  // index of the channel
   bool is_associated = false;                   // the file's colours are premultiplied
 

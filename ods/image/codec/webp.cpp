@@ -33,7 +33,7 @@ class WebpDecoder final : public Decoder {
   std::string name_;
   std::vector<uint8_t> file_;  // kept until it is decoded
   WebPBitstreamFeatures features_{};
-  size_t channels_ = 0;  // of pixels_
+  size_t channels_ = 0;  // channels of pixels_
   std::vector<uint8_t> pixels_;
 };
 

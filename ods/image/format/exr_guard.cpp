@@ -133,7 +133,7 @@ constexpr const char* kDamaged = "the EXR is cut short or damaged";
 // Skips attributes up to the empty name at their end. Returns their fault.
 std::string skip_attributes(HeaderReader& in, size_t file_size) {
   Box box{};
-  int64_t columns = 0, rows = kMaxRowsOfAChunk;  // of a chunk; 0 columns for the width of the picture
+  int64_t columns = 0, rows = kMaxRowsOfAChunk;  // size of a chunk; 0 columns for the width of the picture
   for (;;) {
     const std::optional<std::string> name = in.word();
     if (!name) return kDamaged;

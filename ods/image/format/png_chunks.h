@@ -32,7 +32,7 @@ inline constexpr size_t kPngAfterHeader = 33;
 // not contain all of it.
 struct PngChunk {
   std::string type;
-  uint64_t length = 0;  // of the data alone
+  uint64_t length = 0;  // length of the data alone
 };
 PngChunk read_png_chunk(const FileInput& file, uint64_t at);
 
@@ -55,7 +55,7 @@ class FileParts {
  private:
   ByteReader file_;
   std::vector<FileRange> parts_;
-  std::vector<size_t> starts_;  // of each part, in the concatenation
+  std::vector<size_t> starts_;  // start of each part, in the concatenation
   size_t size_ = 0;
 };
 

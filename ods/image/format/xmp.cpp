@@ -120,7 +120,7 @@ namespace {
 
 struct Tag {
   size_t begin = 0, end = 0;  // from its < to just after its >
-  std::string_view name;      // of an end tag, including the slash
+  std::string_view name;      // includes the slash of an end tag
   bool is_empty = false;      // <name/>
 };
 

@@ -211,7 +211,7 @@ class Slice {
   uint64_t run_ = 0;
   std::vector<uint32_t> above_;  // the colours of the previous row, from here to the right
   uint32_t above_left_ = 0, colors_ = 0;
-  std::vector<uint32_t> predictions_;  // of two rows
+  std::vector<uint32_t> predictions_;  // for two rows
   uint32_t last_predictions_ = 0;
   uint64_t repeated_predictions_ = 0;
 };

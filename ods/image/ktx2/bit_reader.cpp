@@ -22,7 +22,7 @@ uint32_t BitReader::read(size_t count) {
 PrefixCode::PrefixCode(const std::vector<uint8_t>& lengths) {
   for (const uint8_t length : lengths) counts_[length]++;
   counts_[0] = 0;
-  uint32_t taken = 0;  // of the 2^16 longest codes
+  uint32_t taken = 0;  // share of the 2^16 longest codes
   std::array<size_t, kLongest + 2> starts{};
   for (size_t length = 1; length <= kLongest; length++) {
     taken += counts_[length] << (kLongest - length);
@@ -36,7 +36,7 @@ PrefixCode::PrefixCode(const std::vector<uint8_t>& lengths) {
 }
 
 uint32_t PrefixCode::read(BitReader& bits) const {
-  uint32_t code = 0, first = 0;  // of the codes of this length
+  uint32_t code = 0, first = 0;  // codes of this length
   size_t shorter = 0;            // symbols with shorter codes
   for (size_t length = 1; length <= kLongest; length++) {
     code = code << 1 | bits.read(1);

@@ -37,7 +37,7 @@ class PrefixCode {
  private:
   static constexpr size_t kLongest = 16;
 
-  std::array<uint32_t, kLongest + 1> counts_{};  // of the codes of each length
+  std::array<uint32_t, kLongest + 1> counts_{};  // number of codes of each length
   std::vector<uint16_t> symbols_;                // in the order of their codes
 };
 

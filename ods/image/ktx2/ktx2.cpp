@@ -24,7 +24,7 @@ using Bytes = std::span<const std::byte>;
 constexpr unsigned char kMark[] = {0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb, '\r', '\n', 0x1a, '\n'};
 
 enum Packing : uint32_t { kUnpacked, kBasisLz, kZstandard };  // the specification's supercompression scheme
-enum ColorModel : uint32_t { kEtc1s = 163, kUastc = 166 };    // of the data format
+enum ColorModel : uint32_t { kEtc1s = 163, kUastc = 166 };    // values in the data format
 
 // The values of the data format descriptor for files with two channels.
 constexpr uint32_t kGreenInSecondSlice = 4, kGreenInAlpha = 5;
@@ -32,8 +32,8 @@ constexpr uint32_t kGreenInSecondSlice = 4, kGreenInAlpha = 5;
 struct Ktx2 {
   uint32_t vulkan_format, depth, layers, faces, levels, packing;
   int width, height;
-  Bytes descriptor;  // of the data format
-  Bytes global;      // of BasisLZ
+  Bytes descriptor;  // descriptor of the data format
+  Bytes global;      // global data of BasisLZ
   Bytes level;       // the largest
 };
 

@@ -14,7 +14,7 @@ namespace ods {
 
 namespace {
 
-// How colours are quantised: a digit of this base, then bits. One without a digit has base 1.
+// The quantisation of colours: a digit of this base, then bits. One without a digit has base 1.
 // A value is digit * digit_step + (bits but the lowest) * factor >> shift, of 511, mirrored if the lowest bit is set:
 // ASTC's table of bit patterns in numbers.
 struct Quantizer {

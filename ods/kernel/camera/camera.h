@@ -42,7 +42,7 @@ const int kMapOfMerge = 0;
 const int kMapOfHeadTilt = 1;
 
 struct Camera {
-  vec3 center;  // of the viewing circle
+  vec3 center;  // centre of the viewing circle
   vec3 right;   // an orthonormal frame, right-handed unless the picture is mirrored
   vec3 up;
   vec3 back;
@@ -51,7 +51,7 @@ struct Camera {
   float neck;  // distance of the eyes in front of the centre, metres
   int convergence;
   float convergence_distance;
-  float lens_radius;     // 0: sharp everywhere
+  float lens_radius;     // 0 if everything is sharp
   float focus_distance;  // along the ray from the eye
   PoleMerge top;
   PoleMerge bottom;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Line of sight -> position in a picture, for everything that shows or converts one: a display knows the direction in
-// which a viewer looks, not the point that is seen.
+// Line of sight -> position in a picture, for code that shows or converts pictures: it has the direction in which a
+// viewer looks, not the point that is seen.
 //
 // A line of sight is identified by its direction alone: pictures with the same viewing circle and merge contain the
 // same lines, and differ only in where they put them.

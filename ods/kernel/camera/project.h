@@ -24,12 +24,12 @@ namespace ods {
 struct ImagePosition {
   vec2 uv;      // both 0..1
   float depth;  // along the ray from its own origin
-  vec3 origin;  // of the ray, in the world
+  vec3 origin;  // the ray's origin, in the world
   bool seen;    // false if no ray of this eye meets the point, or the picture does not contain it
 };
 
-// How the ray at one elevation passes the point: the point's coordinates across and along the heading, and the distance
-// by which the ray passes below it (negative if above).
+// The position of the point relative to the ray at one elevation: the point's coordinates across and along the heading,
+// and the distance by which the ray passes below it (negative if above).
 struct Meeting {
   float across;  // dot(point, R)
   float along;   // dot(point, F)

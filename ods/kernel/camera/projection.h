@@ -86,7 +86,7 @@ struct ViewDirection {
 
 struct ImagePoint {
   vec2 uv;
-  bool seen;  // false: the direction is not in the picture
+  bool seen;  // false if the direction is outside the picture
 };
 
 inline ViewDirection look_along(vec3 direction) {
@@ -162,8 +162,8 @@ inline vec3 to_lens(Projection projection, vec3 d) {
   return vec3(dot(d, projection.lens_right), dot(d, projection.lens_up), dot(d, projection.lens_back));
 }
 
-// Whether a position is inside the image circle, which touches the picture's edges. As in look_of(), pass `home` to
-// decide for a pixel.
+// Returns whether a position is inside the image circle, which touches the picture's edges. As in look_of(), pass
+// `home` to decide for a pixel.
 inline bool inside_circle(Projection projection, vec2 uv) {
   return length(vec2(2.0f * uv.x - 1.0f, 1.0f - 2.0f * uv.y) / projection.circle) <= 1.0f;
 }
@@ -419,7 +419,7 @@ inline vec2 place_in_cell(int kind, vec2 home, vec2 uv) {
               1.0f - 2.0f * (uv.y * rows - floor(home.y * rows)));
 }
 
-// Whether uv is on the same cube face as `home`. Always true for other projections.
+// Returns whether uv is on the same cube face as `home`. Always true for other projections.
 inline bool same_face(Projection projection, vec2 home, vec2 uv) {
   if (!is_cube(projection.kind)) return true;
   vec2 place = place_in_cell(projection.kind, home, uv);

@@ -37,9 +37,9 @@ enum class Property {
   kEmissionStrength,
   kMetallic,
   kRoughness,
-  kLayerNumber,  // of a material's layers: target is kLayerNumberCount * material + index in kLayerNumbers
+  kLayerNumber,  // for a material's layers: target is kLayerNumberCount * material + index in kLayerNumbers
   kLayerColor,   // target is kLayerColorCount * material + index in kLayerColors; r, g, b
-  kUvOffset,     // of a texture transform: target is kSlotCount * material + slot (kBaseColorSlot ..)
+  kUvOffset,     // for a texture transform: target is kSlotCount * material + slot (kBaseColorSlot ..)
   kUvRotation,
   kUvScale,
 };

@@ -30,7 +30,7 @@ struct Deformation {
   std::vector<MorphTarget> targets;
   int weights = -1;                   // index in Animation::weights; -1 if there are no targets
   int skin = -1;                      // index in Animation::skins, or -1
-  size_t influences_per_vertex = 0;   // of the skin
+  size_t influences_per_vertex = 0;   // influences of the skin
   std::vector<Influence> influences;  // this many per vertex, with weights that add up to 1
 };
 

@@ -24,7 +24,7 @@ namespace {
 struct CubeMap {
   int size = 0;
   std::vector<Texels> faces;  // +X, -X, +Y, -Y, +Z, -Z
-  std::vector<float> linear;  // of each 8-bit value
+  std::vector<float> linear;  // linear light of each 8-bit value
 
   vec3 radiance_at(size_t face, int x, int y) const;
 };

@@ -65,7 +65,7 @@ struct GltfFile {
   Records accessors, buffer_views, cameras, image_lights, lights, materials, meshes, nodes, samplers, scenes, skins,
       textures;
   std::shared_ptr<ZipArchive> archive;         // archive that contains the scene; null for a file on the disk
-  std::string folder;                          // of the scene in the archive
+  std::string folder;                          // folder of the scene in the archive
   std::map<std::string, std::string> renamed;  // files whose names differ from their names in the scene
   int searches = 0;                            // for such files
   std::vector<Bytes> buffers;                  // empty if they have no data

@@ -11,7 +11,7 @@
 namespace ods {
 
 struct CeilingLamp {
-  vec3 position{0.0f};  // of the centre
+  vec3 position{0.0f};  // centre of the lamp
   float radius = 0.5f;
   float height = 2.5f;  // above the surface below
 };

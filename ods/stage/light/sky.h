@@ -18,8 +18,8 @@ namespace ods {
 inline constexpr float kSunAboveAir = 6.08f;
 
 struct SkyOptions {
-  float elevation = 35.0f;  // of the sun's centre, degrees above the horizon, 0..90
-  float azimuth = 120.0f;   // of the sun, degrees clockwise from -Z, seen from above
+  float elevation = 35.0f;  // sun's centre, degrees above the horizon, 0..90
+  float azimuth = 120.0f;   // sun, degrees clockwise from -Z, seen from above
 };
 
 // Makes a sky of 1024 x 512 texels. The sun's disc is spread over the texels that it covers, so that the kernel's

@@ -34,12 +34,12 @@ struct LightWishes {
   vec3 lamp_position{0.0f};  // for kPlaced
   bool unlit = false;        // shows all colours as painted
   bool ground = true;        // objects in a studio or under a sky get a ground
-  float yaw = 0.0f;          // of the viewer, for the studio; degrees
+  float yaw = 0.0f;          // viewer's yaw, for the studio; degrees
 };
 
 struct LightPlan {
   bool has_light = false;  // the scene's own light reaches the viewer
-  float windows = 0.0f;    // of a closed room: the fraction of directions that lead outside
+  float windows = 0.0f;    // for a closed room: the fraction of directions that lead outside
   Paint paint = Paint::kLit;
   bool as_painted = false;           // make every material unlit
   std::optional<Surround> surround;  // replaces the scene's environment, if set
@@ -63,8 +63,8 @@ void apply_light(Scene& scene, const Survey& survey, const LightPlan& plan, cons
 // degrees: low ones are preferred, and among equals the default.
 SkyOptions best_sun(const SceneRays& rays, vec3 eye);
 
-// How brightly the scene's emissive surfaces light it: their power over the power of the whole surface at a radiance of
-// 1.
+// The brightness of the light from the scene's emissive surfaces: their power over the power of the whole surface at a
+// radiance of 1.
 float emission_level(const Scene& scene);
 
 }  // namespace ods

@@ -8,7 +8,7 @@
 
 namespace ods {
 
-constexpr uint32_t kQuarter = 0x40000000;  // of 2^32
+constexpr uint32_t kQuarter = 0x40000000;  // a quarter of 2^32
 constexpr std::array<uint32_t, 4> kFrontHalf = {0, 0, kQuarter, kQuarter};
 
 namespace {

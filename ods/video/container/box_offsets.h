@@ -15,7 +15,7 @@ struct Move {
   uint64_t begin = 0;
   uint64_t end = 0;
   int64_t growth = 0;
-  uint64_t file_size = 0;  // of the old file
+  uint64_t file_size = 0;  // size of the old file
 
   // The new offset of a byte of the old file. Throws MalformedFile if that byte is replaced or beyond the
   // end of the file.

@@ -19,7 +19,7 @@ namespace {
 struct ElementHeader {
   uint32_t id = 0;
   size_t size_width = 0;
-  uint32_t length = 0;  // of id and size together
+  uint32_t length = 0;  // length of id and size together
   uint64_t body = 0;
   bool is_endless = false;
 };

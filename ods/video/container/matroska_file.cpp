@@ -23,7 +23,7 @@ namespace {
 struct Matroska {
   Element head;  // the EBML element
   FileElement head_place, segment;
-  std::vector<FileElement> parts;    // of the segment
+  std::vector<FileElement> parts;    // parts of the segment
   std::map<size_t, Element> opened;  // the parts that may change
 };
 
@@ -178,7 +178,7 @@ struct Places {
 
 static Places place_parts(const Matroska& video, const std::map<size_t, Element>& parts) {
   Places places;
-  int64_t growth = 0;  // of the parts in memory
+  int64_t growth = 0;  // growth of the parts in memory
   for (size_t i = 0; i < video.parts.size(); i++) {
     const auto part = parts.find(i);
     places.sizes.push_back(part == parts.end() ? video.parts[i].size : element_size(part->second));

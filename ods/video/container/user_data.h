@@ -14,7 +14,7 @@ namespace ods {
 
 struct UserData {
   std::vector<Box> movie;     // children of moov: udta, opened; meta; uuid
-  std::vector<Box> pictures;  // of the picture track: udta, opened; meta
+  std::vector<Box> pictures;  // boxes of the picture track: udta, opened; meta
   std::vector<Box> file;      // meta and uuid beside moov
   bool empty() const { return movie.empty() && pictures.empty() && file.empty(); }
 };

@@ -30,7 +30,7 @@ struct KeepOptions {
   bool has_sound = true;  // keep its sound, too
   TimeCut cut;
   SoundTurn turn;  // rotation of ambisonic sound, which is then encoded again; null for none
-  std::function<void(const std::string& words)> tell;  // what cannot be kept, one by one, and why. May be empty
+  std::function<void(const std::string& words)> tell;  // reports each loss and its reason. May be empty
 };
 
 }  // namespace ods

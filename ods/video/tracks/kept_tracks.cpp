@@ -29,7 +29,7 @@ using av::checked, av::checked_small_input, av::made, av::Owned;
 
 namespace {
 
-// How a stream is handled.
+// The handling of a stream.
 enum class Fate { kCopied, kSound, kText, kCover, kAttachment, kCoverAttachment, kElsewhere, kLost };
 
 struct Kept {
@@ -386,7 +386,7 @@ class KeptTracks final : public SideTracks {
   std::vector<Owned<AVPacket>> covers_;
   Owned<AVPacket> waiting_;
   int to_ = 0;                // index of the new stream of the waiting packet
-  bool is_subtitle_ = false;  // of the waiting packet
+  bool is_subtitle_ = false;  // whether the waiting packet is a subtitle
   bool ended_ = false;
 };
 

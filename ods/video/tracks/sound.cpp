@@ -114,7 +114,7 @@ namespace {
 struct SoundForm {
   AVChannelLayout layout{};  // a copy, without memory of its own
   int rate = kSoundRate;
-  int64_t bit_rate = 0;  // of the usual encoder
+  int64_t bit_rate = 0;  // bit rate of the usual encoder
   AVCodecID own_codec = AV_CODEC_ID_NONE;
   int64_t own_bit_rate = 0;  // 0 if unknown
   bool is_ambisonic = false;
@@ -219,7 +219,7 @@ class FieldTurn {
   SoundTurn turn_;
   int order_ = 0;
   glm::dmat3 last_{0.0};
-  std::vector<double> known_, matrix_;  // of last_; at the end of the last block
+  std::vector<double> known_, matrix_;  // matrices of last_; at the end of the last block
 };
 
 // A file's sound, decoded and encoded again. In between it is planes of floats if it is rotated, else in the encoder's
@@ -376,7 +376,7 @@ class PackedSound final : public SideTracks {
   Owned<SwrContext> converter_, packer_;  // to the intermediate format; from there to the encoder's
   Owned<AVAudioFifo> fifo_;
   AVSampleFormat middle_ = AV_SAMPLE_FMT_NONE;
-  int index_ = -1;             // of the stream
+  int index_ = -1;             // index of the stream
   int rate_ = 0, format_ = 0;  // the converter's input
   double start_ = 0.0;         // time of the first sample, in seconds of the file
   int64_t position_ = 0;

@@ -24,7 +24,7 @@ SoundInfo read_sound_info(const std::string& path);
 
 struct SoundSource {
   std::string path;
-  int stream = -1;            // of the file; -1 for the best one with sound
+  int stream = -1;            // index in the file; -1 for the best one with sound
   bool any_channels = false;  // else 1, 2 or 4
   bool keeps_codec = false;   // if there is an encoder for the codec, else uses the container's usual one
   TimeCut cut = {};           // the file's time at which the video begins
