@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The Omnistereo authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Small pictures as written by cameras, as seeds of the fuzzers: fuzz/picture_seeds.sh build/release/ods FOLDER Needs
-# heif-enc (libheif-examples).
+# Small pictures as written by cameras, as seeds of the fuzzers: fuzz/picture_seeds.sh build/release/ods FOLDER
+# Needs heif-enc (libheif-examples).
 set -eu
 ods=$(realpath "$1")
 mkdir -p "$2/heif" "$2/photo"

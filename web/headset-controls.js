@@ -12,7 +12,7 @@ const PAD = 24;
 const GAP = 12;
 const HIGH = 84;
 const LISTED = 3; // files at a time
-const STEPS = 400; // of a slider
+const STEPS = 400; // number of steps of a slider
 
 const ICONS = {
   play: 'M8 5.5v13l10.5-6.5z', pause: 'M8 5.5h3v13H8zM14 5.5h3v13h-3z', previous: 'm14.5 6-6 6 6 6', next: 'm9.5 6 6 6-6 6',

@@ -11,7 +11,7 @@ import { directionAt } from './places.js';
 
 export const DISTANCE = 1.2; // metres: a headset focuses at about 1.3, so eyes that converge on the panel see it sharply
 const PIXEL = 0.8 / WIDE; // metres
-const BELOW = radians(20); // of the middle of the panel: over the ground, which is farther away there
+const BELOW = radians(20); // pitch of the middle of the panel, downwards: over the ground, which is farther away there
 const HANDLE_BELOW = radians(50); // out of sight when looking ahead
 const HANDLE = [300, 104]; // pixels
 const LOW = radians(-28); // pitch of a head that looks for the handle

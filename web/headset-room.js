@@ -63,8 +63,8 @@ void main() {
 const FRAGMENT = `#version 300 es
 precision highp float;
 uniform sampler2D face;
-uniform vec4 color;   // its alpha multiplied into it; of a face, what it is multiplied by
-uniform vec4 kind;    // has a face; is round; from this radius on; so much of the turn
+uniform vec4 color;   // premultiplied by its alpha; multiplies the face, if there is one
+uniform vec4 kind;    // 1 with a face; 1 if round; inner radius; fraction of the turn
 in vec2 place;
 out vec4 result;
 void main() {

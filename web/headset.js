@@ -10,9 +10,9 @@ import { raysOf } from './panorama.js';
 import { Pace } from './pace.js';
 
 const RATE = 90; // frames per second, if the headset supports it
-const FOVEATION = 0.5; // how much coarser the edge of the view may be, 0..1; the middle is drawn at full resolution
+const FOVEATION = 0.5; // reduction of resolution at the edge of the view, 0..1; the middle is drawn at full resolution
 const HOLD = 800; // milliseconds until a trigger or a pinch counts as held
-const STICK = 0.7; // of its range
+const STICK = 0.7; // fraction of the range of a stick
 const MIRROR = 100; // milliseconds between pictures for the page
 const MARKED = 4000; // milliseconds that a mark of the desk remains
 
@@ -104,7 +104,7 @@ export class Headset {
     this.panel?.update(frame, this.pose, now);
     const { picture, panorama } = viewer;
     const look = lookOf(this.pose.transform, this.turn);
-    if (viewer.scene) viewer.steering?.head(look); // of the studio
+    if (viewer.scene) viewer.steering?.head(look); // set by the studio
     if (!(now - this.looked < MIRROR)) this.lookAt(now, look);
     picture?.refresh?.();
     if (picture && !viewer.scene && this.layers?.show(frame, viewer, this.turn)) {

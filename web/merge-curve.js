@@ -7,10 +7,10 @@ import { clamp, radians } from './geometry.js';
 import { compile } from './panorama.js';
 
 const COUNT = 181;
-const SIZE = [280, 92]; // of the drawing
-const BOX = [8, 272, 10, 82]; // of the curve in it: left, right, top, bottom
+const SIZE = [280, 92]; // width and height of the drawing
+const BOX = [8, 272, 10, 82]; // box of the curve in it: left, right, top, bottom
 const ENDS = [['top', 'start'], ['top', 'end'], ['bottom', 'start'], ['bottom', 'end']];
-const REACH = 24; // of a handle, for fingers
+const REACH = 24; // distance at which a finger grabs a handle
 const SVG = 'http://www.w3.org/2000/svg';
 
 const xOf = (elevation) => BOX[0] + ((elevation + 90) / 180) * (BOX[1] - BOX[0]);

@@ -17,7 +17,7 @@ const SHRINK = `#version 300 es
 precision highp float;
 precision highp int;
 uniform sampler2D tile;
-uniform ivec2 origin;  // of the tile, in pixels of the target
+uniform ivec2 origin;  // origin of the tile, in pixels of the target
 uniform int step;
 uniform ivec4 inside;  // texels of the tile that are used: its edges are repeated outwards
 in vec2 screen;

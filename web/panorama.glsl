@@ -41,7 +41,7 @@ vec3 shifted(int which, vec3 direction) {
 // A corner of the view. Labels (ods/kernel/camera/line.h) are as long as the corner's direction, so they are linear
 // across the view, and exact for pixels between corners. Only toed-in eyes need more than one triangle: a mesh, whose
 // error is at most an eighth of the squared side of a cell times the label's second derivative.
-uniform int cells;  // of the mesh, each way; 0 for one triangle
+uniform int cells;  // cells of the mesh, each way; 0 for one triangle
 out vec2 screen;
 out vec3 label_0;
 out vec3 label_1;
@@ -60,7 +60,7 @@ void main() {
 }
 
 %else
-const int kKind = ODS_KIND;       // of the picture's projection
+const int kKind = ODS_KIND;       // number of the picture's projection
 const bool kBoth = ODS_BOTH;      // an anaglyph or a difference is shown, not the eye at 0
 const bool kMoves = ODS_MOVES;    // the view moves
 const bool kOver = ODS_OVER;      // the picture is a finer window over one that is already drawn
@@ -72,12 +72,12 @@ const bool kLight = ODS_LIGHT;    // the texels are scene-linear, and developed 
 const bool kPaged = ODS_PAGED;    // only some tiles are loaded; a coarse picture replaces the others
 const bool kAsk = ODS_ASK;        // shows the needed tiles instead of the picture
 const float kBorder = 16.0;  // texels around a tile
-const int kLastLevel = 5;    // of the mip levels
+const int kLastLevel = 5;    // the coarsest mip level
 
 // An eye's picture, cut into tiles that are the layers of a texture.
 struct Eye {
   vec2 size;  // texels
-  vec2 tile;  // of a tile without its border
+  vec2 tile;  // size of a tile without its border
   int columns;
   int down;  // for kPaged: the coarse picture is reduced by 2^down
 };
@@ -373,7 +373,7 @@ vec3 sampled(sampler2DArray tiles, vec3 at, vec2 dx, vec2 dy, float square) {
 // The cube version of place_under(). Indices are constants, because software GPUs execute every branch.
 struct Cell {
   vec2 corner;  // in cells
-  vec2 aside;   // of the label, along the face's edges
+  vec2 aside;   // components of the label along the face's edges
   float ahead;
 };
 

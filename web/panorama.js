@@ -5,8 +5,8 @@
 // file makes a program of it for each projection, sets its uniforms and contains no formulas.
 import { radians } from './geometry.js';
 
-const TOE_IN = 1; // of the kernel's convergences: the only one whose lines of sight are not linear across the view
-const CELLS = 16; // of the mesh for it, each way
+const TOE_IN = 1; // number of the kernel's convergence whose lines of sight are not linear across the view
+const CELLS = 16; // cells of the mesh for it, each way
 const VERTICES = `#version 300 es
 out vec2 screen;
 void main() {

@@ -40,7 +40,7 @@ export class Player {
     watchTips(root);
     hasHeadset().then((has) => {
       root.querySelector('#tools [data-action="headset"]').hidden = !has;
-      if (has) this.loadHeadset().catch(() => {}); // so that entering by a click need not wait
+      if (has) this.loadHeadset().catch(() => {}); // prepares for entering by a click without waiting
     });
   }
 

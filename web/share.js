@@ -44,7 +44,8 @@ export class Share {
     on('pointerdown', () => this.follow(false));
     on('pointermove', ({ offsetX, offsetY }) => (this.point = directionAt(viewer, offsetX, offsetY)));
     on('pointerleave', () => (this.point = null));
-    for (const name of Object.keys(FIELDS)) this.note(name, viewer.session ? 1 : 0); // who comes later takes the wearer's
+    // Pages that join later take the wearer's state.
+    for (const name of Object.keys(FIELDS)) this.note(name, viewer.session ? 1 : 0);
     this.timer = setInterval(() => this.tick(), TICK);
     this.listen();
   }
@@ -121,7 +122,7 @@ export class Share {
         for (const [id, message] of Object.entries(messages)) this.take(id, message);
         await sleep(TICK / 2);
       } catch {
-        this.number = 0; // of a server that was restarted
+        this.number = 0; // the server may have been restarted
         await sleep(1000);
       }
     }

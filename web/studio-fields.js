@@ -23,7 +23,7 @@ function standardOf(view, { name }) {
   };
 }
 
-const UP = [0, 1, 0]; // of a level camera
+const UP = [0, 1, 0]; // the axis of a level camera
 
 export function readValue(view, settings, path) {
   if (path === camera('axis')) return settings.sidecar.axis ? 'own' : 'camera';

@@ -8,7 +8,7 @@ import { compile } from './panorama.js';
 export const BORDER = 16; // texels, as in panorama.glsl: two filter widths at the smallest mip level used close by
 const LEVELS = 6; // number of mip map levels
 const STEP = 1 << (LEVELS - 1); // layers are a multiple of this, so that every level has whole texels
-const LARGEST = 4096 + 2 * STEP; // of a layer: larger ones have no benefit, and some browsers fail to fill them
+const LARGEST = 4096 + 2 * STEP; // side of a layer: larger ones have no benefit, and some browsers fail to fill them
 
 // Copies an eye of a video's frame into a layer. Rendering into an sRGB texture encodes, so it decodes first. A frame of
 // light has the high bytes of its halves in its left half, and the low ones in its right half.
@@ -17,7 +17,7 @@ precision highp float;
 precision highp int;
 uniform sampler2D frame;
 uniform ivec4 crop;    // the eye's part of the frame: x, y, width, height
-uniform ivec2 origin;  // of the layer, in the eye's picture
+uniform ivec2 origin;  // position of the layer in the eye's picture
 uniform bool wraps;
 uniform bool light;
 in vec2 screen;

@@ -23,7 +23,7 @@ export class Viewer extends EventTarget {
     Object.assign(this, { canvas, view, base, picture: null, item: -1, session: null });
     this.state = { yaw: 0, pitch: 0, roll: 0, fov: 90, mode: 'left', swap: false, grid: false, planet: false, shift: 0 };
     this.compare = null; // compare.js
-    this.scene = null; // of the studio: the live scene instead of an item
+    this.scene = null; // the studio's live scene, shown instead of an item
     this.choice = {}; // layout, projection, exposure, tone, if they differ from the item
     this.panorama = new Panorama(canvas, shader);
     this.pace = new Pace();
@@ -209,7 +209,7 @@ export class Viewer extends EventTarget {
     if (count > 1) this.open((this.item + by + count) % count, { exposure: this.choice.exposure, tone: this.choice.tone });
   }
 
-  // A change of layout, projection, exposure or tone: loads the picture again, at the present time of a video. Light is
+  // Changes layout, projection, exposure or tone: loads the picture again, at the present time of a video. Light is
   // developed here.
   async choose(changes) {
     if (this.picture?.light && !('layout' in changes) && !('projection' in changes)) {

@@ -51,14 +51,14 @@ struct FieldRange {
 
 struct CameraFieldRow {
   CameraField member;
-  std::string_view name;  // for people: "yaw"
+  std::string_view name;  // for users: "yaw"
   FieldRange range;
   std::string_view unit;       // "degrees"; empty for a plain number
   std::string_view setting;    // the setting that it belongs to, an option of the command: "lens-direction"
   std::string_view place;      // its key in a sidecar: "projection.pan"
   std::string_view attribute;  // in an EXR header: "ods:look"; a # at the end stands for one attribute per number
   std::vector<float*> (*numbers)(StereoCamera& camera);
-  bool (*matters)(const StereoCamera& camera);  // whether another value would change the picture
+  bool (*matters)(const StereoCamera& camera);  // returns whether another value would change the picture
   std::string_view help = {};  // for options with one number of the viewing circle, such as --ipd; else empty
 };
 std::span<const CameraFieldRow> camera_fields();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Moves of the camera, so that a video of a static scene has motion.
+// Camera moves, which give motion to a video of a static scene.
 #pragma once
 #include <optional>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The cameras of other systems, with the parameters that their users are used to.
+// The cameras of other systems, with the parameters that their users know.
 #pragma once
 #include <map>
 #include <optional>
@@ -22,7 +22,7 @@ struct PresetParameter {
 struct CameraPreset {
   std::string_view name;
   std::string_view system;
-  bool exact;  // whether the rays are identical; otherwise they are close, and the note names the differences
+  bool exact;             // the rays are identical; otherwise they are close, and the note names the differences
   std::string_view note;  // includes the source of the formula
   std::span<const PresetParameter> parameters;
 };

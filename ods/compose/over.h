@@ -3,7 +3,7 @@
 //
 // Composites a picture with alpha over another, in linear light: titles and computer graphics over live action.
 //
-// The foreground is first converted to the background's projection, layout and size, as by convert(), but its eyes do
+// The foreground is first converted to the background's projection, layout and size, as in convert(), but its eyes do
 // not move: from the background's eyes it would appear at wrong distances. over_warnings() reports that.
 #pragma once
 #include <atomic>

@@ -39,8 +39,8 @@ struct Title {
 // The lettering's pixels per em that match the picture's resolution.
 float lettering_em(const StereoCamera& stereo, Extent eye, const TitleSetting& setting);
 
-// The camera is at the origin of the title's world, whatever its position. Precondition: as make_camera(); sides,
-// distance and height above 0.
+// The camera is at the origin of the title's world, regardless of its position. Preconditions: those of make_camera();
+// sides, distance and height above 0.
 Title make_title(const StereoCamera& stereo, Extent eye, const TitleSetting& setting, const Lettering& lettering);
 
 // Fills row y of one eye with R, G, B (premultiplied), A, and Z (metres along the ray,

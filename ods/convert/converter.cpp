@@ -133,7 +133,7 @@ class BlockBounds {
     for (const float t : {0.0f, 0.5f * end, end}) {
       const vec2 at = stretch.at(t);
       const Footprint footprint = stretch.footprint(t);
-      const float kCubic = 2.0f, kBetween = 0.25f;  // how far positions may be beyond these three
+      const float kCubic = 2.0f, kBetween = 0.25f;  // maximum distance of positions beyond these three
       const vec2 tents = stretch.is_sharp ? vec2(0.0f) : abs(footprint.dx) + abs(footprint.dy);
       const vec2 reach = tents + kCubic + kBetween;
       low_ = min(low_, at - reach), high_ = max(high_, at + reach);

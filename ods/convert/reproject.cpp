@@ -115,7 +115,7 @@ namespace {
 // The position of a point of the ray in an eye's picture. The argument is 1 / the point's distance along the ray.
 struct Shown {
   Place place;
-  float inverse_depth = 0.0f;  // of the point, seen by that eye
+  float inverse_depth = 0.0f;  // 1 / distance of the point from that eye
 };
 
 struct Curve {

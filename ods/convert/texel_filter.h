@@ -3,11 +3,12 @@
 //
 // The filter of a conversion: the area of the source picture that a target pixel averages.
 //
-// A pixel whose footprint covers s texels along an axis is the mean of the picture under a tent of variance (s^2 - 1) /
-// 6. Together with the averaging that the texels already contain, this is a tent as wide as the pixel's distance to the
-//    adjacent pixels on either side. The tent is summed over points at most about half a texel apart. Between texels
-//    the picture is interpolated by the Catmull-Rom cubic, clamped to the range of its 4x4 texels. So a pixel that
-//    covers one texel or less is only interpolated, and a pixel at the centre of a texel is that texel, bit for bit.
+// A pixel whose footprint covers s texels along an axis is the mean of the picture under a tent of the variance
+// (s^2 - 1) / 6. Together with the averaging that the texels already contain, this is a tent as wide as the pixel's
+// distance to the adjacent pixels on either side. The tent is summed over points at most about half a texel apart.
+// Between texels the picture is interpolated by the Catmull-Rom cubic, clamped to the range of its 4x4 texels. So a
+// pixel that covers one texel or less is only interpolated, and a pixel at the centre of a texel is that texel, bit for
+// bit.
 #pragma once
 #include <optional>
 #include <span>

@@ -90,8 +90,7 @@ static float variance_at(const EyeImage& eye, size_t pixel, vec3 divided_by) {
   return (scaled.x + scaled.y + scaled.z) * (1.0f / 3.0f);
 }
 
-// --- levels and blocks
-// -------------------------------------------------------------------------------------------------
+// --- levels and blocks -----------------------------------------------------------------------------------------------
 
 // Returns whether the pixel and its neighbours show only the sky. At silhouettes, the other eye's paths may contribute
 // light of a surface that none of the pixel's own samples meets: that is noise, like in the pixels beside it.

@@ -17,7 +17,7 @@ struct Search {
   int rows = 12;  // size of a tile, in pixels of the view
   int columns = 16;
   int step = 12;         // from one row of tiles to the next, in pixels of the view
-  float around = 0.21f;  // how far to search to either side; half of the parallax at 0.3 m
+  float around = 0.21f;  // search range to either side; half of the parallax at 0.3 m
   float down = 0.02f;
   float lowest = -1.2f;  // elevation of the tiles' centres
   float highest = 1.2f;

@@ -40,7 +40,7 @@ std::string eye_hint(const Sidecar& file, const CameraFormula& formula, const st
 
 struct Shader {
   Language language;
-  std::string_view number;  // how a constant is declared
+  std::string_view number;  // declaration of a constant
   std::string_view signature;
   std::string_view vector;
 };

@@ -42,8 +42,8 @@ struct Identity {
   bool is_likely() const;  // more likely than all others together
 };
 
-// Opens a file as a picture with one eye, whatever its layout, and reads only its colours. Throws Error(kInput) like
-// open_picture().
+// Opens a file as a picture with one eye, regardless of its layout, and reads only its colours. Throws Error(kInput)
+// like open_picture().
 StoredPicture open_whole(const std::string& path);
 
 // Examines the pixels of such a file. Considers only readings that agree with `known`.

@@ -24,8 +24,8 @@ struct Thumbnail {
 
 inline constexpr int kThumbnailSide = 1008;  // divisible by two eyes of six faces
 
-// Makes the thumbnail. whole: a file read as one eye (Layout::kSeparate), whatever its layout. Scene-linear light is
-// exposed so that its geometric mean becomes middle grey.
+// Makes the thumbnail. whole: a file read as one eye (Layout::kSeparate), regardless of its layout. Scene-linear light
+// is exposed so that its geometric mean becomes middle grey.
 Thumbnail make_thumbnail(const StoredPicture& whole);
 
 // Both eyes of a file whose adjacent pixels belong to different eyes, reduced in the same way. Precondition: the size

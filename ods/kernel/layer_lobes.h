@@ -7,9 +7,8 @@
 //   clearcoat  GGX of index 1.5 about its own normal. It replaces the fraction clearcoat * F(cosine of the viewer) of
 //              everything below it, emission included (KHR_materials_clearcoat). It has no effect inside a volume,
 //              because the coat is outside.
-//   sheen      takes max(sheen color) * its albedo from everything below it (KHR_materials_sheen; of the two forms
-//   named
-//              there, the one with the viewer's cosine, in which a white surface stays white).
+//   sheen      takes max(sheen color) * its albedo from everything below it (KHR_materials_sheen has two forms; this
+//              is the one with the viewer's cosine, in which a white surface stays white).
 //   specular   Schlick's term with f0 = min(f0 of the index * color, 1) * weight and f90 = weight
 //              (KHR_materials_specular); two alphas (KHR_materials_anisotropy); a thin film in the place of Schlick's
 //              term (KHR_materials_iridescence; like the Khronos sample viewer without the specular weight). The layers
@@ -198,7 +197,7 @@ inline BsdfValue coat_value(LayeredBsdf b, vec3 direction) {
   return result;
 }
 
-// BSDF times cosine towards a direction (world space), and the pdf with which sample_layers() samples it.
+// BSDF times cosine towards a direction (world space), and the pdf with which sample_of_layers() samples it.
 inline BsdfValue value_of_layers(LayeredBsdf b, vec3 direction) {
   BsdfValue result = no_value();
   bool outside = dot(direction, b.geometric) > 0.0f;

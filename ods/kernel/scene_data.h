@@ -44,7 +44,7 @@ struct Instance {
   int mesh;
   int first_light;  // index of the light of its first triangle, -1 if the mesh does not emit; set by make_lights()
   int motion;       // for an instance that moves while the shutter is open: its first MotionPose; else -1
-  int role;         // how the camera sees it: kOrdinary, ...
+  int role;         // visibility to the camera: kOrdinary, ...
 };
 
 // The transform of an instance, and a vertex of a mesh that deforms, at each of the shutter's keys: evenly spaced times

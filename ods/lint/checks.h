@@ -15,8 +15,8 @@ namespace ods {
 struct Subject {
   std::string path;
   bool is_video = false;                 // a frame of a video
-  std::optional<double> bits_per_pixel;  // of a video file
-  FileInfo info;                         // of the left file of a pair
+  std::optional<double> bits_per_pixel;  // only for video files
+  FileInfo info;                         // for a pair, of the left file
   StereoFormat format;
   std::vector<Image> eyes;   // luminance, scene-linear, 1 channel, as stored
   std::vector<Image> small;  // scene-linear colour, 3 channels, averaged to at most kSmallWidth columns

@@ -37,9 +37,9 @@ enum class Fault {
   kClipped,   // clipped highlights
   kBlack,     // the picture is black
   kBanding,
-  kEyeLate,          // of a video: one eye is ahead of the other in time
+  kEyeLate,          // video: one eye is ahead of the other in time
   kCutsDiffer,       // the cuts of a video differ in time between the eyes
-  kDuplicateFrames,  // of a video
+  kDuplicateFrames,  // video: a frame repeats the one before
 };
 
 enum class Severity {
@@ -109,8 +109,8 @@ constexpr Severity severity_of(Fault fault) {
 
 // The subjects that lint judges or lists as not judged.
 enum class Check {
-  kLayout,       // how the eyes share the file, and whether they are at one place
-  kTwoEyes,      // whether the eyes see from two points
+  kLayout,       // the eyes' arrangement in the file, and that they are at one place
+  kTwoEyes,      // two different points of view
   kEyeOrder,     // the order of the eyes
   kCircle,       // a viewing circle, two cameras, or a mirrored circle
   kTopPole,      // stereo at the top pole
@@ -121,17 +121,17 @@ enum class Check {
   kVideoLevels,  // limits of codecs
   kHeadsets,     // sizes that headsets support
   kAlignment,    // height, pitch, roll and size of one eye against the other
-  kConvergence,  // whether the eyes must diverge
+  kConvergence,  // eyes that must diverge
   kColors,       // one eye against the other
   kSharpness,    // one eye against the other
-  kHorizon,      // whether the picture is level
-  kDeadPoles,    // whether the poles have a picture
-  kBlack,        // whether there is anything to see
+  kHorizon,      // a picture that is not level
+  kDeadPoles,    // poles without a picture
+  kBlack,        // a black picture
   kHighlights,
   kBanding,
-  kEyeTime,     // of a video: whether both eyes show the same instant
-  kCuts,        // of a video: whether both eyes are cut at the same frames
-  kDuplicates,  // of a video: frames that repeat the one before
+  kEyeTime,     // video: both eyes show the same instant
+  kCuts,        // video: both eyes are cut at the same frames
+  kDuplicates,  // video: frames that repeat the one before
 };
 
 inline constexpr NameRow<Check> kCheckTable[] = {

@@ -3,7 +3,7 @@
 //
 // Finds the faults of a stereo 360 picture, from our renderer or any other, in its pixels and its metadata.
 //
-// Nearly all of it follows from one fact of omni-directional stereo: a point at the distance rho from the viewing
+// Nearly all checks follow from one fact of omni-directional stereo: a point at the distance rho from the viewing
 // circle's axis appears farther right in the left eye than in the right one, by theta_L - theta_R = 2 asin(r / rho).
 // That is never negative, wherever the point is, and there is no difference in height.
 // docs/lint.md explains every fault.

@@ -143,8 +143,7 @@ void align(Subject& subject) {
   }
 }
 
-// --- corrections
-// -----------------------------------------------------------------------------------------------------------
+// --- corrections -----------------------------------------------------------------------------------------------------
 
 // Quotes a path as one word for the shell.
 static std::string quoted(const std::string& path) {

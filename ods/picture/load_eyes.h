@@ -18,7 +18,7 @@ namespace ods {
 struct LoadedEyes {
   std::vector<Image> eyes;      // linear light, 3 channels; left and right, or just one
   std::vector<Image> variance;  // variance of the noise in `eyes`, if an EXR has variance.R, G and B; else empty
-  LayoutGuess guess;            // how the layout was determined
+  LayoutGuess guess;            // source of the layout
   std::string projection = "lat-long";  // by name, as found by find_format()
   bool is_float = false;                // scene-linear file; else display-encoded, and decoded here
   std::string color_fault;              // as in StoredPicture

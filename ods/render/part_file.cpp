@@ -161,7 +161,7 @@ std::string save_part(const std::string& path, const SampledPicture& picture, co
                         {kExposure, fmt::format("{}", picture.exposure)},
                         {kSettings, settings_text(picture.settings)},
                         {kSidecar, picture.camera}};
-  options.rows_alone = true;    // so long that combining several saves nothing
+  options.rows_alone = true;    // rows are so long that combining several saves nothing
   options.has_checksum = true;  // a checksum of the header
   return save_picture(rows, &camera, options, path).front();
 }

@@ -53,7 +53,7 @@ struct PictureSamples {
   int done = 0;                // pixels that are still noisy have all samples before this one, or their share of them
   int pass_to = 0;             // end of the current pass; `done` if there is none
   int blocks_done = 0;         // in the current pass
-  std::vector<uint8_t> noisy;  // of each block (ods/render/sampling_plan.h): bits 0 and 1 for the classes of its pixels
+  std::vector<uint8_t> noisy;  // per block (ods/render/sampling_plan.h): bits 0 and 1 for the classes of its pixels
                                // that are still sampled
   std::vector<EyeSamples> eyes;
 };

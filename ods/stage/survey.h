@@ -52,7 +52,7 @@ struct Stand {
   std::optional<float> floor;  // height of the floor below; not set if floating
   float headroom = 0.0f;       // from floor to ceiling; infinite under the sky
   float walls = 0.0f;          // fraction of the horizon that is blocked just above eye level
-  float worth = 0.0f;          // how much is visible, for comparing stands
+  float worth = 0.0f;          // a measure of the visible surroundings, for comparing stands
   Openness open;
 };
 

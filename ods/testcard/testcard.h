@@ -50,7 +50,7 @@ struct Testcard {
 };
 
 // The camera is at the origin of the card's world, regardless of its position. `lines` are written above the centre.
-// Precondition: as make_camera(); sides above 0.
+// Preconditions: those of make_camera(); sides above 0.
 Testcard make_testcard(const StereoCamera& stereo, Extent eye, const std::vector<std::string>& lines);
 
 // The height in pixels of the small plates' capitals in such a picture; below kLegible they are illegible.

@@ -28,8 +28,7 @@ namespace ods {
 
 using av::checked, av::made, av::Owned;
 
-// --- the stream's properties
-// ---------------------------------------------------------------------------------------------
+// --- the stream's properties -----------------------------------------------------------------------------------------
 
 static std::optional<VideoCodec> codec_of(AVCodecID id) {
   switch (id) {

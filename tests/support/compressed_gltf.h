@@ -16,7 +16,7 @@ GltfBuilder make_grid(int size);
 
 struct DracoChoice {
   bool edgebreaker = false;  // reorders vertices and triangles; else their order is kept
-  int bits = 0;              // of quantized floats; 0 for exact
+  int bits = 0;              // per quantized float; 0 for exact floats
   int speed = 5;             // 0 for all of Draco's predictors, 10 for none
 };
 

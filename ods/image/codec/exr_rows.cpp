@@ -18,8 +18,7 @@ namespace ods {
 
 namespace {
 
-// --- undoing ZIP's preprocessing
-// -----------------------------------------------------------------------------------------
+// --- undoing ZIP's preprocessing ------------------------------------------------------------------------------------
 
 // A SIMD register. Both g++ and clang support this attribute.
 using Bytes = uint8_t __attribute__((vector_size(16)));

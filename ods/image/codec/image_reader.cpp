@@ -139,7 +139,7 @@ static void each_row(Decoder& decoder, size_t first, size_t count, const Take& t
 static Image read_floats(Decoder& decoder, const std::vector<size_t>& channels) {
   const auto [least, most] = std::minmax_element(channels.begin(), channels.end());
   const size_t first = *least, count = *most - first + 1;
-  std::vector<size_t> offsets{0};  // of the channels from the first on
+  std::vector<size_t> offsets{0};  // offsets of the channels, from the first on
   for (size_t c = first; c < first + count; c++) offsets.push_back(offsets.back() + bytes_of(decoder.info.samples[c]));
   Image image(decoder.info.width, decoder.info.height, static_cast<int>(channels.size()));
   each_row(decoder, first, count, [&](const std::byte* from, int y) {

@@ -14,7 +14,7 @@ namespace ods {
 struct FileInfo {
   int width = 0;
   int height = 0;
-  int unread_parts = 0;                               // of an EXR: those after the first, unless they are two eyes
+  int unread_parts = 0;                               // EXR: the parts after the first, unless they are two eyes
   bool is_pair = false;                               // has a second picture of this size, for the right eye (HEIC)
   bool is_float = false;                              // scene-linear; else display-encoded
   std::vector<std::string> channels;                  // R, G, B, A first

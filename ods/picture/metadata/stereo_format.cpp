@@ -87,8 +87,7 @@ std::string renamed(const std::string& path, const std::string& words) {
   return (file.parent_path() / (name + words + file.extension().native())).native();
 }
 
-// --- the aspect ratio
-// -------------------------------------------------------------------------------------------------
+// --- the aspect ratio ------------------------------------------------------------------------------------------------
 
 static bool has_shape(const ProjectionSetting& setting, Extent eye) {
   return eye.width % width_step(setting) == 0 && natural_height(setting, eye.width) == eye.height;

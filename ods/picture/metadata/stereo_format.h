@@ -67,7 +67,7 @@ struct Bars {
   bool any() const { return left > 0 || top > 0 || right > 0 || bottom > 0; }
 };
 
-// The caller's knowledge. It takes precedence over everything in the file.
+// The caller's settings. They take precedence over everything in the file.
 struct FormatHint {
   bool one_eye = false;  // regardless of its aspect ratio and name
   std::optional<Layout> layout;

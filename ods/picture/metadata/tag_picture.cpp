@@ -38,8 +38,7 @@ static FileFormat format_of(const FileInput& file) {
   return *format;
 }
 
-// --- the file's own metadata
-// ----------------------------------------------------------------------------------------------
+// --- the file's own metadata -----------------------------------------------------------------------------------------
 
 static Extent stored_size(const FileInput& file, FileFormat format) {
   if (format == FileFormat::kJpeg) return jpeg_size(read_jpeg_headers(file)).value_or(Extent());

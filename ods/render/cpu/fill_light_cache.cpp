@@ -18,7 +18,7 @@ namespace {
 constexpr int kKeptBounces = 4;        // number of first surfaces of a path whose light is stored
 constexpr int kPathsAtOnce = 1 << 10;  // per thread
 constexpr int kRoundPaths = 1 << 14;   // paths between tests of the cells
-constexpr double kWantedError = 0.2;   // of a cell; a pixel gathers the mean of many
+constexpr double kWantedError = 0.2;   // relative error of a cell; a pixel gathers the mean of many
 
 // A surface that a path has met.
 struct Vertex {

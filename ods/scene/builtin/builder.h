@@ -10,8 +10,8 @@
 
 namespace ods {
 
-// Scales, then rotates to the right by yaw degrees (seen from above), then moves.
-// A position at an azimuth, in degrees to the right of the front, and a distance on the floor.
+// around(): a position at an azimuth, in degrees to the right of the front, and a distance on the floor.
+// placed(): scales, then rotates to the right by yaw degrees (seen from above), then moves.
 vec3 around(float azimuth, float distance, float height = 0.0f);
 glm::mat4 placed(vec3 position, float yaw = 0.0f, vec3 scale = vec3(1.0f));
 

@@ -29,7 +29,7 @@ static_assert(has_every_member(kExtensionStateTable));
 struct Extension {
   std::string_view name;
   ExtensionState state;
-  std::string_view how;  // what it does, or how it is rendered
+  std::string_view how;  // its effect, or its treatment by the renderer
 };
 
 // Sorted by name.

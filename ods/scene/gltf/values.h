@@ -21,7 +21,7 @@ enum ComponentType {
   kUnsignedInt = 5125,
   kFloat = 5126
 };
-bool is_unsigned(int component_type);       // whether indices may have this type
+bool is_unsigned(int component_type);       // returns whether indices may have this type
 size_t component_size(int component_type);  // in bytes; 0 if there is no such type
 
 // An integer, which may be written as a real; the fallback if absent. Fails if it is anything else. Clamped to the

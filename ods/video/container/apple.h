@@ -20,7 +20,7 @@ namespace ods {
 // half. It has no angles: players show such a video without rotation.
 bool fits_vexu(const SphericalMetadata& metadata);
 
-// Precondition: fits_vexu(). Without an ipd, or with one of kilometres, the box has no blin.
+// Precondition: fits_vexu(). Without an ipd, or with one too large for the field, the box has no blin.
 Box vexu_box(const SphericalMetadata& metadata);
 Box hfov_box(const SphericalMetadata& metadata);
 
@@ -37,7 +37,7 @@ struct EyeLayers {
   // The metadata of frames that have these eyes side by side.
   SphericalMetadata beside = {.stereo = VideoStereo::kSideBySide, .projection = VideoProjection::kFlat};
   bool right_first = false;  // the first layer, which every decoder shows, is the right eye
-  std::optional<float> fov;  // of a flat picture, horizontal degrees
+  std::optional<float> fov;  // horizontal field of view of a flat picture, degrees
 };
 // Parses the boxes of a sample entry. Returns nullopt if it has no lhvC, which contains the layers' parameters. Throws
 // MalformedFile.

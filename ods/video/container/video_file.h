@@ -41,7 +41,7 @@ struct VideoTrack {
   std::optional<SphericalMetadata> v1;    // Spherical Video V1
   std::optional<SphericalMetadata> v2;    // Spherical Video V2, in Matroska StereoMode and Projection
   std::optional<SphericalMetadata> vexu;  // the vexu for Apple's players
-  std::string mesh;                       // of v2: the body of its mshp box (mesh_box.h); empty if it has none
+  std::string mesh;                       // the body of the mshp box of v2 (mesh_box.h); empty if it has none
   std::optional<EyeLayers> layers;        // set if the eyes are layers of the stream (MV-HEVC), which vexu describes
 };
 

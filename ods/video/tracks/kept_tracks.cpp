@@ -45,8 +45,7 @@ struct Kept {
 
 }  // namespace
 
-// --- handling of the streams
-// --------------------------------------------------------------------------------------------
+// --- handling of the streams -----------------------------------------------------------------------------------------
 
 static std::string tag_of(const AVStream& stream, const char* key) {
   const AVDictionaryEntry* entry = av_dict_get(stream.metadata, key, nullptr, 0);
@@ -386,7 +385,7 @@ class KeptTracks final : public SideTracks {
   std::vector<Owned<AVPacket>> covers_;
   Owned<AVPacket> waiting_;
   int to_ = 0;                // index of the new stream of the waiting packet
-  bool is_subtitle_ = false;  // whether the waiting packet is a subtitle
+  bool is_subtitle_ = false;  // the waiting packet is a subtitle
   bool ended_ = false;
 };
 
