@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The cameras of other systems, with the parameters that their users know.
+// The cameras of other systems, with the parameters familiar to their users.
 #pragma once
 #include <map>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The layouts in which two eyes share a file. Only this file knows them; elsewhere each eye is its own image.
+// The layouts in which two eyes share a file. Their geometry is only in this file; elsewhere each eye is its own image.
 #pragma once
 #include <optional>
 #include <string>

@@ -52,7 +52,7 @@ inline const std::string kWhole = equi(0, 0, 0, 0), kHalf = equi(0, 0, kQuarter,
 inline const std::string kCube = box("cbmp", number(0, 4) + number(0, 4) + number(16, 4));  // with padding
 inline const std::string kMesh = box("mshp", number(0, 4) + number(0x12345678, 4) + "raw meshes of a camera");
 
-// As written by google/spatial-media: with a head, over several lines, and more than we write.
+// Metadata as written by google/spatial-media: with a head, over several lines, and more than we write.
 inline std::string v1(const std::string& stereo, const std::string& more = "") {
   std::string xml =
       "<?xml version=\"1.0\"?><rdf:SphericalVideo\nxmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\"\n"
@@ -283,7 +283,7 @@ inline bool runs(const std::string& words) {
   return std::system((words + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-// As written by exiftool and mkvpropedit; none for a program that is not installed.
+// Videos as written by exiftool and mkvpropedit; none for a program that is not installed.
 inline std::vector<Tagged> videos_of_tools(const TemporaryFolder& folder) {
   std::vector<Tagged> cases;
   const auto add = [&](const std::string& title, const std::string& name, int width, int height,

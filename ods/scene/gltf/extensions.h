@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every glTF extension that ods knows, and how it is handled. The reader, its warnings, `ods info` and the table in
+// The glTF extensions known to ods, and their handling. The reader, its warnings, `ods info` and the table in
 // docs/scenes.md all use this list.
 #pragma once
 #include <span>
