@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "cli/console/console.h"
+#include "cli/console/print.h"
 #include "cli/options/camera_source.h"
 #include "ods/export/camera_export.h"
 #include "ods/files/atomic_file.h"
@@ -43,7 +44,7 @@ void camera(int argc, char** argv) {
   }
   for (const std::string& warning : result.warnings) note("not as asked: " + warning);
   if (output.empty()) {
-    std::fwrite(result.text.data(), 1, result.text.size(), stdout);
+    put_out(result.text);
     return;
   }
   if (ods::format_of_path(output)) {

@@ -9,12 +9,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "cli/console/console.h"
+#include "cli/console/print.h"
 #include "cli/options/camera_source.h"
+#include "ods/base/quote.h"
 #include "ods/camera/layout.h"
 
 using ods::Camera, ods::Sidecar, ods::vec2, ods::vec3;
@@ -50,7 +51,7 @@ void print_text(vec3 point, const std::vector<Found>& all) {
     const std::string where = f.seen ? fmt::format("pixel {:.3f} {:.3f}  uv {:.7f} {:.7f}  depth {:.6g}", f.pixel.x,
                                                    f.pixel.y, f.uv.x, f.uv.y, f.depth)
                                      : "not seen: no ray of this eye meets it, or it is outside the picture";
-    fmt::print("{:.6g},{:.6g},{:.6g}  {:5}  {}\n", point.x, point.y, point.z, ods::eye_name(f.eye), where);
+    put_out(fmt::format("{:.6g},{:.6g},{:.6g}  {:5}  {}\n", point.x, point.y, point.z, ods::eye_name(f.eye), where));
   }
 }
 
@@ -86,9 +87,9 @@ void print_point_of(const std::string& word, const Sidecar& file, const Camera& 
   }
   const vec3 p = ray.origin + n[2] * ray.direction;
   if (json) {
-    std::puts(nlohmann::ordered_json({{"point", {p.x, p.y, p.z}}}).dump().c_str());
+    put_out(ods::json_document({{"point", {p.x, p.y, p.z}}}) + "\n");
   } else {
-    fmt::print("{:.7g},{:.7g},{:.7g}\n", p.x, p.y, p.z);
+    put_out(fmt::format("{:.7g},{:.7g},{:.7g}\n", p.x, p.y, p.z));
   }
 }
 
@@ -116,7 +117,7 @@ void project(int argc, char** argv) {
     const vec3 point = parse_point("a point", word);
     const std::vector<Found> all = find(file, camera, point);
     if (json) {
-      std::puts(to_json(point, all).dump().c_str());
+      put_out(ods::json_document(to_json(point, all)) + "\n");
     } else {
       print_text(point, all);
     }

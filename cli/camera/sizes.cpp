@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "cli/console/console.h"
+#include "cli/console/print.h"
 #include "cli/options/picture_options.h"
 #include "ods/camera/codec_level.h"
 
@@ -44,22 +44,22 @@ std::string_view short_source(const NamedSize& size) {
 
 void print_table(std::span<const NamedSize> sizes) {
   constexpr const char* kRow = "{:<19} {:<11} {:<12} {:<11} {:>3} {:>5} {:>4} {:>4} {:>4} {:<4} {}\n";
-  fmt::print(kRow, "name", "one eye", "layout", "file", "fps", "H.264", "HEVC", "AV1", "VP9", "AA", "source");
+  put_out(fmt::format(kRow, "name", "one eye", "layout", "file", "fps", "H.264", "HEVC", "AV1", "VP9", "AA", "source"));
   for (const NamedSize& size : sizes) {
     const bool threshold = size.antialias.starts_with("on, threshold ");
-    fmt::print(kRow, size.name, pixels(size.eye), layout_word(size), pixels(file_size(size)),
-               size.fps ? fmt::format("{}", size.fps) : "", level(size, ods::Codec::kH264),
-               level(size, ods::Codec::kHevc), level(size, ods::Codec::kAv1), level(size, ods::Codec::kVp9),
-               threshold ? size.antialias.substr(14) : size.antialias, short_source(size));
+    put_out(fmt::format(kRow, size.name, pixels(size.eye), layout_word(size), pixels(file_size(size)),
+                        size.fps ? fmt::format("{}", size.fps) : "", level(size, ods::Codec::kH264),
+                        level(size, ods::Codec::kHevc), level(size, ods::Codec::kAv1), level(size, ods::Codec::kVp9),
+                        threshold ? size.antialias.substr(14) : size.antialias, short_source(size)));
   }
-  fmt::print(
+  put_out(fmt::format(
       "\nH.264, HEVC, AV1, VP9: the smallest level that holds the file as a video, at {} pictures a second where fps\n"
       "is empty; without one, players may refuse it. AA: the source's antialiasing, off or POV-Ray's threshold.\n",
-      kStillFps);
+      kStillFps));
 }
 
 void print_one(const NamedSize& size) {
-  auto row = [](std::string_view name, std::string_view value) { fmt::print("{:<14} {}\n", name, value); };
+  auto row = [](std::string_view name, std::string_view value) { put_out(fmt::format("{:<14} {}\n", name, value)); };
   row("name", size.name);
   row("called", size.title);
   row("one eye", pixels(size.eye));
@@ -94,7 +94,7 @@ nlohmann::ordered_json to_json(const NamedSize& size) {
 void print_json(std::span<const NamedSize> sizes) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const NamedSize& size : sizes) json.push_back(to_json(size));
-  std::puts(json.dump(2).c_str());
+  put_json(json);
 }
 
 void sizes(int argc, char** argv) {

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "cli/console/print.h"
 #include "cli/options/eye_options.h"
 
 using ods::ComfortLevel, ods::ComfortReport, ods::ComfortRules, ods::Strain, ods::StrainedPlace;
@@ -28,9 +29,9 @@ std::string shares_text(const std::array<double, 4>& shares) {
 void print_place(const StrainedPlace& place) {
   const std::string cure = cure_text(place);
   const ods::StrainRow& strain = ods::strain_row(place.strain);
-  fmt::print("{}: {}, {:.2f} m away, {} ({} of the picture): {}, {:.3g} {}{}{}\n", comfort_level_name(place.level),
-             thing_text(place), place.distance, direction_text(place), share_text(place.share), strain.title,
-             place.value, strain.unit, cure.empty() ? "" : "; ", cure);
+  put_out(fmt::format("{}: {}, {:.2f} m away, {} ({} of the picture): {}, {:.3g} {}{}{}\n",
+                      comfort_level_name(place.level), thing_text(place), place.distance, direction_text(place),
+                      share_text(place.share), strain.title, place.value, strain.unit, cure.empty() ? "" : "; ", cure));
 }
 
 Json shares_json(const std::array<double, 4>& shares) {
@@ -110,26 +111,28 @@ std::vector<std::string> cure_lines(const ComfortJob& job, const Looked& looked,
 // --- for people and for programs -------------------------------------------------------------------------------------
 
 void print_text(const ComfortJob& job, const Looked& looked, const ComfortReport& report) {
-  fmt::print("{}: {}; eyes {:.3g} m apart, nearest {:.2f} m\n", job.scene.name,
-             comfort_level_name(verdict(job, looked, report)), looked.camera.ipd, report.nearest);
-  if (!looked.why_matched.empty()) fmt::print("{}: judged by matching them\n", looked.why_matched);
-  if (looked.measured) fmt::print("{}\n", measured_text(*looked.measured));
+  put_out(fmt::format("{}: {}; eyes {:.3g} m apart, nearest {:.2f} m\n", job.scene.name,
+                      comfort_level_name(verdict(job, looked, report)), looked.camera.ipd, report.nearest));
+  if (!looked.why_matched.empty()) put_out(fmt::format("{}: judged by matching them\n", looked.why_matched));
+  if (looked.measured) put_out(fmt::format("{}\n", measured_text(*looked.measured)));
   if (looked.match) {
-    fmt::print("by matching: +-{:.0f} minutes of arc; {:.0f} % of the picture could be matched\n",
-               looked.match->precision, 100.0 * looked.match->share);
+    put_out(fmt::format("by matching: +-{:.0f} minutes of arc; {:.0f} % of the picture could be matched\n",
+                        looked.match->precision, 100.0 * looked.match->share));
     if (const ComfortLevel level = apart_level(job, *looked.match); level > ComfortLevel::kOk) {
-      fmt::print("{}: one eye sees things {:.0f} minutes of arc higher than the other: ods lint has the cure\n",
-                 comfort_level_name(level), looked.match->apart);
+      put_out(
+          fmt::format("{}: one eye sees things {:.0f} minutes of arc higher than the other: ods lint has the cure\n",
+                      comfort_level_name(level), looked.match->apart));
     }
   }
-  fmt::print("{} of the picture, by solid angle; where people look: {}\n", shares_text(report.share),
-             shares_text(report.looked));
+  put_out(fmt::format("{} of the picture, by solid angle; where people look: {}\n", shares_text(report.share),
+                      shares_text(report.looked)));
   if (report.head_roll > 0.0 && report.head_roll < 89.0) {
-    fmt::print("a head may tilt sideways by {:.2g} degrees before the eyes must turn apart vertically too far\n",
-               report.head_roll);
+    put_out(
+        fmt::format("a head may tilt sideways by {:.2g} degrees before the eyes must turn apart vertically too far\n",
+                    report.head_roll));
   }
   for (const StrainedPlace& place : report.places) print_place(place);
-  for (const std::string& cure : cure_lines(job, looked, report)) fmt::print("cure: {}\n", cure);
+  for (const std::string& cure : cure_lines(job, looked, report)) put_out(fmt::format("cure: {}\n", cure));
 }
 
 void print_json(const ComfortJob& job, const Looked& looked, const ComfortReport& report) {
@@ -169,7 +172,7 @@ void print_json(const ComfortJob& job, const Looked& looked, const ComfortReport
   json["places"] = Json::array();
   for (const StrainedPlace& place : report.places) json["places"].push_back(place_json(place));
   json["hidden"] = looked.hidden;
-  std::puts(json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+  put_json(json);
 }
 
 ComfortLevel apart_level(const ComfortJob& job, const MatchQuality& match) {

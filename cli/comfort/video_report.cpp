@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "cli/comfort/comfort_report.h"
+#include "cli/console/print.h"
 
 using Json = nlohmann::ordered_json;
 
@@ -53,9 +53,9 @@ std::string strain_text(const ods::VideoStrain& strain) {
 void print_text(const ComfortJob& job, const ods::VideoComfort& video) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const ods::VideoMoment& moment : video.moments) nearest = std::min(nearest, moment.nearest);
-  fmt::print("{}: {}; eyes {:.3g} m apart, nearest {:.2f} m\n", job.scene.name, comfort_level_name(worst_level(video)),
-             video.camera.ipd, nearest);
-  fmt::print("{}\n", looked_text(video));
+  put_out(fmt::format("{}: {}; eyes {:.3g} m apart, nearest {:.2f} m\n", job.scene.name,
+                      comfort_level_name(worst_level(video)), video.camera.ipd, nearest));
+  put_out(fmt::format("{}\n", looked_text(video)));
   for (const ods::VideoStrain& strain : video.strains) {
     std::string place;
     if (strain.place) {
@@ -63,7 +63,8 @@ void print_text(const ComfortJob& job, const ods::VideoComfort& video) {
       place = fmt::format(", {:.2f} m away, {}{}{}", strain.place->distance, direction_text(*strain.place),
                           cure.empty() ? "" : "; ", cure);
     }
-    fmt::print("{}: {}: {}{}\n", comfort_level_name(strain.level), times_text(strain), strain_text(strain), place);
+    put_out(fmt::format("{}: {}: {}{}\n", comfort_level_name(strain.level), times_text(strain), strain_text(strain),
+                        place));
   }
 }
 
@@ -85,5 +86,5 @@ void print_json(const ComfortJob& job, const ods::VideoComfort& video) {
     }
     json["strains"].push_back(std::move(each));
   }
-  std::puts(json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+  put_json(json);
 }

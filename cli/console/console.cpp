@@ -14,7 +14,9 @@
 
 #include "cli/console/checked_words.h"
 #include "cli/console/exit_code.h"
+#include "cli/console/print.h"
 #include "ods/base/error.h"
+#include "ods/base/quote.h"
 #include "ods/base/text.h"
 #include "ods/files/atomic_file.h"
 
@@ -28,8 +30,7 @@ bool stderr_is_terminal() {
 namespace {
 
 void print_json(const nlohmann::ordered_json& line) {
-  // File names need not be valid UTF-8.
-  std::fprintf(stderr, "%s\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+  put_error("", ods::json_document(line) + "\n");
 }
 
 int fail(ExitCode code, const std::string& what) {
@@ -40,7 +41,7 @@ int fail(ExitCode code, const std::string& what) {
   }
   const char* no_color = std::getenv("NO_COLOR");
   bool color = stderr_is_terminal() && !console.no_color && !(no_color && *no_color);
-  std::fprintf(stderr, "ods: %s %s\n", color ? "\x1b[1;31merror:\x1b[0m" : "error:", ods::one_line(text).c_str());
+  put_error(color ? "ods: \x1b[1;31merror:\x1b[0m " : "ods: error: ", ods::one_line(text) + "\n");
   return code;
 }
 
@@ -63,7 +64,7 @@ int fail_without_memory() {
     ods::remove_unfinished_files();
     _exit(fail_without_memory());
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "ods: terminated: %s\n", error.what());
+    put_error("ods: terminated: ", std::string(error.what()) + "\n");
   } catch (...) {
   }
   std::abort();
@@ -101,19 +102,17 @@ std::string with_options(const std::string& text) {
 void note(const std::string& text) {
   if (console.quiet) return;
   if (console.json) return print_json({{"note", with_options(text)}});
-  std::fprintf(stderr, "ods: %s\n", ods::one_line(with_options(text)).c_str());
+  put_error("ods: ", ods::one_line(with_options(text)) + "\n");
 }
 
 void warn(const std::string& text) {
   if (console.quiet) return;
   if (console.json) return print_json({{"warning", with_options(text)}});
-  std::fprintf(stderr, "ods: warning: %s\n", ods::one_line(with_options(text)).c_str());
+  put_error("ods: warning: ", ods::one_line(with_options(text)) + "\n");
 }
 
 void announce_file(const std::string& file) {
-  if (console.quiet) return;
-  std::puts(file.c_str());
-  std::fflush(stdout);  // a program may be waiting for it
+  if (!console.quiet) put_path(file);
 }
 
 int run_to_exit_code(const std::function<ExitCode()>& body) {

@@ -12,6 +12,7 @@
 
 #include "cli/console/checked_words.h"
 #include "cli/console/console.h"
+#include "cli/console/print.h"
 #include "ods/base/suggest.h"
 
 namespace {
@@ -230,7 +231,7 @@ static std::optional<ManualFormat> wanted_help(int argc, char** argv) {
 bool Options::parse(int argc, char** argv) {
   const auto print = [this](ManualFormat format) {
     manual_.usage += "[OPTION...]";
-    std::fputs(write_manual(manual_, format).c_str(), stdout);
+    put_out(write_manual(manual_, format));
     return false;
   };
   if (const auto format = wanted_help(argc, argv)) return print(*format);

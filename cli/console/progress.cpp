@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "ods/base/quote.h"
 #include "ods/base/text.h"
 
 bool progress_is_for_farm(ProgressMode mode) {
@@ -81,9 +82,7 @@ std::string ProgressLines::json_line(double done, double seconds, const Progress
     line += fmt::format(",\"seconds_left\":{:.1f}", *left);
   if (!step.kind.empty()) line += fmt::format(",\"kind\":\"{}\"", step.kind);
   if (step.frames > 0) line += fmt::format(",\"frame\":{},\"frames\":{}", step.frame, step.frames);
-  // File names need not be valid UTF-8.
-  const auto lenient = nlohmann::json::error_handler_t::replace;
-  if (!step.file.empty()) line += ",\"file\":" + nlohmann::json(step.file).dump(-1, ' ', false, lenient);
+  if (!step.file.empty()) line += ",\"file\":" + ods::json_document(step.file);
   return line + "}\n";
 }
 
@@ -143,7 +142,8 @@ void ProgressLines::report(double done, double seconds, const ProgressStep& step
 
 void ProgressLines::fail(const std::string& why) {
   clear();
-  if (mode_ == ProgressMode::kOpenJd) out_ << "openjd_fail: " << ods::one_line(why) << '\n' << std::flush;
+  if (mode_ == ProgressMode::kOpenJd)
+    out_ << "openjd_fail: " << ods::terminal_text(ods::one_line(why)) << '\n' << std::flush;
 }
 
 void ProgressLines::clear() {

@@ -8,6 +8,7 @@
 #include "cli/console/progress.h"
 #include "cli/farm/job_report.h"
 #include "ods/base/json_reader.h"
+#include "ods/base/quote.h"
 
 namespace {
 
@@ -97,5 +98,5 @@ std::string report_json(const std::vector<JobReport>& jobs) {
     for (const GroupReport& group : job.groups) json["groups"].push_back(json_of(job, group));
     all.push_back(json);
   }
-  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return ods::json_document(all, 2) + "\n";
 }

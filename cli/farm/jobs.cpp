@@ -14,6 +14,7 @@
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
 #include "cli/console/options.h"
+#include "cli/console/print.h"
 #include "cli/farm/job_report.h"
 #include "cli/farm/queue.h"
 #include "ods/farm/plan.h"
@@ -92,7 +93,7 @@ void jobs(int argc, char** argv) {
   while (true) {
     found = find_jobs(wishes);
     const std::string text = wishes.json ? report_json(found) : found.empty() ? "no jobs\n" : report_text(found);
-    if (text != before) std::fputs(text.c_str(), stdout);
+    if (text != before) put_out(text);
     std::fflush(stdout);
     before = text;
     const bool over = std::ranges::all_of(found, [](const JobReport& job) { return job.is_over(); });

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 #include "cli/console/console.h"
+#include "cli/console/print.h"
 #include "cli/console/programs.h"
 #include "cli/farm/copy_inputs.h"
 #include "cli/farm/finished.h"
@@ -35,7 +35,7 @@ void ask_slurm(const SubmitJob& job, const ods::FarmPlan& plan, ods::SchedulerWi
 
 void print(const std::vector<ods::FarmFile>& files, const ods::FarmPlan& plan) {
   for (const ods::FarmFile& file : files) {
-    std::fputs(fmt::format("# {}/{}\n{}\n", plan.folder, file.name, file.text).c_str(), stdout);
+    put_out(fmt::format("# {}/{}\n{}\n", plan.folder, file.name, file.text));
   }
 }
 
@@ -67,7 +67,7 @@ void send(const ods::FarmPlan& plan) {
                                                           ods::shell_word(plan.folder)));
   }
   ods::write_file(plan.folder + "/jobs.txt", sent->out);
-  if (!console.quiet) std::fputs(sent->out.c_str(), stdout);
+  if (!console.quiet) put_out(sent->out);
   note(fmt::format("ods jobs {} --follow shows its progress", ods::shell_word(plan.name)));
 }
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // ods scenes: lists the built-in scenes.
-#include <cstdio>
 
 #include "cli/console/console.h"
 #include "cli/console/options.h"
+#include "cli/console/print.h"
 #include "ods/scene/builtin/builtin.h"
 
 int ods_scenes(int argc, char** argv) {
@@ -15,6 +15,7 @@ int ods_scenes(int argc, char** argv) {
     options.group("Console");
     add_console_options(options);
     if (!options.parse(argc, argv)) return;
-    for (const ods::BuiltinScene& scene : ods::builtin_scenes()) std::printf("%-12s %s\n", scene.name, scene.summary);
+    for (const ods::BuiltinScene& scene : ods::builtin_scenes())
+      put_out(fmt::format("{:<12} {}\n", scene.name, scene.summary));
   });
 }

@@ -10,6 +10,7 @@
 
 #include "cli/console/console.h"
 #include "ods/base/json_reader.h"
+#include "ods/base/quote.h"
 
 namespace {
 
@@ -48,7 +49,7 @@ WebAnswer Share::take(const std::string& id, const std::string& body) {
   if (body.size() > kMostBytes) throw UsageError(fmt::format("a message has at most {} bytes", kMostBytes));
   const ods::Json message = ods::parse_json(body, "message", "message");
   if (!message.is_object()) throw UsageError("a message is an object {...}");
-  const std::string text = message.dump(-1, ' ', false, ods::Json::error_handler_t::replace);
+  const std::string text = ods::json_document(message);
   const std::lock_guard<std::mutex> lock(mutex_);
   forget_the_silent();
   if (latest_.size() >= kMostPages && !latest_.contains(id)) {

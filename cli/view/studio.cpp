@@ -120,11 +120,11 @@ ods::StereoCamera shortened(ods::StereoCamera camera) {
 }  // namespace
 
 WebAnswer json_answer(const Json& json) {
-  return {.type = "application/json", .body = json.dump(-1, ' ', false, Json::error_handler_t::replace)};
+  return {.type = "application/json", .body = ods::json_document(json)};
 }
 
 Studio::Studio(const SceneSource& source, std::function<size_t(const std::string& path)> add_item)
-    : add_item_(std::move(add_item)), drops_((std::filesystem::temp_directory_path() / "ods-view-").native()) {
+    : add_item_(std::move(add_item)) {
   open(source, true);
 }
 
@@ -219,7 +219,7 @@ void Studio::read_camera(JsonReader& reader, Settings& settings) const {
   }
   if (merge >= 0) sidecar["merge_map"] = {{"width", 1}, {"height", 1}, {"values", {1}}};  // stands for ours
   std::vector<std::string> warnings;
-  settings.sidecar = ods::read_sidecar(sidecar.dump(), "camera", warnings);
+  settings.sidecar = ods::read_sidecar(ods::json_document(sidecar), "camera", warnings);
   ods::StereoCamera& camera = settings.sidecar.camera;
   if (merge >= 0) camera.merge_map = maps_[static_cast<size_t>(merge)];
   if (head_tilt >= 0) camera.head_tilt_map = maps_[static_cast<size_t>(head_tilt)];
@@ -332,19 +332,18 @@ WebAnswer Studio::frame(const WebRequest& request) {
     next = {
         {"part", part_name(frame->next->is_patch)}, {"width", frame->next->width}, {"samples", frame->next->samples}};
   }
-  const std::string head = Json({{"number", frame->number},
-                                 {"revision", frame->revision},
-                                 {"part", part_name(frame->is_patch)},
-                                 {"width", frame->eye.width},
-                                 {"height", frame->eye.height},
-                                 {"eyes", 2},
-                                 {"camera", camera_json(make_camera(frame->camera))},
-                                 {"samples", frame->samples},
-                                 {"seconds", frame->seconds},
-                                 {"done", !frame->next},
-                                 {"next", next},
-                                 {"state", "rendering"}})
-                               .dump();
+  const std::string head = ods::json_document({{"number", frame->number},
+                                               {"revision", frame->revision},
+                                               {"part", part_name(frame->is_patch)},
+                                               {"width", frame->eye.width},
+                                               {"height", frame->eye.height},
+                                               {"eyes", 2},
+                                               {"camera", camera_json(make_camera(frame->camera))},
+                                               {"samples", frame->samples},
+                                               {"seconds", frame->seconds},
+                                               {"done", !frame->next},
+                                               {"next", next},
+                                               {"state", "rendering"}});
   std::string body(4, '\0');
   const auto size = static_cast<uint32_t>(head.size());
   for (size_t i = 0; i < 4; i++) body[i] = static_cast<char>(size >> (8 * i) & 0xff);

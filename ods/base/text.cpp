@@ -35,14 +35,33 @@ static size_t character_length(std::string_view text) {
   return is_wrong ? 0 : length;
 }
 
-std::string valid_utf8(std::string_view text) {
-  std::string valid;
+// Calls `change` with each character, empty for a byte that is part of none, and puts together what it returns.
+template <class Change>
+static std::string changed(std::string_view text, const Change& change) {
+  std::string result;
   while (!text.empty()) {
     const size_t length = character_length(text);
-    valid += length > 0 ? text.substr(0, length) : "\uFFFD";
+    result += change(text.substr(0, length));
     text.remove_prefix(std::max<size_t>(length, 1));
   }
-  return valid;
+  return result;
+}
+
+std::string valid_utf8(std::string_view text) {
+  return changed(text, [](std::string_view character) { return character.empty() ? "\uFFFD" : character; });
+}
+
+static bool is_control(std::string_view character) {
+  const auto first = static_cast<unsigned char>(character[0]);
+  const bool is_second_set = first == 0xc2 && static_cast<unsigned char>(character[1]) < 0xa0;
+  return first < ' ' || first == 0x7f || is_second_set;
+}
+
+std::string terminal_text(std::string_view text) {
+  return changed(text, [](std::string_view character) {
+    if (character == "\n" || character == "\t") return character;
+    return character.empty() || is_control(character) ? "?" : character;
+  });
 }
 
 std::string library_words(const std::string& text) {

@@ -15,6 +15,10 @@ std::string small_letters(std::string text);
 // breaks or terminal escapes.
 std::string one_line(std::string text);
 
+// For a terminal: each control character other than a line break or a tab, and each byte that is not part of a
+// character in UTF-8, becomes '?'. A control character may also be one of two bytes, U+0080 to U+009F.
+std::string terminal_text(std::string_view text);
+
 // Each byte that is not part of a character in UTF-8 becomes U+FFFD. For text of unknown origin that others will parse.
 std::string valid_utf8(std::string_view text);
 

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ods/base/base64.h"
+#include "ods/base/quote.h"
 #include "ods/camera/layout.h"
 #include "ods/export/rig_writers.h"
 
@@ -133,7 +134,7 @@ RigExport rig_to_gltf(const SlitRig& rig, const std::string& name) {
   }
   json["animations"].push_back(animation);
   result.scripts.push_back(
-      {".gltf", json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"});
+      {".gltf", json_document(json, 1) + "\n"});
   return result;
 }
 

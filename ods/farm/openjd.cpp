@@ -8,6 +8,7 @@
 
 #include "ods/base/error.h"
 #include "ods/base/json_reader.h"
+#include "ods/base/quote.h"
 #include "ods/farm/scheduler.h"
 
 namespace ods {
@@ -112,9 +113,9 @@ std::vector<FarmFile> write_openjd(const FarmPlan& plan, const SchedulerWishes&)
     flat[parameter.name] = path;
   }
   for (const TaskGroup& group : plan.groups) job["steps"].push_back(step_of(plan, group, parameters));
-  return {{"template.json", job.dump(2) + "\n"},
-          {"parameter_values.json", Json{{"parameterValues", values}}.dump(2) + "\n"},
-          {"openjd_parameters.json", flat.dump(2) + "\n"}};
+  return {{"template.json", json_document(job, 2) + "\n"},
+          {"parameter_values.json", json_document({{"parameterValues", values}}, 2) + "\n"},
+          {"openjd_parameters.json", json_document(flat, 2) + "\n"}};
 }
 
 }  // namespace ods

@@ -97,6 +97,21 @@ TEST_F(Schedulers, OpenCueIsValidAndCuebotLaunchesIt) {
   }
 }
 
+// Cuebot replaces its tokens in the text, before the shell sees it.
+TEST_F(Schedulers, OpenCueFillsInNothingOfANameOfOurs) {
+  set_names({"#IFRAME#.glb", "a #ZFRAME# b", "#LAYER#", "#JOB#", "it's#FRAME#", "##FRAME_START##"});
+  const std::string text = text_of(write(Scheduler::kOpenCue), "job.xml");
+  const size_t begin = text.find("<cmd>"), end = text.find("</cmd>");
+  const std::string command = text.substr(begin + 5, end - begin - 5);
+  static const std::regex token("#[A-Z_]+#");
+  const auto count = std::distance(std::sregex_iterator(command.begin(), command.end(), token), std::sregex_iterator());
+  EXPECT_EQ(count, 1) << command << ": the task's number";
+  std::string line = std::regex_replace(command, token, "11");
+  line = std::regex_replace(std::regex_replace(line, std::regex("&gt;"), ">"), std::regex("&quot;"), "\"");
+  EXPECT_EQ(run_line(line).code, 0) << line;
+  EXPECT_EQ(said(), expected(0, 11));
+}
+
 TEST_F(Schedulers, OpenCuesCommandsAreOurs) {
   if (const std::string why = missing("python3", "command -v python3"); !why.empty()) GTEST_SKIP() << why;
   write(Scheduler::kOpenCue);

@@ -53,6 +53,13 @@ TEST_F(Schedulers, FlamencoCompilesToTheSameTasks) {
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 13u);
 }
 
+TEST_F(Schedulers, FlamencoGetsNoNameWithAVariable) {
+  set_names({"{blender}.glb"});
+  EXPECT_THROW(write(Scheduler::kFlamenco), Error);
+  set_names({"}{ a {.glb"});
+  EXPECT_NO_THROW(write(Scheduler::kFlamenco));
+}
+
 // Of a hundred thousand tasks: as long as one of ten, but for Slurm's arrays.
 TEST_F(Schedulers, ManyTasksAreFewFiles) {
   plan.groups[0].tasks = 100'000;

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <set>
 
+#include "ods/base/quote.h"
+
 namespace ods {
 
 bool is_gpano(const Attribute& attribute) {
@@ -15,26 +17,6 @@ bool is_gpano(const Attribute& attribute) {
 }
 
 // --- writing ---------------------------------------------------------------------------------------------------------
-
-std::string xml_escaped(const std::string& text) {
-  std::string result;
-  for (char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
 
 std::string xml_unescaped(std::string text) {
   for (const auto& [name, letter] : {std::pair<std::string_view, char>{"&lt;", '<'},
@@ -88,7 +70,7 @@ static std::string written(const std::vector<Attribute>& properties, std::string
     if (named.insert(space->prefix).second && tag.find(name) == std::string_view::npos) {
       names += fmt::format("{}\"{}\"", name, space->address);
     }
-    values += fmt::format(" {}=\"{}\"", property.name, xml_escaped(text_of(property)));
+    values += fmt::format(" {}=\"{}\"", property.name, xml_text(text_of(property)));
   }
   return names + values;
 }

@@ -16,8 +16,7 @@
 
 namespace ods {
 
-// Escapes text for XML elements and double-quoted attributes, and back.
-std::string xml_escaped(const std::string& text);
+// The text that XML has in an element or attribute: xml_text() (ods/base/quote.h) backwards.
 std::string xml_unescaped(std::string text);
 
 // Whether an attribute is in Google's panorama namespace: GPano:FullPanoWidthPixels.

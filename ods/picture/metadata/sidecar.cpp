@@ -12,6 +12,7 @@
 #include "ods/base/decimal.h"
 #include "ods/base/error.h"
 #include "ods/base/json_reader.h"
+#include "ods/base/quote.h"
 #include "ods/camera/camera_fields.h"
 #include "ods/files/atomic_file.h"
 #include "ods/files/read_file.h"
@@ -167,7 +168,7 @@ std::string write_sidecar(const Sidecar& file) {
   json["merge_map"] = camera.merge_map ? to_json(*camera.merge_map) : Json(nullptr);
   json["head_tilt_map"] = camera.head_tilt_map ? to_json(*camera.head_tilt_map) : Json(nullptr);
   json["mirrored"] = camera.mirrored;
-  return json.dump(2) + "\n";
+  return json_document(json, 2) + "\n";
 }
 
 Sidecar read_sidecar(std::string_view text, const std::string& name, std::vector<std::string>& warnings) {
