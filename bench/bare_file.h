@@ -3,6 +3,7 @@
 //
 // The yardstick of benchmarks that go from file to file: the same files only read and written.
 #pragma once
+#include "ods/files/atomic_file.h"
 #include "ods/image/image_file.h"
 
 struct BareFile {

@@ -9,6 +9,7 @@
 
 #include "ods/base/base64.h"
 #include "ods/base/quote.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/image_file.h"
 #include "ods/image/tone.h"
 
@@ -51,7 +52,7 @@ table { border-collapse: collapse; } td { padding: .15rem 1rem .15rem 0; vertica
 </style>
 )";
 
-// As a JPEG that exists only for a moment, beside the page.
+// As a JPEG.
 std::string data_uri(const ods::Image& light, const std::string& path) {
   ods::FileHeader header;
   header.format = ods::FileFormat::kJpeg;

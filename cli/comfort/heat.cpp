@@ -3,12 +3,10 @@
 #include "cli/comfort/heat.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include "cli/console/console.h"
 #include "ods/base/median.h"
-#include "ods/files/private_folder.h"
 #include "ods/image/image_file.h"
 #include "ods/image/tone.h"
 #include "ods/kernel/surface.h"
@@ -65,12 +63,11 @@ void save_heat(const std::string& path, const Looked& looked, const std::vector<
 }
 
 std::string heat_png(const Judged& judged, const ods::ComfortReport& report) {
-  const ods::PrivateFolder folder((std::filesystem::temp_directory_path() / "ods-heat-").native());
   const ods::Image heat = heat_of(judged, report);
   ods::FileHeader header;
   header.width = heat.width, header.height = heat.height;
   header.channels = {{"R"}, {"G"}, {"B"}};
-  return ods::image_bytes(folder.path() + "/heat.png", header, [&](int y, std::span<float> row) {
+  return ods::image_bytes("the heat map", header, [&](int y, std::span<float> row) {
     std::transform(heat.at(0, y), heat.at(0, y) + row.size(), row.data(), ods::srgb_encode);
   });
 }

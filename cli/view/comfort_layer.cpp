@@ -3,14 +3,13 @@
 #include "cli/view/comfort_layer.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "cli/comfort/comfort_report.h"
 #include "cli/comfort/heat.h"
-#include "ods/files/file_input.h"
+#include "ods/base/quote.h"
+#include "ods/picture/cryptomatte.h"
 #include "ods/picture/save.h"
 #include "ods/view/camera_json.h"
 
@@ -41,12 +40,10 @@ ComfortLayer comfort_layer(const ods::ViewItem& item) {
   for (const Judged& each : looked.eyes) reports.push_back(ods::judge_comfort(each.seen, job.comfort));
   ComfortLayer layer;
   const ods::Json json = verdict_json(looked.camera, reports[0], verdict(job, looked, reports[0]));
-  layer.json = json.dump(-1, ' ', false, ods::Json::error_handler_t::replace);
-  // Image libraries want files.
-  const std::filesystem::path folder = std::filesystem::temp_directory_path();
-  const std::string path = (folder / fmt::format("ods-view-{}-heat-%V.jpg", getpid())).string();
-  const std::vector<std::string> files = ods::save_picture(heat_picture(looked, reports), looked.camera, {}, path);
-  layer.left = ods::take_file(files.front());
-  layer.right = files.size() == 2 ? ods::take_file(files.back()) : layer.left;
+  layer.json = ods::json_document(json);
+  const ods::Picture heat = heat_picture(looked, reports);
+  const ods::PictureRows rows = ods::rows_of(heat, false);
+  layer.left = ods::eye_bytes(rows, 0, ods::FileFormat::kJpeg, {});
+  layer.right = rows.eyes.size() == 2 ? ods::eye_bytes(rows, 1, ods::FileFormat::kJpeg, {}) : layer.left;
   return layer;
 }

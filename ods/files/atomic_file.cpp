@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/file.h>
+#include <sys/random.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -76,16 +78,15 @@ static std::string temporary_prefix(const std::string& path) {
   return fmt::format(".{}.tmp.{}.", fs::path(path).filename().native().substr(0, 120), host);
 }
 
-// Creates a file with a name unique to this host and process, locked while it is open. Null,
-// with errno set, on failure.
+// Creates a file with a new name that cannot be guessed, locked while it is open. Null, with errno set, on failure.
 static std::FILE* create_temporary(const fs::path& folder, const std::string& path, std::string& temporary) {
-  static std::atomic<unsigned> counter{0};
   const std::string prefix = temporary_prefix(path);
-  // A name is taken if a killed process with our number left it, or another machine has our host name.
   const int kTries = 100;
   std::FILE* stream = nullptr;
   for (int i = 0; i < kTries; i++) {
-    temporary = folder / fmt::format("{}{}.{}", prefix, getpid(), counter++);
+    uint64_t number = 0;
+    if (getrandom(&number, sizeof(number), 0) != sizeof(number)) break;
+    temporary = folder / fmt::format("{}{}.{:016x}", prefix, getpid(), number);
     replace_unfinished(nullptr, temporary.c_str());  // before it exists, so that no signal falls between
     stream = std::fopen(temporary.c_str(), "wbxe");
     if (stream != nullptr) break;
@@ -153,12 +154,22 @@ void check_writable(const std::string& path) {
   remove_temporary(temporary);
 }
 
+// Whether Linux itself would follow a link (fs.protected_symlinks): in a folder where all users may leave files, only a
+// link of ours or of the folder's owner.
+static bool may_follow(const fs::path& link) {
+  struct stat own, folder;
+  if (lstat(link.c_str(), &own) != 0 || stat(folder_of(link.native()).c_str(), &folder) != 0) return false;
+  const bool is_shared = (folder.st_mode & S_ISVTX) && (folder.st_mode & S_IWOTH);
+  return !is_shared || own.st_uid == geteuid() || own.st_uid == folder.st_uid;
+}
+
 // Follows links, so that the link stays and its target is replaced.
 static std::string behind_links(const std::string& path) {
   const int kMaxLinks = 40;  // as Linux has it
   fs::path target = path;
   std::error_code error;
   for (int i = 0; i < kMaxLinks && fs::is_symlink(target, error); i++) {
+    if (!may_follow(target)) throw cannot_write(path, "it is another user's link; choose another name");
     target = target.parent_path() / fs::read_symlink(target, error);  // an absolute one replaces the folder
   }
   return target.native();
@@ -177,6 +188,15 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(behind_li
 AtomicFile::~AtomicFile() {
   if (stream_ != nullptr) std::fclose(stream_);
   if (!temporary_.empty()) remove_temporary(temporary_);
+}
+
+void AtomicFile::write(const void* bytes, size_t count) {
+  std::fwrite(bytes, 1, count, stream_);
+  position_ += count;
+}
+
+void AtomicFile::seek(uint64_t position) {
+  if (fseeko(stream_, static_cast<off_t>(position), SEEK_SET) == 0) position_ = position;
 }
 
 void AtomicFile::finish() {

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "ods/base/error.h"
+#include "ods/files/byte_sink.h"
 
 namespace ods {
 
@@ -23,19 +24,25 @@ void check_writable(const std::string& path);
 // Of a file that need not exist: its folder, or the nearest ancestor of it that exists. Absolute.
 std::string existing_folder_of(const std::string& path);
 
-// Until commit() the file is called `.NAME.tmp.HOST.PID.N`, and a file with the final name is untouched. Destruction
+// Until commit() the file is called `.NAME.tmp.HOST.PID.RANDOM`, and a file with the final name is untouched. Destruction
 // without commit() removes it. The next AtomicFile with that name removes what a killed process left. Paths are bytes.
-class AtomicFile {
+// A link stays, and the file that it leads to is replaced; but not by the link of another user in a folder that all
+// users share, such as /tmp.
+class AtomicFile final : public ByteSink {
  public:
-  // Creates the parent folders and the temporary file. Throws as check_writable().
+  // Creates the parent folders and the temporary file. Throws as check_writable(), and for another user's link.
   explicit AtomicFile(const std::string& path);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
-  ~AtomicFile();
+  ~AtomicFile() override;
 
   // Where to write. Callers need not check for write errors: finish() does.
   std::FILE* stream() const { return stream_; }
-  const std::string& path() const { return path_; }  // the final name
+  // The same stream as a sink, for encoders that may also write to memory.
+  void write(const void* bytes, size_t count) override;
+  void seek(uint64_t position) override;
+  uint64_t position() const override { return position_; }
+  const std::string& path() const override { return path_; }  // the final name
   // The temporary file, for libraries that must open it themselves.
   const std::string& temporary() const { return temporary_; }
 
@@ -49,6 +56,7 @@ class AtomicFile {
   std::string target_;  // path_, or the target of its link
   std::string temporary_;
   std::FILE* stream_ = nullptr;
+  uint64_t position_ = 0;  // of write()
 };
 
 // Writes a whole file. Throws as AtomicFile.

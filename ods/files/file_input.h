@@ -45,9 +45,6 @@ class FileInput {
   mutable uint64_t copied_ = 0;
 };
 
-// The bytes of a file that was only made for them: it is removed. Throws Error(kInput).
-std::string take_file(const std::string& path);
-
 // Appends bytes where FileInput::copy() appends. Throws Error(kOutput).
 void append(AtomicFile& file, const std::string& bytes);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/files/parts_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -59,7 +60,9 @@ void PartsFile::open_old(const Settings& settings, bool restart) {
   if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path_))) {
     throw Error(ErrorKind::kOutput, fmt::format("'{}' is no file of parts: remove it, or choose another name", path_));
   }
-  stream_.reset(std::fopen(path_.c_str(), "r+be"));
+  const int file = open(path_.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  check(file >= 0);
+  stream_.reset(fdopen(file, "r+b"));
   check(stream_ != nullptr);
   const std::string head = read_bytes(stream_.get(), kHead.size()), length = read_bytes(stream_.get(), 4);
   if (head != kHead || length.size() != 4) {

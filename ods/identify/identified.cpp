@@ -4,9 +4,9 @@
 // Words first, pixels last.
 #include <fmt/format.h>
 
-#include <filesystem>
 
 #include "ods/base/error.h"
+#include "ods/files/private_folder.h"
 #include "ods/identify/identify.h"
 #include "ods/identify/lenses.h"
 #include "ods/video/container/complete_metadata.h"
@@ -19,7 +19,7 @@ StoredPicture open_whole(const std::string& path) {
   open.color_only = true;
   open.format.layout = Layout::kSeparate;
   open.format.projection = ProjectionSetting();  // any: the pixels are taken as stored
-  open.scratch_folder = std::filesystem::temp_directory_path().string();
+  open.scratch_folder = temporary_folder();
   return open_picture(path, open);
 }
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "ods/files/atomic_file.h"
+#include "ods/files/byte_sink.h"
 #include "ods/image/color_space.h"
 #include "ods/image/format/attribute.h"
 #include "ods/image/format/file_format.h"
@@ -99,13 +99,12 @@ struct FileHeader {
 // Called concurrently from several threads, once for each row.
 using RowSource = std::function<void(int y, std::span<float> row)>;
 
-// Writes a whole image into a file that is not committed yet. Rows are computed while earlier ones are being
-// compressed; `band_done`, unless empty, is called between bands. Throws Error(kOutput), and what `rows` throws.
-void write_image(AtomicFile& file, const FileHeader& header, const RowSource& rows,
+// Writes a whole image into memory or into a file that is not committed yet. Rows are computed while earlier ones are
+// being compressed; `band_done`, unless empty, is called between bands. Throws Error(kOutput), and what `rows` throws.
+void write_image(ByteSink& sink, const FileHeader& header, const RowSource& rows,
                  const std::function<void()>& band_done = {});
 
-// The bytes of such a file. Image libraries want a file: there is one beside `path` for a moment, and none of that
-// name. Throws as write_image().
-std::string image_bytes(const std::string& path, const FileHeader& header, const RowSource& rows);
+// The bytes of such a file; `name` stands for it in messages. Throws as write_image().
+std::string image_bytes(const std::string& name, const FileHeader& header, const RowSource& rows);
 
 }  // namespace ods

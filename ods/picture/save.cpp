@@ -319,7 +319,7 @@ static void scatter_row(const std::vector<float>& eye, const EyeRow& part, size_
   }
 }
 
-static void write_picture(AtomicFile& out, const File& file, const StereoCamera* camera) {
+static void write_picture(ByteSink& out, const File& file, const StereoCamera* camera) {
   const FileHeader header = make_header(file, camera);
   const int count = static_cast<int>(file.indices.size());
   const Extent eye = stored_eye(file);
@@ -396,6 +396,17 @@ std::vector<std::string> save_picture(const PictureRows& picture, const StereoCa
   }
   commit_all(files);
   return names;
+}
+
+std::string eye_bytes(const PictureRows& picture, int index, FileFormat format, const SaveOptions& options) {
+  const std::string name = fmt::format("the {} eye", eye_name(picture.eyes[static_cast<size_t>(index)]));
+  if (std::max(picture.eye.width, picture.eye.height) > longest_side(format)) {
+    throw unfit(name, fmt::format("{}x{} pixels are too many for this format", picture.eye.width, picture.eye.height));
+  }
+  MemorySink memory(name);
+  const File file{picture, {index}, format, Layout::kSeparate, options, count_channels(picture.layers), {1, 1}};
+  write_picture(memory, file, nullptr);
+  return memory.take();
 }
 
 // --- a picture in memory -------------------------------------------------------------------------------------------

@@ -29,6 +29,7 @@
 #include "ods/camera/layout.h"
 #include "ods/camera/stereo_camera.h"
 #include "ods/image/format/attribute.h"
+#include "ods/image/format/file_format.h"
 #include "ods/image/format/sample_type.h"
 #include "ods/image/tone.h"
 #include "ods/picture/picture.h"
@@ -95,5 +96,8 @@ size_t count_channels(const std::vector<RowLayer>& layers);
 // kNearest layer takes the pixel whose first channel is least. Throws as above, and what `fill` throws.
 std::vector<std::string> save_picture(const PictureRows& picture, const StereoCamera* camera,
                                       const SaveOptions& options, const std::string& path);
+
+// The bytes of a file with one eye, of this index, and without camera metadata. Throws as save_picture().
+std::string eye_bytes(const PictureRows& picture, int index, FileFormat format, const SaveOptions& options);
 
 }  // namespace ods

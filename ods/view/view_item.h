@@ -56,7 +56,7 @@ bool has_preview(const ViewItem& item, bool is_live);
 StoredPicture open_shown(const ViewItem& item);
 
 // As JPEGs: the preview, and a small left eye of any item, of a video its first picture. Throw Error(kInput) where the
-// file cannot be read, Error(kOutput) as eye_jpeg().
+// file cannot be read, and as eye_jpeg().
 std::string preview_jpeg(const ViewItem& item);
 std::string thumbnail_jpeg(const ViewItem& item);
 
@@ -71,8 +71,7 @@ struct EyeOptions {
   int most_wide = 0;  // pixels; 0: as the picture has it
 };
 
-// One eye (kLeft, kRight, kMono) as a JPEG. The picture has its pixels. Throws Error(kOutput) if the temporary folder
-// is not writable.
+// One eye (kLeft, kRight, kMono) as a JPEG. The picture has its pixels. Throws Error(kUsage) if it is too large for one.
 std::string eye_jpeg(const StoredPicture& picture, int eye, const EyeOptions& options);
 
 // What one eye sees straight ahead, 960 pixels wide, as a JPEG: for pages until the picture is there.

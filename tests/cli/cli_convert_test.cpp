@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "ods/files/atomic_file.h"
 #include "ods/image/format/png_chunks.h"
 #include "ods/image/image_file.h"
 #include "ods/picture/metadata/sidecar.h"

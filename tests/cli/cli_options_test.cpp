@@ -13,6 +13,7 @@
 
 #include "ods/base/json_reader.h"
 #include "ods/camera/camera_fields.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/image_file.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "tests/support/cli_runner.h"

@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "ods/base/bytes.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/image_file.h"
 #include "ods/video/container/video_file.h"
 #include "ods/video/write_video.h"

@@ -55,7 +55,9 @@ TEST_F(ViewCommand, ServesSmallCopies) {
   ASSERT_EQ(run("testcard -q --width 2048 -o " + large), 0) << err;
   ASSERT_EQ(run("convert " + picture + " -q -o " + light), 0) << err;
   Served::TearDown();
+  setenv("TMPDIR", folder.path("none").c_str(), 1);  // small copies need no file
   serve({large, light, picture});
+  unsetenv("TMPDIR");
   const std::string view = get("view.json");
   EXPECT_NE(view.find("\"preview\":\"item/0/preview.jpg\""), std::string::npos);
   EXPECT_EQ(view.find("\"preview\":\"item/1/"), std::string::npos);

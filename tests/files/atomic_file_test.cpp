@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <set>
 
 #include "cli/console/interrupt.h"
 #include "ods/base/error.h"
@@ -43,6 +44,34 @@ TEST(AtomicFile, WritesWhatALinkStandsFor) {
   }
   EXPECT_EQ(folder.read("a.txt"), "new");
   EXPECT_EQ(folder.read("new.txt"), "new");
+}
+
+TEST(AtomicFile, FollowsNoLinkOfAnotherUserInASharedFolder) {
+  if (geteuid() != 0) GTEST_SKIP() << "skipped: only root can give a link to another user";
+  const TemporaryFolder folder;
+  folder.write("precious", "PRECIOUS");
+  std::filesystem::create_directory(folder.path("shared"));
+  ASSERT_EQ(chmod(folder.path("shared").c_str(), 01777), 0);
+  std::filesystem::create_symlink("../precious", folder.path("shared/link"));
+  ASSERT_EQ(lchown(folder.path("shared/link").c_str(), 65534, 65534), 0);
+  EXPECT_THROW(AtomicFile(folder.path("shared/link")), Error);
+  EXPECT_EQ(folder.read("precious"), "PRECIOUS");
+  ASSERT_EQ(lchown(folder.path("shared/link").c_str(), geteuid(), getegid()), 0);
+  write_file(folder.path("shared/link"), "own");
+  EXPECT_EQ(folder.read("precious"), "own");
+}
+
+// Whoever guesses a name can be in the way.
+TEST(AtomicFile, UnfinishedNamesCannotBeGuessed) {
+  const TemporaryFolder folder;
+  std::set<std::string> numbers;
+  for (int i = 0; i < 3; i++) {
+    const AtomicFile file(folder.path("a"));
+    const std::string& name = file.temporary();
+    numbers.insert(name.substr(name.rfind('.') + 1));
+    EXPECT_EQ(numbers.rbegin()->size(), 16u);
+  }
+  EXPECT_EQ(numbers.size(), 3u);
 }
 
 TEST(AtomicFile, ANewNameReplacesNothing) {

@@ -11,6 +11,7 @@
 
 #include "ods/base/bytes.h"
 #include "ods/base/error.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/format/jpeg_segments.h"
 #include "ods/image/format/png_chunks.h"
 #include "ods/image/image_file.h"

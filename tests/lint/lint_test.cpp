@@ -16,6 +16,7 @@
 #include <set>
 
 #include "ods/base/error.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/image_file.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/save.h"

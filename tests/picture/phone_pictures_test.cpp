@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ods/base/error.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/heif_items.h"
 #include "ods/image/image_file.h"
 #include "ods/image/orientation.h"

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "ods/base/error.h"
+#include "ods/files/atomic_file.h"
 #include "ods/files/scratch.h"
 #include "ods/image/tone.h"
 #include "ods/picture/save.h"

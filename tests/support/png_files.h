@@ -5,6 +5,7 @@
 #pragma once
 #include <string>
 
+#include "ods/files/atomic_file.h"
 #include "ods/image/image_file.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/temporary_folder.h"

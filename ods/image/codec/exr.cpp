@@ -301,23 +301,16 @@ std::unique_ptr<Decoder> open_exr(const PictureBytes& file) {
 
 namespace {
 
-// What OpenEXR writes to. It never reports a failure: AtomicFile notices.
+// What OpenEXR writes to.
 class ExrOutput final : public Imf::OStream {
  public:
-  explicit ExrOutput(const AtomicFile& file) : OStream(file.path().c_str()), stream_(file.stream()) {}
-  void write(const char bytes[], int size) override {
-    std::fwrite(bytes, 1, static_cast<size_t>(size), stream_);
-    at_ += static_cast<uint64_t>(size);
-  }
-  uint64_t tellp() override { return at_; }
-  void seekp(uint64_t to) override {
-    fseeko(stream_, static_cast<off_t>(to), SEEK_SET);
-    at_ = to;
-  }
+  explicit ExrOutput(ByteSink& sink) : OStream(sink.path().c_str()), sink_(sink) {}
+  void write(const char bytes[], int size) override { sink_.write(bytes, static_cast<size_t>(size)); }
+  uint64_t tellp() override { return sink_.position(); }
+  void seekp(uint64_t to) override { sink_.seek(to); }
 
  private:
-  std::FILE* stream_;
-  uint64_t at_ = 0;
+  ByteSink& sink_;
 };
 
 void insert_floats(Imf::Header& header, const char* name, const std::vector<float>& f) {
@@ -340,36 +333,27 @@ void insert_attribute(Imf::Header& header, const Attribute& attribute) {
   }
 }
 
-class TextOutput final : public Imf::OStream {
- public:
-  TextOutput() : OStream("") {}
-  void write(const char bytes[], int size) override { text.append(bytes, static_cast<size_t>(size)); }
-  uint64_t tellp() override { return text.size(); }
-  void seekp(uint64_t) override {}
-
-  std::string text;
-};
-
 // The header as OpenEXR will write it.
 ExrHeader written(const Imf::Header& header) {
   constexpr int kVersion = 2;  // of the format
   ExrHeader result;
   for (auto each = header.begin(); each != header.end(); ++each) {
-    TextOutput value;
-    each.attribute().writeValueTo(value, kVersion);
-    result.attributes.push_back({each.name(), each.attribute().typeName(), value.text});
+    MemorySink value(each.name());
+    ExrOutput output(value);
+    each.attribute().writeValueTo(output, kVersion);
+    result.attributes.push_back({each.name(), each.attribute().typeName(), value.take()});
   }
   return result;
 }
 
 class ExrEncoder final : public Encoder {
  public:
-  ExrEncoder(AtomicFile& file, const FileHeader& header);
+  ExrEncoder(ByteSink& sink, const FileHeader& header);
   void write(int begin, int end, const std::byte* rows) override;
   void finish() override { output_.reset(); }  // writes the table of offsets
 
  private:
-  AtomicFile& file_;
+  ByteSink& sink_;
   const FileHeader& header_;
   ExrOutput stream_;
   std::unique_ptr<Imf::OutputFile> output_;
@@ -379,7 +363,7 @@ Imf::PixelType type_of(SampleType sample) {
   return sample == SampleType::kHalf ? Imf::HALF : Imf::FLOAT;
 }
 
-ExrEncoder::ExrEncoder(AtomicFile& file, const FileHeader& header) : file_(file), header_(header), stream_(file) {
+ExrEncoder::ExrEncoder(ByteSink& sink, const FileHeader& header) : sink_(sink), header_(header), stream_(sink) {
   const int threads = exr_threads();
   guarded(
       [&] {
@@ -393,7 +377,7 @@ ExrEncoder::ExrEncoder(AtomicFile& file, const FileHeader& header) : file_(file)
         if (header.has_checksum) insert_attribute(words, {kExrChecksum, exr_checksum(written(words))});
         output_ = std::make_unique<Imf::OutputFile>(stream_, words, threads);
       },
-      [&](const std::string& what) { return cannot_write(file, what); });
+      [&](const std::string& what) { return cannot_write(sink, what); });
 }
 
 void ExrEncoder::write(int begin, int end, const std::byte* rows) {
@@ -410,13 +394,13 @@ void ExrEncoder::write(int begin, int end, const std::byte* rows) {
         output_->setFrameBuffer(buffer);
         output_->writePixels(end - begin);
       },
-      [&](const std::string& words) { return cannot_write(file_, words); });
+      [&](const std::string& words) { return cannot_write(sink_, words); });
 }
 
 }  // namespace
 
-std::unique_ptr<Encoder> create_exr(AtomicFile& file, const FileHeader& header) {
-  return std::make_unique<ExrEncoder>(file, header);
+std::unique_ptr<Encoder> create_exr(ByteSink& sink, const FileHeader& header) {
+  return std::make_unique<ExrEncoder>(sink, header);
 }
 
 }  // namespace ods

@@ -268,18 +268,20 @@ void pack_component(const uint8_t* row, size_t length, std::vector<uint8_t>& to)
 
 class HdrEncoder final : public Encoder {
  public:
-  HdrEncoder(AtomicFile& file, const FileHeader& header)
-      : stream_(file.stream()), length_(static_cast<size_t>(header.width)), row_(kPixel * length_) {
+  HdrEncoder(ByteSink& sink, const FileHeader& header)
+      : sink_(sink), length_(static_cast<size_t>(header.width)), row_(kPixel * length_) {
     if (header.channels.size() != 3 || header.channels[0].sample != SampleType::kFloat) {
-      throw cannot_write(file, "an HDR has three channels of floats");
+      throw cannot_write(sink, "an HDR has three channels of floats");
     }
-    fmt::print(stream_, "#?RADIANCE\nFORMAT={}\n\n-Y {} +X {}\n", kFormat, header.height, header.width);
+    const std::string head =
+        fmt::format("#?RADIANCE\nFORMAT={}\n\n-Y {} +X {}\n", kFormat, header.height, header.width);
+    sink_.write(head.data(), head.size());
   }
   void write(int begin, int end, const std::byte* rows) override;
   void finish() override {}
 
  private:
-  std::FILE* stream_;
+  ByteSink& sink_;
   size_t length_;
   std::vector<uint8_t> row_, packed_;
 };
@@ -293,19 +295,19 @@ void HdrEncoder::write(int begin, int end, const std::byte* rows) {
       put_pixel(light, &row_[x * kPixel]);
     }
     if (length_ < kShortestPacked || length_ > kLongestPacked) {
-      std::fwrite(row_.data(), 1, row_.size(), stream_);
+      sink_.write(row_.data(), row_.size());
       continue;
     }
     packed_ = {2, 2, static_cast<uint8_t>(length_ >> 8), static_cast<uint8_t>(length_ & 0xff)};
     for (size_t c = 0; c < kPixel; c++) pack_component(&row_[c], length_, packed_);
-    std::fwrite(packed_.data(), 1, packed_.size(), stream_);
+    sink_.write(packed_.data(), packed_.size());
   }
 }
 
 }  // namespace
 
-std::unique_ptr<Encoder> create_hdr(AtomicFile& file, const FileHeader& header) {
-  return std::make_unique<HdrEncoder>(file, header);
+std::unique_ptr<Encoder> create_hdr(ByteSink& sink, const FileHeader& header) {
+  return std::make_unique<HdrEncoder>(sink, header);
 }
 
 }  // namespace ods

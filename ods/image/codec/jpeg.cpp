@@ -185,22 +185,22 @@ std::unique_ptr<Decoder> open_jpeg(const PictureBytes& file, int least_wide) {
 
 namespace {
 
-// Where libjpeg writes. It never reports a failure: AtomicFile notices.
+// Where libjpeg writes.
 struct JpegOutput : jpeg_destination_mgr {
-  std::FILE* stream;
+  ByteSink& sink;
   JOCTET buffer[1 << 16];
 
-  explicit JpegOutput(std::FILE* to) : jpeg_destination_mgr{}, stream(to) {
+  explicit JpegOutput(ByteSink& to) : jpeg_destination_mgr{}, sink(to) {
     init_destination = [](j_compress_ptr jpeg) { static_cast<JpegOutput*>(jpeg->dest)->begin(); };
     empty_output_buffer = [](j_compress_ptr jpeg) -> boolean {
       JpegOutput& output = *static_cast<JpegOutput*>(jpeg->dest);
-      std::fwrite(output.buffer, 1, sizeof output.buffer, output.stream);
+      output.sink.write(output.buffer, sizeof output.buffer);
       output.begin();
       return TRUE;
     };
     term_destination = [](j_compress_ptr jpeg) {
       JpegOutput& output = *static_cast<JpegOutput*>(jpeg->dest);
-      std::fwrite(output.buffer, 1, sizeof output.buffer - output.free_in_buffer, output.stream);
+      output.sink.write(output.buffer, sizeof output.buffer - output.free_in_buffer);
     };
   }
   void begin() { next_output_byte = buffer, free_in_buffer = sizeof buffer; }
@@ -215,7 +215,7 @@ struct JpegWriting : jpeg_compress_struct {
 
 class JpegEncoder final : public Encoder {
  public:
-  JpegEncoder(AtomicFile& file, const FileHeader& header);
+  JpegEncoder(ByteSink& sink, const FileHeader& header);
 
   void write(int begin, int end, const std::byte* rows) override {
     const bool good = succeeds(fault_, [&] {
@@ -231,9 +231,9 @@ class JpegEncoder final : public Encoder {
   }
 
  private:
-  Error failed() const { return cannot_write(file_, fault_.words); }
+  Error failed() const { return cannot_write(sink_, fault_.words); }
 
-  AtomicFile& file_;
+  ByteSink& sink_;
   JpegOutput output_;
   JpegFault fault_;
   JpegWriting jpeg_;
@@ -241,7 +241,7 @@ class JpegEncoder final : public Encoder {
 };
 
 // Before the pixels come GPano as XMP, then text as comments.
-JpegEncoder::JpegEncoder(AtomicFile& file, const FileHeader& header) : file_(file), output_(file.stream()) {
+JpegEncoder::JpegEncoder(ByteSink& sink, const FileHeader& header) : sink_(sink), output_(sink) {
   const size_t channels = header.channels.size();
   row_size_ = channels * static_cast<size_t>(header.width);
   const std::string packet = gpano_xmp(header.attributes);
@@ -272,8 +272,8 @@ JpegEncoder::JpegEncoder(AtomicFile& file, const FileHeader& header) : file_(fil
 
 }  // namespace
 
-std::unique_ptr<Encoder> create_jpeg(AtomicFile& file, const FileHeader& header) {
-  return std::make_unique<JpegEncoder>(file, header);
+std::unique_ptr<Encoder> create_jpeg(ByteSink& sink, const FileHeader& header) {
+  return std::make_unique<JpegEncoder>(sink, header);
 }
 
 }  // namespace ods

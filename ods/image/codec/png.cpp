@@ -173,7 +173,7 @@ std::unique_ptr<Decoder> open_png(const PictureBytes& file) {
 namespace {
 
 void write_bytes(png_structp png, png_bytep bytes, size_t size) {
-  std::fwrite(bytes, 1, size, static_cast<std::FILE*>(png_get_io_ptr(png)));  // AtomicFile notices a failure
+  static_cast<ByteSink*>(png_get_io_ptr(png))->write(bytes, size);
 }
 
 void flush_nothing(png_structp) {}
@@ -195,7 +195,7 @@ struct PngWriting {
 
 class PngEncoder final : public Encoder {
  public:
-  PngEncoder(AtomicFile& file, const FileHeader& header);
+  PngEncoder(ByteSink& sink, const FileHeader& header);
 
   void write(int begin, int end, const std::byte* rows) override {
     const bool good = succeeds(libpng_.png, [&] {
@@ -209,9 +209,9 @@ class PngEncoder final : public Encoder {
   }
 
  private:
-  Error failed() const { return cannot_write(file_, fault_.words); }
+  Error failed() const { return cannot_write(sink_, fault_.words); }
 
-  AtomicFile& file_;
+  ByteSink& sink_;
   PngFault fault_;
   PngWriting libpng_;
   size_t row_size_;
@@ -235,7 +235,7 @@ std::vector<png_text> texts_of(const FileHeader& header, const std::string& xmp)
   return texts;
 }
 
-PngEncoder::PngEncoder(AtomicFile& file, const FileHeader& header) : file_(file) {
+PngEncoder::PngEncoder(ByteSink& sink, const FileHeader& header) : sink_(sink) {
   png_structp png = libpng_.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &fault_, keep_error, ignore_warning);
   png_infop info = libpng_.header = png ? png_create_info_struct(png) : nullptr;
   if (!info) throw std::bad_alloc();
@@ -244,7 +244,7 @@ PngEncoder::PngEncoder(AtomicFile& file, const FileHeader& header) : file_(file)
   const std::string xmp = gpano_xmp(header.attributes);
   const std::vector<png_text> texts = texts_of(header, xmp);
   const bool good = succeeds(png, [&] {
-    png_set_write_fn(png, file.stream(), write_bytes, flush_nothing);
+    png_set_write_fn(png, &sink, write_bytes, flush_nothing);
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_IHDR(png, info, static_cast<png_uint_32>(header.width), static_cast<png_uint_32>(header.height),
                  static_cast<int>(8 * sample), color_type_of(channels), PNG_INTERLACE_NONE,
@@ -260,8 +260,8 @@ PngEncoder::PngEncoder(AtomicFile& file, const FileHeader& header) : file_(file)
 
 }  // namespace
 
-std::unique_ptr<Encoder> create_png(AtomicFile& file, const FileHeader& header) {
-  return std::make_unique<PngEncoder>(file, header);
+std::unique_ptr<Encoder> create_png(ByteSink& sink, const FileHeader& header) {
+  return std::make_unique<PngEncoder>(sink, header);
 }
 
 }  // namespace ods
