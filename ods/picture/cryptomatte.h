@@ -30,11 +30,12 @@ struct Cryptomatte {
 };
 
 // The layer that tells objects apart, else another; nothing if the header has none. The names are in the header, or in
-// a file that it names in the picture's folder. A list of names that cannot be read is an empty one.
+// a file that it names: NAME.json in the picture's own folder, not a link and not hidden. A list of names that cannot be
+// read is an empty one.
 std::optional<Cryptomatte> find_cryptomatte(const FileInfo& info, const std::string& path);
 
-// What a copy of the picture needs in its header: its attributes, and the text of a file with names in place of the
-// file's name. If that file cannot be read, the name stays.
+// What a copy of the picture needs in its header: its attributes, and the names and numbers that such a file has in
+// place of the file's name. If none can be read, the file's name stays.
 std::vector<Attribute> matte_attributes(const FileInfo& info, const std::string& path);
 
 // The channel with the numbers of what covers most of each pixel; empty: the picture has none.
