@@ -5,13 +5,14 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
 #include "cli/console/exit_code.h"
 #include "cli/console/interrupt.h"
 #include "cli/console/manual.h"
+#include "cli/console/print.h"
+#include "cli/console/programs.h"
 #include "ods/base/large_blocks.h"
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
@@ -87,14 +88,14 @@ std::string overview(ManualFormat format) {
 }
 
 int print_overview(ManualFormat format, char* help_option) {
-  std::fputs(overview(format).c_str(), stdout);
+  put_out(overview(format));
   if (format == ManualFormat::kHelp || format == ManualFormat::kMan) return kExitOk;
   for (const Command& command : kCommands) {
     std::string name = command.name;
     char* arguments[] = {name.data(), help_option, nullptr};
     if (const int code = command.run(2, arguments); code != kExitOk) return code;
   }
-  std::fputs(end_of_overview(format).c_str(), stdout);
+  put_out(end_of_overview(format));
   return kExitOk;
 }
 
@@ -106,8 +107,8 @@ void open_closed_streams() {
 }
 
 int unknown_command(const char* name) {
-  std::fprintf(stderr, "ods: error: there is no command '%s'%s (ods --help lists them)\n", name,
-               ods::did_you_mean(name, ods::names_of(kCommands)).c_str());
+  put_error("ods: error: there is no command '",
+            std::string(name) + "'" + ods::did_you_mean(name, ods::names_of(kCommands)) + " (ods --help lists them)\n");
   return kExitUsage;
 }
 
@@ -123,20 +124,21 @@ int unknown_command(const char* name) {
 int main(int argc, char** argv) {
   open_closed_streams();
   end_on_interrupts();
+  restrict_path();
   ods::return_large_blocks();
   if (argc < 2) {
-    std::fputs(overview(ManualFormat::kHelp).c_str(), stderr);
+    put_error("", overview(ManualFormat::kHelp));
     return kExitUsage;
   }
   const char* name = argv[1];
   const auto format = manual_format(std::strcmp(name, "help") == 0 ? "--help" : name);
   if (format) return print_overview(*format, argv[1]);
   if (std::strcmp(name, "--version") == 0) {
-    std::puts("ods " ODS_VERSION "\n" ODS_LIBRARIES);
+    put_out("ods " ODS_VERSION "\n" ODS_LIBRARIES "\n");
     return kExitOk;
   }
   if (std::strcmp(name, "film") == 0) {
-    std::fputs("ods: 'film' is now called 'video'; the old name ends with the next version\n", stderr);
+    put_error("ods: 'film' is now called 'video'; the old name ends with the next version\n", "");
     name = argv[1] = const_cast<char*>("video");
   }
   for (const Command& command : kCommands) {

@@ -16,6 +16,7 @@
 #include "cli/bridge/scene_cache.h"
 #include "cli/console/programs.h"
 #include "ods/base/error.h"
+#include "ods/base/quote.h"
 #include "ods/base/text.h"
 #include "ods/files/atomic_file.h"
 #include "ods/files/read_file.h"
@@ -76,12 +77,14 @@ void write_glb(const std::string& path, Glb glb) {
                             number(glb.binary.size()) + number(kBinary) + glb.binary);
 }
 
-// The file that a scene means: its path with slashes of either kind, else the file of that name beside the scene,
-// whatever its case. Empty: none.
+// The file that a scene means: its path from the scene's folder, with slashes of either kind, else the file of that
+// name beside the scene, whatever its case. Empty: none. As in glTF, an absolute path is never followed: the file may
+// come from anybody.
 std::string find_picture(const fs::path& folder, std::string path) {
   std::ranges::replace(path, '\\', '/');
   std::error_code error;
-  if (fs::is_regular_file(folder / path, error)) return (folder / path).lexically_normal().native();
+  if (!path.starts_with('/') && fs::is_regular_file(folder / path, error))
+    return (folder / path).lexically_normal().native();
   const std::string wanted = ods::small_letters(fs::path(path).filename().native());
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     if (ods::small_letters(entry.path().filename().native()) != wanted || !entry.is_regular_file(error)) continue;
@@ -96,8 +99,8 @@ bool is_picture(const std::string& bytes) {
 
 // The bytes that lie in the file itself; empty if its numbers are wrong.
 std::string bytes_of_view(const Glb& glb, const json& image) {
-  const json view =
-      glb.content.value(json::json_pointer(fmt::format("/bufferViews/{}", image["bufferView"].dump())), json::object());
+  const json view = glb.content.value(
+      json::json_pointer(fmt::format("/bufferViews/{}", ods::json_document(image["bufferView"]))), json::object());
   const size_t offset = view.value("byteOffset", size_t{0}), length = view.value("byteLength", size_t{0});
   return offset <= glb.binary.size() ? glb.binary.substr(offset, length) : "";
 }
@@ -173,7 +176,7 @@ void run_assimp(const std::string& scene, const std::string& folder) {
     Glb glb = read_glb(made);
     const json answer = take_pictures(glb, scene);
     write_glb(made, std::move(glb));
-    ods::write_file(folder + "/bridge.json", answer.dump());
+    ods::write_file(folder + "/bridge.json", ods::json_document(answer));
   } catch (const json::exception& error) {
     throw ods::Error(ods::ErrorKind::kInput, fmt::format("{}: {}", fault, error.what()));
   }

@@ -13,12 +13,12 @@
 #include <filesystem>
 
 #include "cli/bridge/bridge_files.h"
-#include "cli/bridge/scene_cache.h"
 #include "cli/console/programs.h"
 #include "cli/console/spawn.h"
 #include "ods/base/error.h"
 #include "ods/files/atomic_file.h"
 #include "ods/files/md5.h"
+#include "ods/files/private_folder.h"
 
 namespace fs = std::filesystem;
 
@@ -35,23 +35,9 @@ std::string exporter_number() {
   return ods::md5(all);
 }
 
-// Where the exporter lies as files, for Blender to read.
-std::string install_exporter() {
-  const fs::path folder = fs::path(cache_folder()).parent_path() / ("blender-" + exporter_number());
-  for (const BridgeFile& file : bridge_files()) {
-    const fs::path path = folder / file.name;
-    std::error_code error;
-    if (fs::file_size(path, error) != file.text.size() || error) ods::write_file(path.native(), file.text);
-  }
-  return folder.native();
-}
-
-std::string printable(const std::string& text) {
-  std::string line = text.substr(0, kLongestLine);
-  for (char& c : line) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  }
-  return line;
+// For Blender to read.
+void write_exporter(const std::string& folder) {
+  for (const BridgeFile& file : bridge_files()) ods::write_file(fmt::format("{}/{}", folder, file.name), file.text);
 }
 
 // What Blender writes on stderr, line by line.
@@ -71,12 +57,12 @@ class Listener {
  private:
   void line(const std::string& line) {
     if (!line.starts_with(kOurs)) {
-      if (line.find_first_not_of(" \t\r") != std::string::npos) last_ = printable(line);
+      if (line.find_first_not_of(" \t\r") != std::string::npos) last_ = line.substr(0, kLongestLine);
       return;
     }
     const std::string rest = line.substr(kOurs.size());
     done_ |= rest.starts_with("done ");
-    if (rest.starts_with("error ") && error_.empty()) error_ = printable(rest.substr(6));
+    if (rest.starts_with("error ") && error_.empty()) error_ = rest.substr(6, kLongestLine);
   }
 
   std::string text_, error_, last_;
@@ -108,7 +94,7 @@ std::string find_blender(const BlenderOptions& options) {
   if (options.program.empty()) return program_path("blender");
   if (options.program.find('/') == std::string::npos) {
     if (const std::string found = program_path(options.program); !found.empty()) return found;
-  } else if (access(options.program.c_str(), X_OK) == 0 && !fs::is_directory(options.program)) {
+  } else if (is_program(options.program)) {
     return options.program;
   }
   throw ods::Error(ods::ErrorKind::kInput, fmt::format("--blender: there is no program '{}'", options.program));
@@ -128,7 +114,9 @@ static std::string system_first() {
 // Runs one of our scripts in Blender to its end. what: begins the message of an error.
 static void run_script(const BlenderOptions& options, const std::vector<std::string>& flags, const char* script,
                        const std::vector<std::string>& arguments, const std::string& what) {
-  const fs::path path = fs::path(install_exporter()) / "omnistereo" / "bridge" / script;
+  const ods::PrivateFolder exporter;
+  write_exporter(exporter.path());
+  const fs::path path = fs::path(exporter.path()) / "omnistereo" / "bridge" / script;
   std::vector<std::string> words = {"env", system_first(), find_blender(options), "--background", "--disable-autoexec"};
   words.insert(words.end(), flags.begin(), flags.end());
   words.insert(words.end(), {"--python-exit-code", "4", "--python", path.native(), "--"});

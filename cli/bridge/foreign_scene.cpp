@@ -14,6 +14,7 @@
 #include "cli/bridge/scene_cache.h"
 #include "cli/console/console.h"
 #include "ods/base/error.h"
+#include "ods/base/quote.h"
 #include "ods/base/text.h"
 #include "ods/files/claim.h"
 #include "ods/files/private_folder.h"
@@ -66,7 +67,7 @@ ForeignScene read_result(const std::string& folder) {
   if (!found.is_object()) fail(folder, "is damaged; remove it");
   if (found.contains("environment") && found["environment"].is_string()) {
     scene.environment = found["environment"];
-    if (scene.environment.ends_with(".exr")) scene.environment = folder + "/" + scene.environment;
+    if (scene.environment.ends_with(".exr")) scene.environment = folder + "/world.exr";
   }
   if (found.contains("fps") && found["fps"].is_number()) scene.fps = found["fps"];
   for (const json& warning : found.value("warnings", json::array())) {
@@ -74,7 +75,7 @@ ForeignScene read_result(const std::string& folder) {
   }
   if (found.contains("camera")) {
     std::vector<std::string> ignored;
-    scene.camera = ods::read_sidecar(found["camera"].dump(), "the scene's camera", ignored);
+    scene.camera = ods::read_sidecar(ods::json_document(found["camera"]), "the scene's camera", ignored);
     scene.has_stereo = found["camera"].contains("merge_top");
   }
   return scene;

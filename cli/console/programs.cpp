@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/console/programs.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,11 +15,28 @@
 
 #include "cli/console/spawn.h"
 
-std::string program_path(const std::string& name) {
+static std::vector<std::string> program_folders() {
   const char* const path = std::getenv("PATH");
-  std::istringstream folders(path ? path : "/usr/bin:/bin");
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    if (access((folder + "/" + name).c_str(), X_OK) == 0) return folder + "/" + name;
+  std::istringstream all(path ? path : "");
+  std::vector<std::string> folders;
+  for (std::string folder; std::getline(all, folder, ':');) {
+    if (folder.starts_with('/')) folders.push_back(folder);
+  }
+  return folders.empty() ? std::vector<std::string>{"/usr/bin", "/bin"} : folders;
+}
+
+void restrict_path() {
+  setenv("PATH", fmt::format("{}", fmt::join(program_folders(), ":")).c_str(), 1);
+}
+
+bool is_program(const std::string& path) {
+  struct stat found;
+  return stat(path.c_str(), &found) == 0 && S_ISREG(found.st_mode) && access(path.c_str(), X_OK) == 0;
+}
+
+std::string program_path(const std::string& name) {
+  for (const std::string& folder : program_folders()) {
+    if (is_program(folder + "/" + name)) return folder + "/" + name;
   }
   return "";
 }

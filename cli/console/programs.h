@@ -12,8 +12,14 @@ struct ProgramResult {
   std::string out;
 };
 
-// Where PATH finds a program of that name; empty: nowhere.
+// Leaves in PATH only absolute folders, for us and for the programs that we start: none in the current folder is run,
+// which may have come with the files there.
+void restrict_path();
+
+// Where PATH finds a program of that name; empty: nowhere. Relative folders do not count.
 std::string program_path(const std::string& name);
+// Whether that is a file that we may run, not a folder.
+bool is_program(const std::string& path);
 bool has_program(const std::string& name);
 
 enum class ProgramErrors { kShown, kHidden };

@@ -59,7 +59,7 @@ void remove_folder(const char* path) {
 }
 
 // Whether a folder is ours, and no process has it locked. The maker of one without locks may be alive.
-static bool is_left_alone(const fs::path& path) {
+static bool is_abandoned(const fs::path& path) {
   const int folder = open_folder(AT_FDCWD, path.c_str());
   if (folder < 0) return false;
   struct stat info;
@@ -77,15 +77,37 @@ static void remove_left_folders(const fs::path& parent, const std::string& start
     if (!name.starts_with(start)) continue;
     const int process = std::atoi(name.c_str() + start.size());
     const bool is_dead = process > 0 && kill(process, 0) != 0 && errno == ESRCH;
-    if (is_dead && is_left_alone(at->path())) remove_folder(at->path().c_str());
+    if (is_dead && is_abandoned(at->path())) remove_folder(at->path().c_str());
   }
+}
+
+void make_own_folder(const std::string& path) {
+  const auto fail = [&](const std::string& why) {
+    throw Error(ErrorKind::kOutput, fmt::format("cannot keep files in '{}': {}", path, why));
+  };
+  std::error_code ignored;  // opening the folder reports it
+  fs::create_directories(fs::path(path).parent_path(), ignored);
+  const bool is_new = mkdir(path.c_str(), S_IRWXU) == 0;
+  struct stat named, found;
+  const int folder = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool is_known = folder >= 0 && fstat(folder, &found) == 0 && lstat(path.c_str(), &named) == 0;
+  const std::string why = std::strerror(errno);
+  const bool is_ours = is_known && found.st_uid == geteuid() && named.st_uid == geteuid();
+  const bool is_open = is_ours && !is_new && (found.st_mode & (S_IWGRP | S_IWOTH)) != 0;
+  const bool is_closed = is_ours && !is_open && fchmod(folder, S_IRWXU) == 0;
+  if (folder >= 0) close(folder);
+  if (!is_known) fail(why);
+  if (!is_ours) fail("it belongs to another user");
+  if (is_open) fail("other users could have put files there: remove it");
+  if (!is_closed) fail("its mode cannot be changed");
 }
 
 std::string temporary_folder() {
   std::error_code error;
   const fs::path folder = fs::temp_directory_path(error);
   if (error) {
-    throw Error(ErrorKind::kOutput, fmt::format("there is no folder for temporary files (TMPDIR): {}", error.message()));
+    throw Error(ErrorKind::kOutput,
+                fmt::format("there is no folder for temporary files (TMPDIR): {}", error.message()));
   }
   return folder.native();
 }

@@ -31,6 +31,10 @@ class PrivateFolder {
   int lock_ = -1;
 };
 
+// Makes a folder that is kept from run to run, for files of this user alone: its mode is 0700. Throws Error(kOutput): it
+// cannot be made, it or the link to it is another user's, or other users could write in it.
+void make_own_folder(const std::string& path);
+
 // Removes a folder and what is in it, up to 32 folders deep; follows no link. What cannot be removed stays.
 // Async-signal-safe.
 void remove_folder(const char* path);

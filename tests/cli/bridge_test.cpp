@@ -3,7 +3,9 @@
 //
 // Scenes of other programs, with a script in the place of Blender.
 #include <gtest/gtest.h>
+#include <pwd.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -11,9 +13,11 @@
 #include <fstream>
 #include <thread>
 
+#include "cli/console/user_folder.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "tests/support/cli_runner.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods::bridge_test {
@@ -187,7 +191,7 @@ TEST_F(Bridge, WhatBlenderCannotReadAssimpDoes) {
   GltfBuilder made = make_triangle();
   made.primitive()["attributes"]["TEXCOORD_0"] = made.add<float>({0, 0, 1, 0, 0, 1}, kFloat, "VEC2");
   made.primitive()["material"] = 0;
-  made.json["images"] = {{{"uri", ".\\Wood.PNG"}}, {{"uri", "C:\\gone.png"}}};
+  made.json["images"] = {{{"uri", ".\\Wood.PNG"}}, {{"uri", "C:\\gone.png"}}, {{"uri", folder_ + "/out/there.png"}}};
   made.json["textures"] = {{{"source", 0}}, {{"source", 1}}};
   made.json["materials"] = {{{"name", "B*r"},
                              {"emissiveFactor", {1, 1, 1}},
@@ -198,6 +202,8 @@ TEST_F(Bridge, WhatBlenderCannotReadAssimpDoes) {
   write(folder_ + "/made.glb", {glb.begin(), glb.end()});
   const Binary png = small_png();
   write(folder_ + "/wood.png", {png.begin(), png.end()});
+  fs::create_directories(folder_ + "/out");
+  write(folder_ + "/out/there.png", {png.begin(), png.end()});
   write(folder_ + "/car.fbx", "; FBX 7.4.0 project file");
   program("echo 'ods-bridge error Blender cannot read it' >&2\nexit 3");
   const std::vector<std::string> words = {"info", folder_ + "/car.fbx", "--blender", folder_ + "/blender"};
@@ -212,6 +218,7 @@ TEST_F(Bridge, WhatBlenderCannotReadAssimpDoes) {
   EXPECT_NE(first.out.find("materials      1, 1 textures"), std::string::npos) << first.out;
   EXPECT_NE(first.out.find("0 glowing triangles"), std::string::npos) << first.out;
   EXPECT_NE(first.out.find("there is no picture 'C:\\gone.png'"), std::string::npos) << first.out;
+  EXPECT_NE(first.out.find("/out/there.png'"), std::string::npos) << "an absolute path is not followed: " << first.out;
   Ods second(words);
   EXPECT_EQ(second.finish(), 0);
   EXPECT_EQ(second.err, "");
@@ -239,7 +246,106 @@ TEST_F(Bridge, RefusesWhatIsNoBlenderFile) {
   EXPECT_NE(confined.err.find("--confine does not hold"), std::string::npos) << confined.err;
 }
 
+TEST_F(Bridge, ConvertsAgainWhatWasCutShortOrChanged) {
+  EXPECT_EQ(Ods(info()).finish(), 0);
+  fs::path kept_folder;
+  for (const fs::directory_entry& each : fs::directory_iterator(folder_ + "/cache/ods/scenes"))
+    kept_folder = each.path();
+  const std::string glb = read(kept_folder / "scene.glb"), mark = read(kept_folder / "bridge.json");
+  std::string changed = glb;
+  changed[changed.size() - 1] ^= 1;
+  size_t expected = 1;
+  for (const std::string& damaged : {glb.substr(0, glb.size() / 2), std::string(), changed}) {
+    write(kept_folder / "scene.glb", damaged);
+    Ods again(info());
+    EXPECT_EQ(again.finish(), 0) << again.err;
+    EXPECT_EQ(runs(), ++expected);
+    EXPECT_EQ(read(kept_folder / "scene.glb"), glb);
+  }
+  write(kept_folder / "bridge.json", mark.substr(0, mark.size() / 2));
+  EXPECT_EQ(Ods(info()).finish(), 0);
+  EXPECT_EQ(runs(), ++expected);
+  fs::remove(kept_folder / "scene.glb");
+  EXPECT_EQ(Ods(info()).finish(), 0);
+  EXPECT_EQ(runs(), ++expected);
+}
+
+TEST_F(Bridge, KeepsNothingWhereOthersCouldHaveBeen) {
+  const std::string cache = folder_ + "/cache/ods";
+  fs::create_directories(cache);
+  fs::permissions(cache, fs::perms::all);
+  Ods open(info());
+  EXPECT_EQ(open.finish(), 4) << open.err;
+  EXPECT_NE(open.err.find("other users could have put files there"), std::string::npos) << open.err;
+  EXPECT_EQ(runs(), 0u);
+  fs::permissions(cache, fs::perms::owner_all);
+  EXPECT_EQ(Ods(info()).finish(), 0);
+  if (geteuid() != 0) GTEST_SKIP() << "skipped: only root can give a folder to another user";
+  ASSERT_EQ(chown(cache.c_str(), 65534, 65534), 0);
+  Ods foreign(info());
+  EXPECT_EQ(foreign.finish(), 4) << foreign.err;
+  EXPECT_NE(foreign.err.find("it belongs to another user"), std::string::npos) << foreign.err;
+}
+
+// It is written anew for each run, into a folder of that run.
+TEST_F(Bridge, TheExporterIsInNoFolderThatStays) {
+  answer(R"({"omnistereo_bridge": 1})", "for word in $all; do case $word in */run.py) echo \"$word\" >" + folder_ +
+                                            "/exporter; cat \"$word\" >" + folder_ + "/run.py;; esac; done");
+  std::string text = read(folder_ + "/blender");
+  text.insert(text.find("while"), "all=$*\n");
+  write(folder_ + "/blender", text);
+  EXPECT_EQ(Ods(info()).finish(), 0);
+  const std::string exporter = read(folder_ + "/exporter");
+  ASSERT_NE(exporter.find("/run.py"), std::string::npos);
+  EXPECT_FALSE(fs::exists(exporter.substr(0, exporter.find('\n')))) << exporter;
+  EXPECT_EQ(read(folder_ + "/run.py"), read(source_folder() + "/blender/omnistereo/bridge/run.py"));
+  for (const fs::directory_entry& each : fs::directory_iterator(folder_ + "/cache/ods")) {
+    EXPECT_EQ(each.path().filename(), "scenes");
+  }
+}
+
+TEST_F(Bridge, AFolderNamedLikeTheProgramIsSkipped) {
+  fs::create_directories(folder_ + "/apps/blender");
+  const std::string path = getenv("PATH");
+  setenv("PATH", (folder_ + "/apps:" + folder_ + ":/usr/bin:/bin").c_str(), 1);
+  Ods found({"info", scene_});
+  EXPECT_EQ(found.finish(), 0) << found.err;
+  EXPECT_EQ(runs(), 1u);
+  Ods named({"info", scene_, "--bake", "64", "--blender", folder_ + "/apps/blender"});
+  EXPECT_EQ(named.finish(), 3);
+  setenv("PATH", path.c_str(), 1);
+}
+
+// Files that one gets may have a program of that name among them.
+TEST_F(Bridge, NoProgramInTheCurrentFolderIsRun) {
+  const std::string path = getenv("PATH");
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_);
+  fs::create_directories(folder_ + "/bin");
+  fs::copy_file(folder_ + "/blender", folder_ + "/bin/blender");
+  for (const char* folders :
+       {":/nowhere", ".:/nowhere", "/nowhere:", "/nowhere::/nowhere", "bin:/nowhere", "./bin:/nowhere"}) {
+    setenv("PATH", folders, 1);
+    Ods ods({"info", scene_});
+    ods.finish();
+    EXPECT_EQ(runs(), 0u) << folders;
+  }
+  fs::current_path(before);
+  setenv("PATH", path.c_str(), 1);
+}
+
+TEST_F(Bridge, WithoutHomeTheAccountsHomeHasTheCache) {
+  const std::string home = getenv("HOME") ? getenv("HOME") : "";
+  unsetenv("HOME");
+  unsetenv("XDG_CACHE_HOME");
+  EXPECT_EQ(user_folder("XDG_CACHE_HOME", ".cache"), getpwuid(geteuid())->pw_dir + std::string("/.cache/ods"));
+  setenv("XDG_CACHE_HOME", "relative", 1);
+  EXPECT_EQ(user_folder("XDG_CACHE_HOME", ".cache"), getpwuid(geteuid())->pw_dir + std::string("/.cache/ods"));
+  setenv("HOME", home.c_str(), 1);
+}
+
 TEST_F(Bridge, KeepsFortyScenesAtMost) {
+  umask(022);
   const fs::path cache = folder_ + "/cache/ods/scenes";
   for (int i = 0; i < 45; i++) {
     const fs::path old = cache / std::to_string(i);
