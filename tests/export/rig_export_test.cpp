@@ -385,6 +385,7 @@ TEST(RigExport, BlendersScriptMarksTheFolderAndKeepsToItsRig) {
   EXPECT_TRUE(render("a.py"));
   EXPECT_EQ(folder.read("views/ods-rig.txt"), mark_file(make_rig()));
   EXPECT_EQ(folder.read("views/0002.exr"), "x");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path("views")), {}), 3) << "nothing is left";
   EXPECT_FALSE(render("b.py"));
   EXPECT_EQ(folder.read("views/ods-rig.txt"), mark_file(make_rig()));
   EXPECT_TRUE(render("a.py"));

@@ -104,12 +104,18 @@ int checked_small_input(int code, const std::string& what) {
   throw Error(ErrorKind::kInput, fmt::format("{}: {}", what, words_for(code)));
 }
 
+// Formats of one file, by FFmpeg's names. Others are lists that name files, which FFmpeg would read from anywhere: HLS,
+// DASH, IMF, concat.
+static constexpr const char* kFormats =
+    "mov,matroska,avi,asf,mpeg,mpegts,wav,w64,aiff,caf,au,flac,ogg,mp3,aac,ac3,eac3,truehd,dts,wv,tta,ape,amr,tak,voc";
+
 Owned<AVFormatContext> open_file(const std::string& path, const std::string& what) {
   keep_complaints();
   static_cast<void>(file_size(path));  // throws if it is not a regular file
   AVFormatContext* file = nullptr;
   AVDictionary* only_files = nullptr;
   av_dict_set(&only_files, "protocol_whitelist", "file", 0);
+  av_dict_set(&only_files, "format_whitelist", kFormats, 0);
   const int opened = avformat_open_input(&file, ("file:" + path).c_str(), nullptr, &only_files);
   av_dict_free(&only_files);
   checked_small_input(opened, what);
