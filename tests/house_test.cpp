@@ -59,9 +59,9 @@ const std::map<std::string, std::set<std::string>> kHidden = {
     {"pango/", {"ods/compose/lettering.cpp"}}};
 
 // Libraries that any .cpp may know, and the system.
-const std::set<std::string> kShared = {"fmt/",      "glm/",     "nlohmann/", "tbb/",   "dirent.h", "dlfcn.h",
-                                       "fcntl.h",   "malloc.h", "signal.h",  "sys/",   "unistd.h", "arpa/",
-                                       "ifaddrs.h", "net/",     "netinet/",  "spawn.h"};
+const std::set<std::string> kShared = {"fmt/",      "glm/",     "nlohmann/", "tbb/",  "dirent.h", "dlfcn.h",
+                                       "fcntl.h",   "malloc.h", "signal.h",  "sys/",  "unistd.h", "arpa/",
+                                       "ifaddrs.h", "net/",     "netinet/",  "pwd.h", "spawn.h"};
 
 struct Source {
   std::string path;  // from the root of the tree
@@ -286,6 +286,49 @@ TEST(House, TheLibraryNamesNoOption) {
       EXPECT_TRUE(is_comment || !std::regex_search(line, option)) << source.path << ": " << line;
     }
   }
+}
+
+// Fails where one of these begins a word in code, not in a comment, but for these files.
+void expect_only_in(const std::vector<std::string>& folders, const std::vector<std::string>& starts,
+                    const std::set<std::string>& allowed, const std::string& instead) {
+  const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  for (const Source& source : read_sources(folders)) {
+    if (allowed.contains(source.path)) continue;
+    for (const std::string& line : source.lines) {
+      for (const std::string& start : starts) {
+        const size_t at = line.find(start);
+        if (at == std::string::npos || line.find("// ") < at) continue;
+        const bool goes_on = at > 0 && is_letter(line[at - 1]) && is_letter(start[0]);
+        EXPECT_TRUE(goes_on) << source.path << ": " << line << "\n" << instead;
+      }
+    }
+  }
+}
+
+// Whoever guesses the name of a file in a folder that users share can be there first, with a link.
+TEST(House, OnlyPrivateFoldersAreInTheTemporaryFolder) {
+  expect_only_in({"ods", "cli", "tests"}, {"/tmp", "temp_directory_path", "tmpnam", "tmpfile", "mkstemp", "mkdtemp"},
+                 {"ods/files/private_folder.cpp", "tests/support/temporary_folder.h", "tests/house_test.cpp",
+                  "tests/cli/studio_command_test.cpp"},
+                 "ods/files/private_folder.h makes one; encoders write to memory");
+  // These have it in names beside the output, in a claim's text, and to compare it.
+  expect_only_in(
+      {"ods", "cli"}, {"getpid"},
+      {"ods/files/private_folder.cpp", "ods/files/atomic_file.cpp", "ods/files/claim.cpp", "cli/console/spawn.cpp"},
+      "a process's number makes no name that cannot be guessed");
+}
+
+// Texts of files hold control characters.
+TEST(House, TextReachesTheTerminalOneWay) {
+  expect_only_in({"cli"},
+                 {"printf(", "fprintf(", "puts(", "fputs(", "fwrite(", "putc(", "fputc(", "putchar(", "fmt::print",
+                  "std::print", "std::cout", "std::cerr", "std::clog"},
+                 {"cli/console/print.cpp", "cli/console/long_job.cpp"}, "cli/console/print.h has the functions");
+  // A bundle is ASCII, and a .glb is not for terminals.
+  expect_only_in({"ods", "cli"}, {".dump(", "->dump("},
+                 {"ods/base/quote.cpp", "ods/view/bundle.cpp", "cli/bridge/assimp.cpp"}, "json_document() writes JSON");
+  // The other reads it.
+  expect_only_in({"ods", "cli"}, {"&lt;"}, {"ods/base/quote.cpp", "ods/image/format/xmp.cpp"}, "xml_text() writes XML");
 }
 
 TEST(House, FilesAreSmall) {

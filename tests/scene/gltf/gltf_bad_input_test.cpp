@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Whatever the bytes are: a Scene that keeps its promises (error_of checks that), or one line that names the file.
-#include <fmt/core.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -53,8 +51,8 @@ TEST(GltfBadInput, TheWholeFileIsSound) {
 }
 
 TEST(GltfBadInput, AbsentEmptyAndFolder) {
-  const auto folder = std::filesystem::temp_directory_path() / fmt::format("ods-bad-input-{}", ::getpid());
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder holder;
+  const std::filesystem::path folder = holder.path(".");
   std::ofstream(folder / "empty.glb").flush();
   for (const std::string name : {"absent.glb", "empty.glb", ""}) {
     try {
@@ -65,7 +63,6 @@ TEST(GltfBadInput, AbsentEmptyAndFolder) {
       EXPECT_NE(std::string(error.what()).find((folder / name).string()), std::string::npos) << error.what();
     }
   }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(GltfBadInput, CutAnywhere) {
