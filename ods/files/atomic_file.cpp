@@ -64,7 +64,7 @@ static void remove_temporary(std::string& temporary) {
 void remove_unfinished_files() {
   for (const std::atomic<const char*>& entry : unfinished) {
     const char* name = entry;
-    if (name != nullptr && unlink(name) != 0 && errno == EISDIR) remove_folder_of_files(name);
+    if (name != nullptr && unlink(name) != 0 && errno == EISDIR) remove_folder(name);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -22,34 +23,48 @@ namespace ods {
 
 namespace fs = std::filesystem;
 
-static int open_folder(const char* path) {
-  return open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+static int open_folder(int parent, const char* name) {
+  return openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
 }
 
-void remove_folder_of_files(const char* path) {
-  const int folder = open_folder(path);
-  if (folder < 0) return;
-  alignas(dirent64) char entries[4096];  // readdir() is not async-signal-safe
+static bool is_own_link(const char* name) {
+  return std::strcmp(name, ".") == 0 || std::strcmp(name, "..") == 0;
+}
+
+// Closes the folder.
+static void remove_content(int folder, int levels) {
+  alignas(dirent64) char entries[2048];  // readdir() is not async-signal-safe
   for (bool removed = true; removed;) {  // what is removed while one reads may hide others
     removed = false;
     lseek(folder, 0, SEEK_SET);
     for (long size = 0; (size = syscall(SYS_getdents64, folder, entries, sizeof(entries))) > 0;) {
       for (long at = 0; at < size;) {
         const auto* const entry = reinterpret_cast<const dirent64*>(entries + at);
-        removed |= unlinkat(folder, entry->d_name, 0) == 0;
         at += entry->d_reclen;
+        if (is_own_link(entry->d_name)) continue;
+        const int inner = levels > 0 ? open_folder(folder, entry->d_name) : -1;
+        if (inner >= 0) remove_content(inner, levels - 1);
+        removed |= unlinkat(folder, entry->d_name, inner >= 0 ? AT_REMOVEDIR : 0) == 0;
       }
     }
   }
   close(folder);
+}
+
+void remove_folder(const char* path) {
+  const int folder = open_folder(AT_FDCWD, path);
+  if (folder < 0) return;
+  remove_content(folder, 32);
   rmdir(path);
 }
 
-// Whoever made it is dead: nobody has it locked. Without locks it may be alive.
-static bool is_unlocked(const fs::path& path) {
-  const int folder = open_folder(path.c_str());
+// Whether a folder is ours, and no process has it locked. The maker of one without locks may be alive.
+static bool is_left_alone(const fs::path& path) {
+  const int folder = open_folder(AT_FDCWD, path.c_str());
   if (folder < 0) return false;
-  const bool is_free = flock(folder, LOCK_EX | LOCK_NB) == 0;
+  struct stat info;
+  const bool is_ours = fstat(folder, &info) == 0 && info.st_uid == geteuid();
+  const bool is_free = is_ours && flock(folder, LOCK_EX | LOCK_NB) == 0;
   close(folder);
   return is_free;
 }
@@ -62,9 +77,20 @@ static void remove_left_folders(const fs::path& parent, const std::string& start
     if (!name.starts_with(start)) continue;
     const int process = std::atoi(name.c_str() + start.size());
     const bool is_dead = process > 0 && kill(process, 0) != 0 && errno == ESRCH;
-    if (is_dead && is_unlocked(at->path())) remove_folder_of_files(at->path().c_str());
+    if (is_dead && is_left_alone(at->path())) remove_folder(at->path().c_str());
   }
 }
+
+std::string temporary_folder() {
+  std::error_code error;
+  const fs::path folder = fs::temp_directory_path(error);
+  if (error) {
+    throw Error(ErrorKind::kOutput, fmt::format("there is no folder for temporary files (TMPDIR): {}", error.message()));
+  }
+  return folder.native();
+}
+
+PrivateFolder::PrivateFolder() : PrivateFolder((fs::path(temporary_folder()) / "ods-").native()) {}
 
 PrivateFolder::PrivateFolder(const std::string& prefix) {
   char host[64] = "";
@@ -79,12 +105,12 @@ PrivateFolder::PrivateFolder(const std::string& prefix) {
                 fmt::format("cannot write in '{}': {}", start.parent_path().native(), std::strerror(errno)));
   }
   remember_unfinished(path_.c_str());
-  lock_ = open_folder(path_.c_str());
+  lock_ = open_folder(AT_FDCWD, path_.c_str());
   flock(lock_, LOCK_EX | LOCK_NB);  // some file systems have no locks
 }
 
 PrivateFolder::~PrivateFolder() {
-  remove_folder_of_files(path_.c_str());
+  remove_folder(path_.c_str());
   forget_unfinished(path_.c_str());
   close(lock_);
 }
