@@ -12,6 +12,7 @@
 #include "cli/console/exit_code.h"
 #include "cli/console/interrupt.h"
 #include "cli/console/manual.h"
+#include "cli/console/supervisor.h"
 #include "ods/base/large_blocks.h"
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
@@ -121,6 +122,7 @@ int unknown_command(const char* name) {
 #endif
 
 int main(int argc, char** argv) {
+  if (argc > 0 && std::strcmp(argv[0], kSupervisor) == 0) return supervise(argc, argv);
   open_closed_streams();
   end_on_interrupts();
   ods::return_large_blocks();

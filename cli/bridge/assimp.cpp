@@ -9,10 +9,13 @@
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <span>
+#include <sstream>
 #include <vector>
 
+#include "cli/bridge/blender.h"
 #include "cli/bridge/scene_cache.h"
 #include "cli/console/programs.h"
 #include "ods/base/error.h"
@@ -127,6 +130,17 @@ void remove_textures(json& node, const json& textures, const std::set<size_t>& i
   }
 }
 
+// Assimp prints its errors on stdout: "ERROR: Failed to load file: WHY".
+std::string said_by_assimp(const std::optional<ProgramResult>& result) {
+  if (!result) return "";
+  std::string words = result->last_words;
+  std::istringstream lines(result->out);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("ERROR") || words.empty()) words = ods::one_line(line);
+  }
+  return words.empty() ? "" : fmt::format("; it said: {}", words);
+}
+
 // Puts the pictures into the file: Assimp leaves their paths as they stand in the scene, from whose folder they count.
 json take_pictures(Glb& glb, const std::string& scene) {
   const fs::path folder = fs::absolute(scene).parent_path();
@@ -164,11 +178,16 @@ bool has_assimp() {
   return has_program("assimp");
 }
 
-void run_assimp(const std::string& scene, const std::string& folder) {
+void run_assimp(const std::string& scene, const std::string& folder, float seconds) {
   const std::string made = folder + "/scene.glb";
-  const auto result = run_program({"assimp", "export", fs::absolute(scene).native(), made, "-fglb2"});
+  const Program assimp = {
+      .words = {"assimp", "export", fs::absolute(scene).native(), made, "-fglb2"}, .limit = seconds, .folder = folder};
+  const auto result = run_program(assimp);
   const std::string fault = fmt::format("'{}': Assimp cannot read it", scene);
-  if (!result || result->code != 0 || !fs::exists(made)) throw ods::Error(ods::ErrorKind::kInput, fault);
+  if (result && !result->in_time) fail_in_time("Assimp", scene, seconds);
+  if (!result || result->code != 0 || !fs::exists(made)) {
+    throw ods::Error(ods::ErrorKind::kInput, fault + said_by_assimp(result));
+  }
   try {
     Glb glb = read_glb(made);
     const json answer = take_pictures(glb, scene);

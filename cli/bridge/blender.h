@@ -8,11 +8,14 @@
 struct BlenderOptions {
   std::string program;   // --blender; empty: as PATH finds it
   int bake = 0;          // --bake: pixels of the pictures that are made of computed materials; 0: none
-  float seconds = 1800;  // --blender-limit
+  float seconds = 1800;  // --convert-limit, of each program
 };
 
 // What of this decides what comes out: which Blender, which exporter, which options.
 std::string describe(const BlenderOptions& options);
+
+// Throws Error(kInput): the program has not converted the scene within its limit.
+[[noreturn]] void fail_in_time(const char* program, const std::string& scene, float seconds);
 
 // The program to start; empty: there is none. Throws Error(kInput) if --blender names none.
 std::string find_blender(const BlenderOptions& options);

@@ -108,7 +108,7 @@ void convert(const std::string& path, const ForeignFormat& format, const Blender
     }
   }
   note(fmt::format("Assimp converts '{}': no lights, cameras, node materials or world", path));
-  run_assimp(path, folder.path());
+  run_assimp(path, folder.path(), options.seconds);
   keep_scene(folder.path(), kept);
 }
 

@@ -41,12 +41,11 @@ bool is_folder_of_job(const std::string& name) {
 // Throws ods::Error(kInput) if there is none of that name.
 std::vector<JobReport> find_jobs(const JobsWishes& wishes) {
   const bool by_folder = !wishes.name.empty() && is_folder_of_job(wishes.name);
-  const auto queue = queued_tasks();
-  if (!queue && !by_folder) {
+  const auto [tasks, fault] = read_queue();
+  if (!fault.empty() && !by_folder) {
     throw ods::Error(ods::ErrorKind::kInput,
-                     "there is no Slurm here: squeue is not found, or fails; ods jobs FOLDER reads a job's folder");
+                     fmt::format("there is no Slurm here: {}; ods jobs FOLDER reads a job's folder", fault));
   }
-  const std::vector<ods::SlurmTask> tasks = queue.value_or(std::vector<ods::SlurmTask>());
   if (by_folder) {
     const JobReport job = report_job(ods::absolute_folder(wishes.name), tasks);
     if (wishes.follow && !job.is_known()) {

@@ -9,11 +9,16 @@
 
 #include "ods/farm/slurm_answers.h"
 
-// The tasks in Slurm's queue, and those that ended a short while ago, of all jobs of ods submit. Nothing if there is no
-// squeue, or it fails.
-std::optional<std::vector<ods::SlurmTask>> queued_tasks();
+inline constexpr float kSlurmLimit = 120;  // seconds for an answer; Slurm's own programs give up sooner
 
-// The arrays that were sent from this folder, by their jobs' numbers; none if that is not known.
+struct SlurmQueue {
+  std::vector<ods::SlurmTask> tasks;  // in the queue, and those that ended a short while ago, of all jobs of ods submit
+  std::string fault;                  // why squeue cannot tell, for messages; empty: it has
+};
+SlurmQueue read_queue();
+
+// The arrays that were sent from this folder, by their jobs' numbers; none if that is not known. Throws
+// Error(kInput) if the list of them is damaged.
 std::map<std::string, ods::SlurmArray> sent_arrays(const std::string& folder);
 
 // Those of their tasks that Slurm's accounting knows, if it is on.

@@ -22,9 +22,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr float kSubmitLimit = 600;  // seconds for all of a job's sbatch
+
 // What this cluster can take.
 void ask_slurm(const SubmitJob& job, const ods::FarmPlan& plan, ods::SchedulerWishes& wishes) {
-  const auto config = run_program({"scontrol", "show", "config"});
+  const auto config = run_program({.words = {"scontrol", "show", "config"}, .limit = kSlurmLimit});
   const std::string text = config ? config->out : "";
   wishes.largest_array = std::max(2, ods::slurm_setting(text, "MaxArraySize").value_or(1001));
   const int most = ods::slurm_setting(text, "MaxJobCount").value_or(10000), tasks = plan.groups.front().tasks;
@@ -47,11 +49,12 @@ void write(const std::vector<ods::FarmFile>& files, const ods::FarmPlan& plan) {
 }
 
 void check_idle(const ods::FarmPlan& plan) {
-  const auto tasks = queued_tasks();
-  if (!tasks)
+  const auto [tasks, fault] = read_queue();
+  if (!fault.empty()) {
     throw ods::Error(ods::ErrorKind::kInput,
-                     "there is no Slurm here: squeue is not found, or fails; --dry-run prints what would be sent");
-  for (const ods::SlurmTask& task : *tasks) {
+                     fmt::format("there is no Slurm here: {}; --dry-run prints what would be sent", fault));
+  }
+  for (const ods::SlurmTask& task : tasks) {
     const bool lives = task.state == ods::TaskState::kWaiting || task.state == ods::TaskState::kRunning;
     if (!lives || task.folder != plan.folder) continue;
     throw UsageError(fmt::format("'{}' has tasks in the queue, job {}: wait, or scancel them, or give another -o",
@@ -60,12 +63,14 @@ void check_idle(const ods::FarmPlan& plan) {
 }
 
 void send(const ods::FarmPlan& plan) {
-  const auto sent = run_program({"sh", plan.folder + "/submit.sh"}, ProgramErrors::kShown);
-  if (!sent || sent->code != 0) {
-    throw ods::Error(ods::ErrorKind::kOutput, fmt::format("Slurm did not accept the job; its message is above. "
-                                                          "Try again: sh {}/submit.sh",
-                                                          ods::shell_word(plan.folder)));
+  const Program submit = {.words = {"sh", plan.folder + "/submit.sh"}, .limit = kSubmitLimit};
+  const auto sent = run_program(submit);
+  if (const std::string fault = program_fault(submit, sent); !fault.empty()) {
+    throw ods::Error(ods::ErrorKind::kOutput,
+                     fmt::format("Slurm did not accept the job ({}); try again: sh {}/submit.sh", fault,
+                                 ods::shell_word(plan.folder)));
   }
+  if (!sent->last_words.empty()) warn(fmt::format("Slurm: {}", sent->last_words));
   ods::write_file(plan.folder + "/jobs.txt", sent->out);
   if (!console.quiet) std::fputs(sent->out.c_str(), stdout);
   note(fmt::format("ods jobs {} --follow shows its progress", ods::shell_word(plan.name)));

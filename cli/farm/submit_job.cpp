@@ -11,7 +11,6 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/console/programs.h"
-#include "cli/console/spawn.h"
 #include "ods/base/quote.h"
 #include "ods/files/atomic_file.h"
 
@@ -129,7 +128,7 @@ static double time_first(const SplitCommand& split) {
   words.insert(words.end(), {group.option, fmt::format("{}", split.numbers.front()), "-q"});
   note(fmt::format("making {} {} here to measure its time; --chunk N does without", split.noun, split.numbers.front()));
   const auto start = std::chrono::steady_clock::now();
-  const auto result = run_program(words, ProgramErrors::kShown);
+  const auto result = run_program({.words = words, .shows_errors = true});
   if (!result || result->code != 0) {
     throw ods::Error(ods::ErrorKind::kInput, fmt::format("{} {} cannot be made: {}", split.noun, split.numbers.front(),
                                                          ods::shell_line({words.begin() + 1, words.end()})));

@@ -3,12 +3,9 @@
 #include "cli/view/desktop.h"
 
 #include <arpa/inet.h>
-#include <fcntl.h>
 #include <ifaddrs.h>
 #include <net/if.h>
-#include <spawn.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -16,6 +13,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/console/programs.h"
 #include "cli/http/certificate.h"
 #include "ods/files/atomic_file.h"
 #include "ods/files/file_input.h"
@@ -37,15 +35,7 @@ std::vector<std::string> network_addresses() {
 
 void open_in_browser(const std::string& address) {
   if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
-  std::string program = "xdg-open", argument = address;
-  char* const words[] = {program.data(), argument.data(), nullptr};
-  pid_t child = 0;
-  posix_spawn_file_actions_t silent;
-  posix_spawn_file_actions_init(&silent);
-  posix_spawn_file_actions_addopen(&silent, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&silent, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawnp(&child, "xdg-open", &silent, nullptr, words, environ);
-  posix_spawn_file_actions_destroy(&silent);
+  start_for_desktop({"xdg-open", address});
 }
 
 std::string state_folder() {

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "cli/console/programs.h"
 #include "ods/files/private_folder.h"
 
 class RenderProcess {
@@ -34,14 +35,13 @@ class RenderProcess {
   Status status() const;
 
  private:
-  void run(const std::vector<std::string>& words, const std::string& output);
-  void read_lines(int from);
+  void run(const std::string& output);
   void take_line(const std::string& line);
   void end(const std::string& output, bool is_well);
 
   mutable std::mutex mutex_;
   Status status_;
-  int child_ = 0;  // its process; 0: there is none
   std::unique_ptr<ods::PrivateFolder> folder_;
+  std::unique_ptr<RunningProgram> program_;
   std::thread reader_;
 };

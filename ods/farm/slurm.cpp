@@ -158,6 +158,7 @@ set -eu
 folder={}
 all="" group="" before=""
 trap 'code=$?; [ $code = 0 ] || [ -z "$all" ] || scancel $all' EXIT
+trap 'exit 143' HUP INT TERM
 next() {{ before="--dependency=afterok$group --kill-on-invalid-dep=yes" group=""; }}
 send() {{  # SCRIPT COMMENT
   id=$(sbatch --parsable $before --comment="$2:$folder" "$folder/$1")

@@ -12,9 +12,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include "ods/base/error.h"
 #include "ods/files/atomic_file.h"
@@ -59,7 +61,7 @@ void remove_folder(const char* path) {
 }
 
 // Whether a folder is ours, and no process has it locked. The maker of one without locks may be alive.
-static bool is_left_alone(const fs::path& path) {
+static bool is_left_folder(const fs::path& path) {
   const int folder = open_folder(AT_FDCWD, path.c_str());
   if (folder < 0) return false;
   struct stat info;
@@ -77,7 +79,7 @@ static void remove_left_folders(const fs::path& parent, const std::string& start
     if (!name.starts_with(start)) continue;
     const int process = std::atoi(name.c_str() + start.size());
     const bool is_dead = process > 0 && kill(process, 0) != 0 && errno == ESRCH;
-    if (is_dead && is_left_alone(at->path())) remove_folder(at->path().c_str());
+    if (is_dead && is_left_folder(at->path())) remove_folder(at->path().c_str());
   }
 }
 
@@ -85,7 +87,8 @@ std::string temporary_folder() {
   std::error_code error;
   const fs::path folder = fs::temp_directory_path(error);
   if (error) {
-    throw Error(ErrorKind::kOutput, fmt::format("there is no folder for temporary files (TMPDIR): {}", error.message()));
+    throw Error(ErrorKind::kOutput,
+                fmt::format("there is no folder for temporary files (TMPDIR): {}", error.message()));
   }
   return folder.native();
 }
@@ -109,8 +112,15 @@ PrivateFolder::PrivateFolder(const std::string& prefix) {
   flock(lock_, LOCK_EX | LOCK_NB);  // some file systems have no locks
 }
 
+std::string PrivateFolder::keep() {
+  forget_unfinished(path_.c_str());
+  const std::string path = std::exchange(path_, "");
+  const fs::path kept = fs::path(path).parent_path() / ("kept-" + path.substr(path.size() - 6));
+  return std::rename(path.c_str(), kept.c_str()) == 0 ? kept.native() : path;
+}
+
 PrivateFolder::~PrivateFolder() {
-  remove_folder(path_.c_str());
+  if (!path_.empty()) remove_folder(path_.c_str());
   forget_unfinished(path_.c_str());
   close(lock_);
 }

@@ -26,6 +26,9 @@ class PrivateFolder {
   // Absolute and without links.
   const std::string& path() const { return path_; }
 
+  // Leaves it there, for good and under a name that can be seen, which is returned: for files that must not be lost.
+  std::string keep();
+
  private:
   std::string path_;
   int lock_ = -1;

@@ -449,9 +449,10 @@ TEST_F(Farm, FramesThatAreLateAreWaitedFor) {
 }
 
 TEST_F(Farm, WithoutSlurmItIsSaid) {
-  program("squeue", "exit 1");
+  program("squeue", "echo 'slurm_load_jobs error: no controller' >&2\nexit 1");
   EXPECT_EQ(run("submit --to slurm -- " + video()), 3);
-  EXPECT_NE(err.find("there is no Slurm here"), std::string::npos) << err;
+  EXPECT_NE(err.find("there is no Slurm here: squeue failed: slurm_load_jobs error: no controller"), std::string::npos)
+      << err;
   EXPECT_EQ(files(), 0u);
   EXPECT_EQ(run("jobs"), 3);
   EXPECT_NE(err.find("there is no Slurm here"), std::string::npos) << err;
