@@ -97,10 +97,12 @@ ComfortInput input_of(const std::string& path) {
 
 }  // namespace
 
-bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
+// Reads the line over what the scenes of other programs say.
+static bool parse_comfort_job(ComfortJob& job, int argc, char** argv, const ForeignScenes& foreign) {
+  take_foreign(job.scene, job.camera, foreign);
   ods::Viewer& viewer = job.comfort.viewer;
   Options options("comfort", kComfortSummary, kComfortExamples);
-  add_scene_argument(options, job.scene, [&](const ForeignScene& scene) { take_camera(job.camera, scene); });
+  add_scene_argument(options, job.scene);
   options.group("Viewer");
   options.custom(
       "--focus", "METRES", "1.3", [&](const std::string& word) { viewer.focus = parse_focus(word); },
@@ -123,7 +125,7 @@ bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
   options.number("--width", job.width, 64, 8192, "width of the pictures of a scene that are judged");
   options.flag("--json", job.json, "print JSON");
   add_input_layout_option(options, job.format.layout, "layout of a picture's eyes, if it is not detected");
-  add_camera_options(options, job.camera, job.scene.blender);
+  add_camera_options(options, job.camera, job.scene);
   options.group("Console");
   add_progress_options(options, job.progress);
   if (!options.parse(argc, argv)) return false;
@@ -138,6 +140,14 @@ bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
   job.scene.has_places = job.camera.position.has_value();
   job.scene.camera = job.camera.view_point;
   int height = 0;
-  finish_camera_options(job.camera, job.width, height);
+  if (!is_unread_foreign(job.scene, job.camera)) finish_camera_options(job.camera, job.width, height);
   return true;
+}
+
+bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
+  if (!parse_comfort_job(job, argc, argv, {})) return false;
+  if (!is_unread_foreign(job.scene, job.camera)) return true;
+  const ForeignScenes foreign = read_foreign_scenes(job.scene, job.camera);
+  job = ComfortJob();
+  return parse_comfort_job(job, argc, argv, foreign);
 }

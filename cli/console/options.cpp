@@ -171,6 +171,7 @@ void Options::choice(const std::string& name, const std::vector<std::string>& na
 void add_console_options(Options& options) {
   options.flag("-q,--quiet", console.quiet,
                "print only errors, and text that is the result; no notes, warnings or names of written files");
+  options.at_once("--quiet");  // so that it holds for the notes of other options, too
   options.flag("--no-color", console.no_color, "no colours, as with the environment variable NO_COLOR");
 }
 
@@ -236,7 +237,13 @@ bool Options::parse(int argc, char** argv) {
   if (const auto format = wanted_help(argc, argv)) return print(*format);
   try {
     app_->parse(argc, argv);
-    keep_given(given_words());
+    const std::vector<GivenWord> given = given_words();
+    std::vector<std::string> inputs;
+    for (const GivenWord& word : given) {
+      if (word.kind.use_of(word.value) == PathUse::kInput && !word.kind.is_folder) inputs.push_back(word.value);
+    }
+    name_inputs(inputs);
+    keep_given(given);
     return true;
   } catch (const CLI::CallForHelp&) {
     return print(ManualFormat::kHelp);

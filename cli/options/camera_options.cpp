@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "cli/console/console.h"
 #include "cli/options/eye_options.h"
@@ -47,7 +48,7 @@ static void add_position_option(Options& options, CameraOptions& camera) {
       "midpoint between the eyes, in metres; +Y is up");
 }
 
-static void add_attitude_options(Options& options, CameraOptions& camera) {
+static void add_attitude_options(Options& options, CameraOptions& camera, const std::function<bool()>& is_open = {}) {
   add_field_option(options, "--yaw", camera.yaw, CameraField::kYaw,
                    "turn to the right, degrees; at 0 the picture's centre looks along -Z");
   add_field_option(options, "--pitch", camera.pitch, CameraField::kPitch, "tilt up, degrees; tilts the horizon too");
@@ -55,7 +56,7 @@ static void add_attitude_options(Options& options, CameraOptions& camera) {
                    "roll clockwise, degrees; tilts the horizon too");
   add_camera_preset_option(options, camera);
   add_eye_options(options, camera);
-  add_projection_options(options, camera.stereo.projection);
+  add_projection_options(options, camera.stereo.projection, "--projection", is_open);
 }
 
 void take_camera(CameraOptions& camera, const ForeignScene& scene) {
@@ -72,18 +73,38 @@ void take_camera(CameraOptions& camera, const ForeignScene& scene) {
   camera.stereo.bottom = own.bottom;
 }
 
-static void take_camera_file(CameraOptions& camera, const std::string& path, const BlenderOptions& blender) {
-  std::vector<std::string> warnings;
+bool is_unread_foreign(const SceneSource& scene, const CameraOptions& camera) {
+  return is_unread_foreign(scene) || (!camera.from_foreign && is_foreign_scene(camera.from));
+}
+
+ForeignScenes read_foreign_scenes(const SceneSource& scene, const CameraOptions& camera) {
+  ForeignScenes foreign;
+  SceneSource source = scene;
+  read_foreign(source);
+  foreign.scene = source.foreign;
+  if (!is_foreign_scene(camera.from)) return foreign;
+  foreign.camera_from = convert_foreign_scene(camera.from, scene.blender);
+  if (foreign.camera_from->camera) return foreign;
+  throw ods::Error(ods::ErrorKind::kInput, fmt::format("'{}' has no camera", camera.from));
+}
+
+void take_foreign(SceneSource& scene, CameraOptions& camera, const ForeignScenes& foreign) {
+  scene.foreign = foreign.scene;
+  camera.from_foreign = foreign.camera_from;
+  if (scene.foreign) take_camera(camera, *scene.foreign);
+}
+
+static void take_camera_file(CameraOptions& camera, const std::string& path) {
   StereoCamera own;
-  if (is_foreign_scene(path)) {
-    const ForeignScene scene = convert_foreign_scene(path, blender);
-    if (!scene.camera) throw ods::Error(ods::ErrorKind::kInput, fmt::format("'{}' has no camera", path));
-    take_camera(camera, scene);
-    own = scene.camera->camera;
+  camera.from = path;
+  if (!is_foreign_scene(path)) {
+    own = camera.stereo = ods::open_camera(path, camera.notes).camera;
+  } else if (camera.from_foreign) {
+    take_camera(camera, *camera.from_foreign);
+    own = camera.from_foreign->camera->camera;
   } else {
-    own = camera.stereo = ods::open_camera(path, warnings).camera;
+    return;
   }
-  for (const std::string& warning : warnings) note(warning);
   camera.position = own.position;
   camera.yaw = own.yaw, camera.pitch = own.pitch, camera.roll = own.roll;
 }
@@ -100,15 +121,14 @@ void add_place_options(Options& options, CameraOptions& camera) {
   add_view_options(options, camera);
 }
 
-void add_camera_options(Options& options, CameraOptions& camera, const BlenderOptions& blender) {
+void add_camera_options(Options& options, CameraOptions& camera, const SceneSource& scene) {
   camera.may_follow_depth = true;
   options.group("Camera");
   options.custom(
-      "--camera-from", ValueKind::input_file(), "",
-      [&](const std::string& path) { take_camera_file(camera, path, blender); },
+      "--camera-from", ValueKind::input_file(), "", [&](const std::string& path) { take_camera_file(camera, path); },
       "take the camera, including its position, from a .blend, a .camera.json or a picture that carries it");
   add_view_options(options, camera);
-  add_attitude_options(options, camera);
+  add_attitude_options(options, camera, [&] { return is_unread_foreign(scene, camera); });
 }
 
 void add_sceneless_camera_options(Options& options, CameraOptions& camera) {
@@ -118,6 +138,7 @@ void add_sceneless_camera_options(Options& options, CameraOptions& camera) {
 }
 
 void finish_camera_options(CameraOptions& camera, int width, int& height) {
+  for (const std::string& text : camera.notes) note(text);
   finish_eye_options(camera);
   finish_projection(camera.stereo.projection, width, height);
 }

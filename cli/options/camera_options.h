@@ -8,6 +8,7 @@
 
 #include "cli/bridge/foreign_scene.h"
 #include "cli/console/options.h"
+#include "cli/options/scene_source.h"
 #include "ods/camera/stereo_camera.h"
 #include "ods/scene/scene.h"
 
@@ -30,23 +31,41 @@ struct CameraOptions {
   std::optional<float> yaw;
   std::optional<float> pitch;
   std::optional<float> roll;
+  std::string from;                          // --camera-from
+  std::optional<ForeignScene> from_foreign;  // what became of it, if it is the scene of another program
+  std::vector<std::string> notes;            // on what the options mean
 };
 
 // Parses a position X,Y,Z. name: of the option, for the message. Throws UsageError.
 ods::vec3 parse_point(const std::string& name, const std::string& word);
 
-// add_place_options() adds --camera and --position. add_camera_options() adds --camera-from, which the others change
-// (it reads a .blend with that Blender), these, then the orientation, the eyes and the projection.
+// add_place_options() adds --camera and --position. add_camera_options() adds --camera-from, which the others change,
+// these, then the orientation, the eyes and the projection, for a command whose scene argument was added before.
 void add_place_options(Options& options, CameraOptions& camera);
-void add_camera_options(Options& options, CameraOptions& camera, const BlenderOptions& blender);
+void add_camera_options(Options& options, CameraOptions& camera, const SceneSource& scene);
 // Likewise without --camera, where no scene could have one.
 void add_sceneless_camera_options(Options& options, CameraOptions& camera);
 
 // The lens, the tilt and, if it has any, the eyes of a foreign scene's camera. Its place is that of the view point.
 void take_camera(CameraOptions& camera, const ForeignScene& scene);
 
-// Checks the options as a whole, reads the maps, and finds the height of the picture if it is 0. Throws UsageError
-// and ods::Error.
+// Scenes of other programs on a command line. They are converted when the line has been parsed once, so that a typo is
+// told before Blender starts. The line is then parsed again over their cameras: options win over a file.
+struct ForeignScenes {
+  std::optional<ForeignScene> scene, camera_from;
+};
+
+// Whether the line names such a scene that is not converted yet. Until then finish_camera_options() has no camera.
+bool is_unread_foreign(const SceneSource& scene, const CameraOptions& camera);
+
+// Converts them. Throws as read_foreign(), and Error(kInput) if the file of --camera-from has no camera.
+ForeignScenes read_foreign_scenes(const SceneSource& scene, const CameraOptions& camera);
+
+// Begins the second parsing.
+void take_foreign(SceneSource& scene, CameraOptions& camera, const ForeignScenes& foreign);
+
+// Checks the options as a whole, notes what they mean, reads the maps, and finds the height of the picture if it is 0.
+// Throws UsageError and ods::Error.
 void finish_camera_options(CameraOptions& camera, int width, int& height);
 
 // The camera that the options ask for. Without options: the scene's first view point; otherwise eye height above the

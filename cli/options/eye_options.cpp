@@ -128,7 +128,9 @@ void parse_camera_preset(const std::string& text, CameraOptions& camera) {
     throw UsageError(std::string("--camera-preset ") + error.what());
   }
   if (camera.stereo.yaw != 0.0f && !camera.yaw) camera.yaw = camera.stereo.yaw;
-  if (!preset->exact) note(fmt::format("{} is only approximated: {}", preset->system, preset->note));
+  if (!preset->exact) {
+    camera.notes.push_back(fmt::format("{} is only approximated: {}", preset->system, preset->note));
+  }
 }
 
 }  // namespace

@@ -99,9 +99,16 @@ ProjectionSetting projection_by_name(const std::string& option, const std::strin
       fmt::format("{} is one of {}, not '{}'{}", option, fmt::join(names, ", "), name, ods::did_you_mean(name, names)));
 }
 
-void add_projection_options(Options& options, ProjectionSetting& projection, const std::string& option) {
+void add_projection_options(Options& options, ProjectionSetting& projection, const std::string& option,
+                            const std::function<bool()>& is_open) {
   options.group("Projection");
   const auto is_named = std::make_shared<bool>(false);
+  const auto add = [&](const char* name, const char* unit, const auto& parse, const std::string& text) {
+    const auto set = [&projection, is_named, is_open, parse](const std::string& word) {
+      if (*is_named || !is_open || !is_open()) parse(word, projection);
+    };
+    options.custom(name, unit, "", set, text);
+  };
   options.custom(
       option, "NAME", option == "--projection" ? "lat-long" : "",
       [&projection, option, is_named](const std::string& text) {
@@ -114,21 +121,15 @@ void add_projection_options(Options& options, ProjectionSetting& projection, con
       "--face", "NAME", "",
       [&projection, is_named](const std::string& text) { parse_face(text, *is_named, projection); },
       "a single cube face: front, right, back, left, up or down");
-  options.custom(
-      "--range", "LEFT,RIGHT[,BOTTOM,TOP]", "", [&](const std::string& text) { parse_range(text, projection); },
+  add("--range", "LEFT,RIGHT[,BOTTOM,TOP]", parse_range,
       "the part of the sphere that a lat-long or cylinder shows, degrees");
-  options.custom(
-      "--fov", "DEGREES", "", [&](const std::string& text) { parse_fov(text, projection); },
+  add("--fov", "DEGREES", parse_fov,
       "field of view: of a fisheye edge to edge [180], of a perspective view horizontally [90]");
-  options.custom(
-      "--lens-polynomial", "K0,K1,K2,K3,K4", "", [&](const std::string& text) { parse_polynomial(text, projection); },
+  add("--lens-polynomial", "K0,K1,K2,K3,K4", parse_polynomial,
       "fisheye-polynomial: at R millimetres from the middle of the sensor it looks -(K0 + K1 R + K2 R^2 + K3 R^3 + K4 "
       "R^4) radians off axis, as in Cycles");
-  options.custom(
-      "--sensor", "WIDTH,HEIGHT", "", [&](const std::string& text) { parse_sensor(text, projection); },
-      "fisheye-polynomial: size of the sensor, millimetres [36,24]");
-  options.custom(
-      "--lens-direction", "PAN,TILT", "", [&](const std::string& text) { parse_look(text, projection); },
+  add("--sensor", "WIDTH,HEIGHT", parse_sensor, "fisheye-polynomial: size of the sensor, millimetres [36,24]");
+  add("--lens-direction", "PAN,TILT", parse_look,
       fmt::format("where it points ({}), degrees right and up; the eyes stay level", ods::kinds_with(ods::has_lens)));
 }
 

@@ -3,15 +3,17 @@
 //
 // The options that state a picture's projection, shared by the commands that make or read one.
 #pragma once
+#include <functional>
 #include <string>
 
 #include "cli/console/options.h"
 #include "ods/camera/projection.h"
 #include "ods/picture/metadata/stereo_format.h"
 
-// option: the name of the one that names the projection.
+// option: the name of the one that names the projection. is_open: returns whether the projection is, without that
+// option, a file's that is not read yet; then the numbers of its lens are not looked at.
 void add_projection_options(Options& options, ods::ProjectionSetting& projection,
-                            const std::string& option = "--projection");
+                            const std::string& option = "--projection", const std::function<bool()>& is_open = {});
 
 // Throws UsageError, whose message says that `option` was given the name.
 ods::ProjectionSetting projection_by_name(const std::string& option, const std::string& name);

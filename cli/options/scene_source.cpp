@@ -61,21 +61,16 @@ static void add_blender_options(Options& options, SceneSource& source) {
   options.number(
       "--bake", source.blender.bake, 0, 8192,
       "for these files: bake what nodes of materials compute into pictures this many pixels wide; 0: do not bake");
-  options.number("--blender-limit", source.blender.seconds, 0.1f, 1e6f, "the seconds that Blender may take");
+  options.number("--convert-limit", source.blender.seconds, 0.1f, 1e6f,
+                 "the seconds that Blender, or Assimp in its place, may take to convert the file");
 }
 
-void add_scene_argument(Options& options, SceneSource& source,
-                        const std::function<void(const ForeignScene&)>& foreign) {
+void add_scene_argument(Options& options, SceneSource& source) {
   options.group("Scene");
   add_blender_options(options, source);
   add_confine_option(options, source);
   options.argument(
-      scene_kind(),
-      [&source, foreign](const std::string& name) {
-        source.name = name;
-        read_foreign(source);
-        if (source.foreign && foreign) foreign(*source.foreign);
-      },
+      scene_kind(), source.name,
       "a .glb or .gltf file, a .blend file or another that Blender reads (.fbx, .obj, .usd, ...), or a built-in scene "
       "(ods scenes lists them)");
   options.offer("SCENE", ods::names_of(ods::builtin_scenes()));
@@ -108,8 +103,12 @@ static std::string suggestion(const Scene& scene, const std::string& name) {
   return fmt::format("; it has {}{}", fmt::join(names.begin(), end, ", "), end == names.end() ? "" : ", ...");
 }
 
+bool is_unread_foreign(const SceneSource& source) {
+  return !source.foreign && !ods::find_builtin(source.name) && is_foreign_scene(source.name);
+}
+
 void read_foreign(SceneSource& source) {
-  if (source.foreign || ods::find_builtin(source.name) || !is_foreign_scene(source.name)) return;
+  if (!is_unread_foreign(source)) return;
   if (!source.confine.empty()) {
     throw UsageError(
         fmt::format("--confine does not hold for '{}': Blender reads all files that it names", source.name));

@@ -3,7 +3,6 @@
 //
 // The options that choose a scene and its light, shared by the commands that read one.
 #pragma once
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,15 +32,14 @@ struct SceneSource {
   bool has_places = false;  // other options give places in the scene: an object is not shown as a model then
 };
 
-// A scene of another program is converted as soon as it is read from the command line; `foreign` is then called, and
-// options that are added later change what that sets.
-void add_scene_argument(Options& options, SceneSource& source,
-                        const std::function<void(const ForeignScene&)>& foreign = {});
+void add_scene_argument(Options& options, SceneSource& source);
 // Adds the scene as an option, for commands that work without one.
 void add_scene_option(Options& options, SceneSource& source, const char* help);
 
-// Has a scene of another program converted, if it is one and that has not happened. Throws UsageError, and as
-// convert_foreign_scene().
+// Whether the scene is another program's and is still to be converted. Only looks at the name.
+bool is_unread_foreign(const SceneSource& source);
+
+// Has such a scene converted. Throws UsageError, and as convert_foreign_scene().
 void read_foreign(SceneSource& source);
 
 // The folder of --confine with links resolved; empty if the option was not given. Throws Error(kInput) if there is no

@@ -108,7 +108,7 @@ bool is_of_place(std::string_view setting) {
 
 void add_camera(Settings& settings, const CameraOptions& camera) {
   const auto& [rig, merge_map, merge_map_inverted, may_follow_depth, merge_limit, head_tilt_map, view_point, position,
-               yaw, pitch, roll] = camera;
+               yaw, pitch, roll, from, from_foreign, notes] = camera;
   const auto chosen = [](const std::optional<float>& angle, const char* fallback) {
     return angle ? fmt::format("{}", *angle) : fallback;
   };

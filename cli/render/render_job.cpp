@@ -107,9 +107,9 @@ void check_rig(const Options& options, const RenderJob& job) {
 
 }  // namespace
 
-void take_foreign(RenderJob& job, const ForeignScene& scene) {
-  take_camera(job.camera, scene);
-  if (scene.fps) job.time.fps = *scene.fps;
+void take_foreign(RenderJob& job, const ForeignScenes& foreign) {
+  take_foreign(job.scene, job.camera, foreign);
+  if (foreign.scene && foreign.scene->fps) job.time.fps = *foreign.scene->fps;
 }
 
 bool gives(const RenderJob& job, std::string_view option) {
@@ -147,17 +147,20 @@ void finish_render_job(const Options& options, const Quality& quality, RenderJob
   job.scene.camera = job.camera.view_point;
   finish_quality(options, quality, job);
   job.has_layout = options.given("--layout") || options.given("--size");
+  if (is_unread_foreign(job.scene, job.camera)) return;
   finish_picture_options(options, job.camera.stereo.projection, job.render, job.save);
   finish_camera_options(job.camera, job.render.width, job.render.height);
 }
 
-bool read_render_job(RenderJob& job, int argc, char** argv, bool for_farm) {
+// Reads the line over what the scenes of other programs say.
+static bool parse_render_job(RenderJob& job, int argc, char** argv, bool for_farm, const ForeignScenes& foreign) {
+  take_foreign(job, foreign);
   Quality quality;
   Options options("render", "Renders a scene as a stereo 360 picture, or as the frames of a video.", kRenderExamples);
-  add_scene_argument(options, job.scene, [&](const ForeignScene& scene) { take_foreign(job, scene); });
+  add_scene_argument(options, job.scene);
   add_light_options(options, job.scene.light);
   add_picture_options(options, job);
-  add_camera_options(options, job.camera, job.scene.blender);
+  add_camera_options(options, job.camera, job.scene);
   add_time_options(options, job.time);
   add_quality_options(options, job, quality);
   add_long_options(options, job);
@@ -169,10 +172,6 @@ bool read_render_job(RenderJob& job, int argc, char** argv, bool for_farm) {
   if (job.parts > 0 && !for_farm) throw UsageError("--parts is for ods submit; --part 1/8 renders one of 8 parts");
   const auto part_names = job.part ? ods::frame_names(job.output) : std::nullopt;
   if (part_names) job.output = part_names->path(job.part->number);
-  for (const char* word : {"--exposure", "--brighter"}) {
-    if (options.given(word) && !job.part && keeps_light(job.output))
-      note(fmt::format("{} does not change .exr and .hdr, which are scene-linear", word));
-  }
   if (job.render.transparent && !ods::has_alpha(job.output)) {
     throw UsageError("--transparent needs a format with alpha: .exr, .png, .tif or .webp");
   }
@@ -191,5 +190,19 @@ bool read_render_job(RenderJob& job, int argc, char** argv, bool for_farm) {
   check_rig(options, job);
   finish_render_job(options, quality, job);
   check_long_job(options, job);
+  return true;
+}
+
+bool read_render_job(RenderJob& job, int argc, char** argv, bool for_farm) {
+  if (!parse_render_job(job, argc, argv, for_farm, {})) return false;
+  if (is_unread_foreign(job.scene, job.camera)) {
+    const ForeignScenes foreign = read_foreign_scenes(job.scene, job.camera);
+    job = RenderJob();
+    parse_render_job(job, argc, argv, for_farm, foreign);
+  }
+  for (const char* word : {"--exposure", "--brighter"}) {
+    if (gives(job, word) && !job.part && keeps_light(job.output))
+      note(fmt::format("{} does not change .exr and .hdr, which are scene-linear", word));
+  }
   return true;
 }

@@ -49,10 +49,10 @@ void add_exposure_option(Options& options, RenderJob& job);
 // The exposure with --brighter, within what --exposure takes: rounded, so that printed it is the same number.
 float brightened(float exposure, float brighter);
 
-// What a scene of another program says of camera and time: the default of the options.
-void take_foreign(RenderJob& job, const ForeignScene& scene);
+// What scenes of other programs say of camera and time: the default of the options.
+void take_foreign(RenderJob& job, const ForeignScenes& foreign);
 
-// What remains to be done after parsing, for ods video, too.
+// What remains to be done after parsing, for ods video, too. Not all is done while is_unread_foreign().
 void finish_render_job(const Options& options, const Quality& quality, RenderJob& job);
 
 // Adds --wait SECONDS.

@@ -31,6 +31,7 @@ void info(int argc, char** argv) {
   options.flag("--json", json, "print JSON");
   add_console_options(options);
   if (!options.parse(argc, argv)) return;
+  read_foreign(source);
   console.quiet = true;  // notes would repeat the result
   source.has_places = camera.position.has_value();
   source.camera = camera.view_point;

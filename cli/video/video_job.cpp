@@ -24,11 +24,13 @@ constexpr const char* kVideoSummary =
 
 }  // namespace
 
-bool read_video_job(VideoJob& job, int argc, char** argv) {
+// Reads the line over what the scenes of other programs say.
+static bool parse_video_job(VideoJob& job, int argc, char** argv, const ForeignScenes& foreign) {
   RenderJob& render = job.render;
+  take_foreign(render, foreign);
   Quality quality;
   Options options("video", kVideoSummary, kVideoExamples);
-  add_scene_argument(options, render.scene, [&](const ForeignScene& scene) { take_foreign(render, scene); });
+  add_scene_argument(options, render.scene);
   add_light_options(options, render.scene.light);
   add_video_options(options, job.video);
   options.text("--rig", ValueKind::input_file(), job.rig,
@@ -44,7 +46,7 @@ bool read_video_job(VideoJob& job, int argc, char** argv) {
   add_picture_options(options, render.render, render.save);
   add_exposure_option(options, render);
   options.choice("--tone", job.display.tone, ods::kToneCurveTable, "tone curve");
-  add_camera_options(options, render.camera, render.scene.blender);
+  add_camera_options(options, render.camera, render.scene);
   add_time_options(options, render.time);
   add_quality_options(options, render, quality);
   options.group("Console");
@@ -64,4 +66,12 @@ bool read_video_job(VideoJob& job, int argc, char** argv) {
   job.video.rate = parse_rate(fmt::format("{}", render.time.fps));
   render.time.fps = static_cast<float>(job.video.rate.value());
   return true;
+}
+
+bool read_video_job(VideoJob& job, int argc, char** argv) {
+  if (!parse_video_job(job, argc, argv, {})) return false;
+  if (!is_unread_foreign(job.render.scene, job.render.camera)) return true;
+  const ForeignScenes foreign = read_foreign_scenes(job.render.scene, job.render.camera);
+  job = VideoJob();
+  return parse_video_job(job, argc, argv, foreign);
 }

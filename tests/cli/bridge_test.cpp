@@ -14,6 +14,7 @@
 #include "ods/picture/metadata/sidecar.h"
 #include "tests/support/cli_runner.h"
 #include "tests/support/gltf_builder.h"
+#include "tests/support/processes.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods::bridge_test {
@@ -62,6 +63,21 @@ class Bridge : public ::testing::Test {
     std::error_code error;
     const fs::directory_iterator all(folder_ + "/cache/ods/scenes", error);
     return error ? 0 : static_cast<size_t>(std::distance(begin(all), end(all)));
+  }
+
+  // A script that never ends, as its children do not; their numbers are in "process".
+  std::string hanging() const {
+    const std::string list = folder_ + "/process";
+    return "trap '' TERM\necho $$ >" + list + "\nsleep 1000 &\necho $! >>" + list + "\nsetsid sh -c 'echo $$ >>" +
+           list + "; sleep 1000' &\nsh -c 'sleep 1000 & echo $! >>" + list + "'\nwhile [ $(wc -l <" + list +
+           ") -lt 4 ]; do sleep 0.01; done\ntouch " + folder_ + "/started\nwhile true; do sleep 1; done\n";
+  }
+
+  void expect_ended() const {
+    std::ifstream processes(folder_ + "/process");
+    int count = 0;
+    for (int process = 0; processes >> process; count++) EXPECT_TRUE(has_ended(process)) << process;
+    EXPECT_GT(count, 0);
   }
 
   void expect_failure(const std::string& says, std::vector<std::string> more = {}) {
@@ -141,24 +157,123 @@ TEST_F(Bridge, AFailingBlenderIsOneLine) {
   expect_failure("Blender ended before it was done");
 }
 
-TEST_F(Bridge, AHangingBlenderIsEnded) {
-  program("echo $$ >" + folder_ + "/process\nsleep 1000 &\necho $! >>" + folder_ + "/process\nwait");
-  expect_failure("Blender did not finish within 0.5 seconds", {"--blender-limit", "0.5"});
-  std::ifstream processes(folder_ + "/process");
-  for (int process = 0; processes >> process;) {
-    for (int i = 0; i < 100 && ::kill(process, 0) == 0; i++) std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    const std::string state = read("/proc/" + std::to_string(process) + "/stat");
-    EXPECT_TRUE(state.empty() || state.find(") Z") != std::string::npos) << state;
+// Itself, what it has started, what has a session of its own, and what hears no SIGTERM.
+TEST_F(Bridge, AHangingBlenderIsEndedWithAllThatItHasStarted) {
+  program(hanging());
+  expect_failure("Blender did not finish within 0.5 seconds (--convert-limit gives it more)",
+                 {"--convert-limit", "0.5"});
+  expect_ended();
+}
+
+TEST_F(Bridge, ABlenderThatIsDoneLeavesNoProcess) {
+  answer(R"({"omnistereo_bridge": 1})", "setsid sleep 1000 & echo $! >>" + folder_ + "/process");
+  Ods ods(info());
+  EXPECT_EQ(ods.finish(), 0) << ods.err;
+  expect_ended();
+}
+
+TEST_F(Bridge, WhateverEndsUsEndsBlenderAndLeavesNothing) {
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    fs::remove(folder_ + "/started");
+    program(hanging());
+    Ods ods(info());
+    while (!fs::exists(folder_ + "/started")) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ods.kill(signal);
+    EXPECT_EQ(ods.finish(), signal == SIGKILL ? 1000 + signal : 128 + signal);
+    expect_ended();
+    for (int i = 0; i < 200 && kept() > 0; i++) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(kept(), 0u) << signal;
   }
 }
 
-TEST_F(Bridge, AnInterruptLeavesNothing) {
-  program("touch " + folder_ + "/started\nexec sleep 1000");
-  Ods ods(info());
-  while (!fs::exists(folder_ + "/started")) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  ods.kill(SIGTERM);
-  EXPECT_EQ(ods.finish(), 128 + SIGTERM);
+TEST_F(Bridge, TemporaryFilesAreRemoved) {
+  const std::string shared = folder_ + "/tmp";
+  fs::create_directory(shared);
+  for (const char* name : {"TMPDIR", "TMP", "TEMP"}) setenv(name, shared.c_str(), 1);
+  const std::string leave =
+      "for f in \"$TMPDIR\" \"$TMP\" \"$TEMP\"; do mkdir -p \"$f/blender_1/deep\"; touch \"$f/x\"; done";
+  answer(R"({"omnistereo_bridge": 1})", leave);
+  Ods well(info());
+  EXPECT_EQ(well.finish(), 0) << well.err;
+  EXPECT_EQ(kept(), 1u);
+  EXPECT_TRUE(fs::is_empty(shared));
+  for (const char* name : {"TMPDIR", "TMP", "TEMP"}) unsetenv(name);
+}
+
+TEST_F(Bridge, AHangingAssimpIsEnded) {
+  write(folder_ + "/car.3ds", "x");
+  write(folder_ + "/assimp", "#!/bin/sh\n" + hanging());
+  fs::permissions(folder_ + "/assimp", fs::perms::owner_all);
+  const std::string path = getenv("PATH");
+  setenv("PATH", (folder_ + ":/usr/bin:/bin").c_str(), 1);
+  Ods ods({"info", folder_ + "/car.3ds", "--convert-limit", "0.5"});
+  EXPECT_EQ(ods.finish(), 3);
+  EXPECT_NE(ods.err.find("car.3ds': Assimp did not finish within 0.5 seconds (--convert-limit gives it more)"),
+            std::string::npos)
+      << ods.err;
+  expect_ended();
+  write(folder_ + "/assimp", "#!/bin/sh\necho 'ERROR: Failed to load file: bad chunk'\nexit 10\n");
+  Ods said({"info", folder_ + "/car.3ds"});
+  EXPECT_EQ(said.finish(), 3);
+  EXPECT_NE(said.err.find("it said: ERROR: Failed to load file: bad chunk"), std::string::npos) << said.err;
+  setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(kept(), 0u);
+}
+
+// A faulty command line is told before Blender starts.
+TEST_F(Bridge, TheCommandLineComesFirst) {
+  const std::vector<std::vector<std::string>> faulty = {
+      {"render", scene_, "-o", folder_ + "/p.png", "--widht", "512"},
+      {"render", scene_},
+      {"render", scene_, "-o", folder_ + "/p.png", "--width", "0"},
+      {"render", scene_, "-o", folder_ + "/p.png", "--parts", "2"},
+      {"render", "room", "-o", folder_ + "/p.png", "--camera-from", scene_, "--ipd", "x"},
+      {"video", scene_, "-o", folder_ + "/v.mp4", "--time", "1"},
+      {"comfort", scene_, "--gaze", "0"},
+      {"info", scene_, "--jsn"},
+  };
+  for (std::vector<std::string> words : faulty) {
+    words.insert(words.end(), {"--blender", folder_ + "/blender"});
+    Ods ods(words);
+    EXPECT_EQ(ods.finish(), 2) << words[0] << " " << words.back() << ods.err;
+  }
+  EXPECT_EQ(runs(), 0u);
+}
+
+TEST_F(Bridge, QuietIsQuiet) {
+  for (const std::vector<std::string>& scene :
+       {std::vector<std::string>{scene_}, std::vector<std::string>{"furnace", "--camera-from", scene_}}) {
+    answer(R"({"omnistereo_bridge": 1, "camera": {"omnistereo_camera": 1, "ipd": 0.08}})");
+    fs::remove_all(folder_ + "/cache");
+    std::vector<std::string> words = {"render"};
+    words.insert(words.end(), scene.begin(), scene.end());
+    words.insert(words.end(), {"--blender", folder_ + "/blender", "-o", folder_ + "/p.png", "--width", "16",
+                               "--samples", "1", "--bounces", "1", "-q"});
+    Ods ods(words);
+    EXPECT_EQ(ods.finish(), 0);
+    EXPECT_EQ(ods.err, "");
+  }
+  EXPECT_EQ(runs(), 2u);
+}
+
+// The numbers of a lens are for the projection of the file's camera, which nobody knows before the file is converted.
+TEST_F(Bridge, LensOptionsAreForTheFilesProjection) {
+  answer(R"({"omnistereo_bridge": 1, "camera": {"omnistereo_camera": 1,
+      "projection": {"name": "fisheye", "fov": 170}, "merge_top": {"mode": "none"}, "merge_bottom": {"mode": "none"}}})");
+  const std::string picture = folder_ + "/p.exr";
+  std::vector<std::string> words = {"render", scene_,    "--blender", folder_ + "/blender", "-o", picture,
+                                    "-q",     "--width", "16",        "--samples",          "1",  "--bounces",
+                                    "1",      "--fov",   "120",       "--sidecar"};
+  Ods ods(words);
+  ASSERT_EQ(ods.finish(), 0) << ods.err;
+  std::vector<std::string> warnings;
+  const StereoCamera camera = load_sidecar(folder_ + "/p.camera.json", warnings).camera;
+  EXPECT_TRUE(is_fisheye(camera.projection.kind));
+  EXPECT_EQ(camera.projection.fov, 120.0f);
+  words.insert(words.end(), {"--range", "-90,90"});
+  Ods wrong(words);
+  EXPECT_EQ(wrong.finish(), 2);
+  EXPECT_NE(wrong.err.find("--range is for"), std::string::npos) << wrong.err;
 }
 
 TEST_F(Bridge, SaysWhatIsMissing) {
