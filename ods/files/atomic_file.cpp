@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -205,13 +206,32 @@ void write_file(const std::string& path, std::string_view bytes) {
   file.commit();
 }
 
+// An empty file, or folder, of ours takes the name first: it is no loss when it is replaced.
+static bool rename_over_own(const std::string& from, const std::string& to) {
+  std::error_code error;
+  const bool is_folder = fs::is_directory(from, error);
+  const int made =
+      is_folder ? mkdir(to.c_str(), 0777) : open(to.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (made < 0) return false;
+  if (!is_folder) close(made);
+  if (std::rename(from.c_str(), to.c_str()) == 0) return true;
+  const int why = errno;
+  std::remove(to.c_str());
+  errno = why;
+  return false;
+}
+
 bool rename_as_new(const std::string& from, const std::string& to) {
   if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
   if (errno == EEXIST) return false;
-  if (errno == EINVAL || errno == ENOSYS) {  // not on network shares; a hard link replaces nothing either
-    if (link(from.c_str(), to.c_str()) == 0) return unlink(from.c_str()) == 0;
-    if (errno == EEXIST) return false;
+  if (errno != EINVAL && errno != ENOSYS && errno != EPERM && errno != EOPNOTSUPP) {
+    throw cannot_write(to, std::strerror(errno));
   }
+  // Not on network shares. A hard link replaces nothing either, but some have none, nor have folders.
+  if (link(from.c_str(), to.c_str()) == 0) return unlink(from.c_str()) == 0;
+  if (errno == EEXIST) return false;
+  if (rename_over_own(from, to)) return true;
+  if (errno == EEXIST) return false;
   throw cannot_write(to, std::strerror(errno));
 }
 

@@ -57,8 +57,8 @@ void write_file(const std::string& path, std::string_view bytes);
 // Commits files that belong together: renames none until all are on disk.
 void commit_all(std::list<AtomicFile>& files);
 
-// Gives a complete file of the same disk another name. False if anything has that name, be it a link that leads
-// nowhere. Throws Error(kOutput).
+// Gives a complete file, or a folder, another name on the same disk, whatever that disk can do. Returns false if
+// anything has that name, be it a link that leads nowhere. Throws Error(kOutput); then it keeps its name.
 bool rename_as_new(const std::string& from, const std::string& to);
 
 // Removes the temporary files of this process (of those open at once, the first 16). Async-signal-safe, for a signal

@@ -210,42 +210,6 @@ TEST_F(ViewCommand, ServesNoFileThatBecomesALink) {
   EXPECT_EQ(status_of(get("item/0/picture.png")), 200) << "a file that was made again";
 }
 
-// What a page says is for the other pages, until it has been silent for ten seconds.
-TEST_F(ViewCommand, HandsOnWhatPagesShare) {
-  EXPECT_EQ(body_of(get("alive")), R"({"pages":0})");
-  EXPECT_EQ(status_of(post("share?id=a", R"({"look": {"yaw": 1}})")), 200);
-  EXPECT_EQ(status_of(post("share?id=b", "{}")), 200);
-  EXPECT_EQ(body_of(get("share?id=b&after=0")), R"({"number":2,"messages":{"a":{"look":{"yaw":1}}}})");
-  EXPECT_EQ(body_of(get("share?id=c&after=1")), R"({"number":2,"messages":{"b":{}}})");
-  EXPECT_EQ(body_of(get("alive")), R"({"pages":2})");
-  std::string waited;
-  std::thread waiting([&] { waited = body_of(get("share?id=b&after=2")); });
-  std::this_thread::sleep_for(300ms);
-  EXPECT_EQ(status_of(post("share?id=a", R"({"look":null})")), 200);
-  waiting.join();
-  EXPECT_EQ(waited, R"({"number":3,"messages":{"a":{"look":null}}})");
-  for (int page = 0; page < 20; page++) post(fmt::format("share?id=page{}", page), "{}");
-  EXPECT_EQ(body_of(get("alive")), R"({"pages":8})");
-  std::this_thread::sleep_for(10500ms);
-  EXPECT_EQ(body_of(get("alive")), R"({"pages":0})");
-  EXPECT_EQ(body_of(get("share?id=b&after=0")), R"({"number":23,"messages":{}})") << "after five seconds";
-}
-
-TEST_F(ViewCommand, SharesNothingThatIsNoMessage) {
-  for (const char* id : {"", "A", "a b", "%22", "01234567890123456", "%C3%A4"}) {
-    EXPECT_EQ(status_of(post(fmt::format("share?id={}", id), "{}")), 400) << id;
-    EXPECT_EQ(status_of(get(fmt::format("share?id={}", id))), 400) << id;
-  }
-  const std::string deep = std::string(8000, '[') + std::string(8000, ']');
-  for (const std::string& wrong :
-       {std::string(), std::string("[]"), std::string("{"), std::string("{}{}"), std::string("1"),
-        "{\"a\":" + deep + "}", std::string("{\"a\":1e999}"), "{\"a\":\"" + std::string(20'000, 'a') + "\"}"}) {
-    EXPECT_EQ(status_of(post("share?id=a", wrong)), 400) << wrong.substr(0, 40);
-  }
-  EXPECT_EQ(status_of(post("share?id=a", std::string(1 << 20, 'a'))), 413);
-  EXPECT_EQ(body_of(get("alive")), R"({"pages":0})");
-}
-
 TEST_F(ViewCommand, LimitsTheSizeOfRequests) {
   EXPECT_EQ(status_of(ask("GET /" + std::string(1 << 20, 'a'))), 431) << "an endless first line";
   std::string many;
@@ -471,6 +435,25 @@ TEST_F(View, ExportIsAFolderOfItsOwn) {
         "item/1/right.jpg.js", "item/1/poster.jpg", "item/1/light.png", "item/1/light.png.js"}) {
     EXPECT_TRUE(std::filesystem::exists(site + "/" + file)) << file;
   }
+}
+
+// A picture that opens, and turns out to be damaged when it is decoded.
+TEST_F(View, AFailedExportChangesNothing) {
+  const std::string picture = folder.path("a_360_TB.png"), broken = folder.path("b_360_TB.exr"),
+                    site = folder.path("site");
+  ASSERT_EQ(run("testcard -q --width 128 -o " + picture), 0) << err;
+  ASSERT_EQ(run("convert " + picture + " -q -o " + broken), 0) << err;
+  std::filesystem::resize_file(broken, std::filesystem::file_size(broken) * 3 / 4);
+  const std::vector<std::string> before = folder.names();
+  EXPECT_EQ(run("view -q " + picture + " " + broken + " --export " + site), 3);
+  EXPECT_NE(err.find(broken), std::string::npos) << err;
+  EXPECT_EQ(folder.names(), before);
+  ASSERT_EQ(run("view -q " + picture + " --export " + site), 0) << err;
+  const std::string main = folder.read("site/main.js"), view = folder.read("site/view.json");
+  EXPECT_EQ(run("view -q " + picture + " " + broken + " --export " + site), 3);
+  EXPECT_EQ(folder.read("site/main.js"), main);
+  EXPECT_EQ(folder.read("site/view.json"), view);
+  EXPECT_FALSE(std::filesystem::exists(site + "/item/1"));
 }
 
 TEST_F(View, SaysWhatItCannotShow) {

@@ -14,6 +14,7 @@
 
 #include "cli/console/interrupt.h"
 #include "ods/base/error.h"
+#include "tests/support/poor_disk.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods {
@@ -45,7 +46,15 @@ TEST(AtomicFile, WritesWhatALinkStandsFor) {
   EXPECT_EQ(folder.read("new.txt"), "new");
 }
 
-TEST(AtomicFile, ANewNameReplacesNothing) {
+class NewNames : public ::testing::TestWithParam<bool> {
+ protected:
+  NewNames() { poor_disk = GetParam(); }
+  ~NewNames() override { poor_disk = false; }
+};
+INSTANTIATE_TEST_SUITE_P(OnDisks, NewNames, ::testing::Bool(),
+                         [](const auto& info) { return info.param ? "WithoutLinks" : "WithLinks"; });
+
+TEST_P(NewNames, ReplaceNothing) {
   const TemporaryFolder folder;
   folder.write("a.txt", "a");
   folder.write("old.txt", "old");
@@ -58,6 +67,8 @@ TEST(AtomicFile, ANewNameReplacesNothing) {
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"dangling.txt", "folder", "new.txt", "old.txt"}));
   EXPECT_EQ(folder.read("new.txt") + folder.read("old.txt"), "aold");
   EXPECT_THROW(rename_as_new(folder.path("none.txt"), folder.path("b.txt")), Error);
+  EXPECT_TRUE(rename_as_new(folder.path("folder"), folder.path("other")));
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"dangling.txt", "new.txt", "old.txt", "other"}));
 }
 
 TEST(AtomicFile, LeavesNothingWithoutCommit) {
