@@ -146,6 +146,8 @@ const char* reason_of(int status) {
       return "Request Timeout";
     case 411:
       return "Length Required";
+    case 429:
+      return "Too Many Requests";
     case 413:
       return "Content Too Large";
     case 416:

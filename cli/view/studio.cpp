@@ -34,6 +34,7 @@ using ods::Json, ods::JsonReader, ods::LiveFrame;
 namespace {
 
 constexpr std::chrono::milliseconds kPatience{5000};  // for the next frame
+constexpr int kMostWaiting = 16;                      // for one, so that connections are left for the rest of the site
 constexpr int kMostWidth = 16384;
 constexpr const char* kEnvironments[] = {"auto", "studio", "sky", "white", "0"};
 constexpr const char* kQualities[] = {"draft", "preview", "final"};
@@ -311,6 +312,19 @@ static const char* part_name(bool is_patch) {
   return is_patch ? "patch" : "base";
 }
 
+// Counts those who wait for a frame.
+struct Waiting {
+  explicit Waiting(std::atomic<int>& all) : all_(all), count_(++all) {}
+  ~Waiting() { all_--; }
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+  int count() const { return count_; }
+
+ private:
+  std::atomic<int>& all_;
+  int count_;
+};
+
 WebAnswer Studio::frame(const WebRequest& request) {
   const std::string after = value_of(request, "after");
   int number = 0;
@@ -320,6 +334,8 @@ WebAnswer Studio::frame(const WebRequest& request) {
     const std::lock_guard<std::mutex> lock(mutex_);
     live = live_;
   }
+  const Waiting waiting(waiting_);
+  if (waiting.count() > kMostWaiting) return {.status = 503, .body = "too many pages wait for frames\n"};
   const std::shared_ptr<const LiveFrame> frame = live->next_frame(number, kPatience);
   const std::string fault = live->fault();
   if (!fault.empty()) {

@@ -4,6 +4,7 @@
 // The studio of ods view: a scene that is rendered while somebody looks, with every option of the camera a control.
 // docs/view.md lists its requests.
 #pragma once
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -77,7 +78,8 @@ class Studio {
   static void discard(const Drop& drop);
   WebAnswer drop_camera(const std::string& name, const std::string& path);
 
-  mutable std::mutex mutex_;  // of all that follows
+  std::atomic<int> waiting_{0};  // for a frame
+  mutable std::mutex mutex_;     // of all that follows
   SceneSource source_;
   Settings usual_, settings_;
   double duration_ = 0.0;

@@ -484,6 +484,31 @@ async function testSharedSettings({ viewer, headset }, session) {
   await until(() => session.settings.exposure === 2 && session.side.sent === session.settings, 'takes the settings of the desk');
   expect(session.settings.sidecar.ipd === 0.07, 'loses what the wearer has set');
   for (const share of shares) share.end();
+  testLies(viewer, headset);
+}
+
+// What another page says may be anything: it neither throws nor outlasts the next change.
+function testLies(viewer, headset) {
+  const share = new Share({ viewer, headset });
+  const { swap } = viewer.state;
+  const say = (clock, value = !swap, by = 'zz') => share.take('liar', { fields: { swap: { value, clock, by } } });
+  for (const clock of [1e300, -1, 0.5, 2 ** 32, NaN, null, '9', [], {}]) say(clock);
+  for (const value of [null, 1, 'true', {}]) say(9, value);
+  say(9, !swap, null);
+  const numbers = [null, 1, 'x', [], { yaw: null }, { yaw: 1e300, pitch: 0, roll: 0 }];
+  for (const part of numbers) share.take('liar', { fields: part, look: part, point: part, time: part });
+  for (const part of numbers) share.take('liar', { fields: Object.fromEntries(['shown', 'film', 'settings', 'worn', 'constructor', '__proto__'].map((name) => [name, { value: part, clock: 9, by: 'zz' }])) });
+  expect(viewer.state.swap === swap, 'takes what has not the form of a change');
+  for (const clock of [2 ** 31 - 1, 2 ** 32 - 2, 2 ** 32 - 1]) {
+    say(clock);
+    viewer.set({ swap });
+    share.tick();
+    const { clock: next } = share.known.swap;
+    expect(next !== clock && share.known.swap.by === share.id, `counts no further than ${clock}`);
+    say(clock);
+    expect(viewer.state.swap === swap, `an old change comes back after ${clock}`);
+  }
+  share.end();
 }
 
 // --- two pages of one server ---
