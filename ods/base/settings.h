@@ -3,6 +3,7 @@
 //
 // What a picture, a video or what is left of one was made with, so that only work of the same kind is continued.
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,9 +17,12 @@ struct Setting {
 };
 using Settings = std::vector<Setting>;
 
-// A line for each setting, with tabs between its fields; and back. Names, values and paths are one line each.
+// A line for each setting, with tabs between its fields, and a last line with the CRC-32 of these lines. Names, values
+// and paths are one line each.
 std::string settings_text(const Settings& settings);
-Settings parse_settings(const std::string& text);
+
+// Returns nullopt if the text is not as settings_text() wrote it: cut short, or changed.
+std::optional<Settings> parse_settings(const std::string& text);
 
 // The differences between `then` and `now`, for messages: "samples was 64, now 128; scene 'a.glb' has changed". At most
 // three. Empty if there are none.

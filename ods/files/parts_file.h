@@ -7,7 +7,7 @@
 // It holds records, and marks after which all records so far are on the disk: each mark ends a part. What follows the
 // last mark, which a killed process wrote, is cut off. One process at a time has it (claim.h).
 //
-// Bytes: the line "omnistereo parts, 1", where 1 is the version of the format; the length of the settings as 4 bytes,
+// Bytes: the line "omnistereo parts, 2", where 2 is the version of the format; the length of the settings as 4 bytes,
 // and the settings; then for each record its length as 4 bytes, and its bytes. A mark has the length 0xffffffff and is
 // followed by its own place in the file, 8 bytes. Numbers are big-endian.
 #pragma once
@@ -26,8 +26,8 @@ namespace ods {
 class PartsFile {
  public:
   // Opens the parts of the file at `path`. settings: all that they depend on. `restart` removes existing parts. Throws
-  // Error(kUsage) if there are parts that were made with other settings; Error(kOutput): another process makes that
-  // file, or FILE.unfinished is none of ours.
+  // Error(kUsage) if there are parts that were made with other settings; Error(kInput) if these are damaged;
+  // Error(kOutput): another process makes that file, or FILE.unfinished is none of ours.
   PartsFile(const std::string& path, const Settings& settings, bool restart = false);
   PartsFile(const PartsFile&) = delete;
   PartsFile& operator=(const PartsFile&) = delete;

@@ -187,7 +187,9 @@ SampledPicture read_part_header(const std::string& path) {
   };
   const auto samples = info.numbers.find(kSamples);
   SampledPicture picture;
-  picture.settings = parse_settings(text(kSettings)), picture.camera = text(kSidecar);
+  const std::optional<Settings> settings = parse_settings(text(kSettings));
+  picture.settings = settings.value_or(Settings());
+  picture.camera = text(kSidecar);
   const float exposure = std::strtof(text(kExposure).c_str(), nullptr);
   if (std::isfinite(exposure)) picture.exposure = exposure;
   RenderOptions& options = picture.options;
@@ -197,6 +199,7 @@ SampledPicture read_part_header(const std::string& path) {
     fail(path, "is no part of a picture: ods render `part` makes those");
   }
   check_header(path, info);
+  if (!settings) fail(path, "is damaged: its settings are not as they were written; render the part again");
   options.part = *part;
   const StoredPicture header = PictureReader(path).header();
   options.width = header.size.width, options.height = header.size.height;

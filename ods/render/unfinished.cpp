@@ -88,7 +88,9 @@ class Reader {
   void settings(Settings& values) {
     std::string text;
     list(text);
-    values = parse_settings(text);
+    const std::optional<Settings> found = parse_settings(text);
+    if (!found) fail();
+    values = *found;
   }
   void checksum() {
     const uint32_t computed = checksum_;

@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char* kNote = "job.txt";
 constexpr const char* kFrame = "frame.######.exr";
-constexpr const char* kMark = "omnistereo video frames, 1";  // the number is the version of the note's format
+constexpr const char* kMark = "omnistereo video frames, 2";  // the number is the version of the note's format
 constexpr const char* kFrames = "frames";
 
 fs::file_type type_of(const std::string& path) {
@@ -105,13 +105,19 @@ std::string VideoJournal::pattern() const {
   return folder_ + "/" + kFrame;
 }
 
-// False if there is no note of ours.
+// False if there is no note of ours. Throws Error(kInput) if it is damaged.
 bool VideoJournal::read_note(Settings& settings) {
   if (type_of(note_path()) != fs::file_type::regular) return false;
   const std::vector<unsigned char> bytes = read_file(note_path(), size_t{64} << 20);
   const std::string note(bytes.begin(), bytes.end());
-  if (!note.starts_with(kMark + std::string("\n"))) return false;
-  for (const Setting& setting : parse_settings(note.substr(note.find('\n') + 1))) {
+  const std::string mark = kMark + std::string("\n");
+  if (!note.starts_with(mark) && !mark.starts_with(note)) return false;
+  const std::optional<Settings> all = parse_settings(note.substr(std::min(note.size(), mark.size())));
+  if (!all) {
+    throw Error(ErrorKind::kInput,
+                fmt::format("'{}' is damaged: remove '{}', and the frames are rendered again", note_path(), folder_));
+  }
+  for (const Setting& setting : *all) {
     if (setting.name != kFrames) {
       settings.push_back(setting);
     } else if (!setting.value.empty()) {
@@ -123,8 +129,9 @@ bool VideoJournal::read_note(Settings& settings) {
 
 void VideoJournal::write_note() const {
   const std::string frames = frames_text({frames_.begin(), frames_.end()});
-  const std::string note = fmt::format("{}\n{}\t{}\n{}", kMark, kFrames, frames, settings_text(settings_));
-  write_file(note_path(), note);
+  Settings all = {{kFrames, frames, ""}};
+  all.insert(all.end(), settings_.begin(), settings_.end());
+  write_file(note_path(), fmt::format("{}\n{}", kMark, settings_text(all)));
 }
 
 void VideoJournal::plan(const std::vector<int>& frames, const std::vector<int>& own) {

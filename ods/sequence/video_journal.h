@@ -27,8 +27,8 @@ enum class JournalUse { kAlone, kShared };
 class VideoJournal {
  public:
   // Opens the frames of this video, or starts anew. `restart` removes existing frames. Throws Error(kUsage) if the
-  // folder holds frames made with other settings or is not ours; Error(kOutput), also if another process is working on
-  // the video, and does not end within `patience`.
+  // folder holds frames made with other settings or is not ours; Error(kInput) if the note is damaged; Error(kOutput),
+  // also if another process is working on the video, and does not end within `patience`.
   VideoJournal(const std::string& video, const Settings& settings, bool restart, JournalUse use = JournalUse::kAlone,
                std::chrono::seconds patience = std::chrono::seconds(0));
 

@@ -128,6 +128,25 @@ TEST_F(Video, FramesOfAnotherJobAreNotMixedIn) {
   EXPECT_EQ(folder.read("b.mp4.frames/diary.txt"), "mine");
 }
 
+// A note that is cut short tells no other options, but that it is damaged, and the frames stay.
+TEST_F(Video, ACutNoteIsDamaged) {
+  ASSERT_EQ(run(words("a.mp4", "--keep-frames")), 0) << err;
+  const std::string note = folder.read("a.mp4.frames/job.txt");
+  const std::string frame = folder.read("a.mp4.frames/frame.000001.exr");
+  std::string changed = note;
+  changed[note.size() / 2] ^= 1;
+  for (const std::string& damaged :
+       {std::string(), note.substr(0, 10), note.substr(0, 27), note.substr(0, note.size() / 2),
+        note.substr(0, note.size() - 1), note + "x", changed}) {
+    folder.write("a.mp4.frames/job.txt", damaged);
+    EXPECT_EQ(run(words("a.mp4")), 3) << damaged.size();
+    EXPECT_NE(err.find("a.mp4.frames/job.txt' is damaged: remove '"), std::string::npos) << err;
+    EXPECT_EQ(folder.read("a.mp4.frames/frame.000001.exr"), frame);
+  }
+  folder.write("a.mp4.frames/job.txt", note);
+  EXPECT_EQ(run(words("a.mp4")), 0) << err;
+}
+
 TEST_F(Video, TheSceneIsOfTheJob) {
   ASSERT_EQ(run("render furnace --width 16 --samples 1 --eyes mono -q -o " + folder.path("sky.png")), 0) << err;
   const std::string video = words("a.mp4", "--keep-frames --env " + folder.path("sky.png"));
@@ -280,7 +299,7 @@ const std::set<std::string> kOthers = {"--output",
                                        "--lens-polynomial",
                                        "--bake",
                                        "--blender",
-                                       "--blender-limit",
+                                       "--convert-limit",
                                        "--camera-from"};
 
 TEST_F(VideoOptions, EveryOptionIsOneOrTheOther) {

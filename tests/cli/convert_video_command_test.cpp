@@ -162,7 +162,7 @@ class KilledConversion : public ConvertVideoCommand {
 
   // How many marks a file of parts has (ods/files/parts_file.h).
   static int parts_in(const std::string& bytes) {
-    const size_t head = std::string("omnistereo parts, 1\n").size();
+    const size_t head = std::string("omnistereo parts, 2\n").size();
     if (bytes.size() < head + 4) return 0;
     size_t at = head + 4 + ods::get_number(bytes, head, 4);
     int count = 0;
