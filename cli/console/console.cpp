@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/console/console.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -44,11 +46,23 @@ int fail(ExitCode code, const std::string& what) {
   return code;
 }
 
+// The error as a whole, in both forms.
+struct MemoryError {
+  std::string plain = "ods: error: not enough memory; a smaller scene or picture needs less\n";
+  std::string json = "{\"error\":\"not enough memory; a smaller scene or picture needs less\",\"exit_code\":1}\n";
+};
+
+std::string inputs;  // "'a.png', 'b.png'"
+
+MemoryError memory_error;
+
+std::string for_inputs() {
+  return inputs.empty() ? "" : " for " + inputs;
+}
+
 // Must not allocate.
 int fail_without_memory() {
-  const std::string_view plain = "ods: error: not enough memory; a smaller scene or picture needs less\n";
-  const std::string_view json = "{\"error\":\"not enough memory; a smaller scene or picture needs less\"}\n";
-  const std::string_view line = console.json ? json : plain;
+  const std::string_view line = console.json ? memory_error.json : memory_error.plain;
   const ssize_t ignored = write(STDERR_FILENO, line.data(), line.size());
   static_cast<void>(ignored);
   return kExitFailure;
@@ -85,6 +99,18 @@ ExitCode exit_code(ods::ErrorKind kind) {
 }
 
 }  // namespace
+
+void name_inputs(const std::vector<std::string>& files) {
+  constexpr size_t kMax = 3;  // more would hide the message
+  std::vector<std::string> names;
+  for (const std::string& file : files) names.push_back(fmt::format("'{}'", ods::one_line(file)));
+  if (names.size() > kMax) names.resize(kMax), names.emplace_back("...");
+  inputs = fmt::format("{}", fmt::join(names, ", "));
+  const std::string text = fmt::format("not enough memory{}; a smaller scene or picture needs less", for_inputs());
+  memory_error.plain = fmt::format("ods: error: {}\n", text);
+  const nlohmann::ordered_json json = {{"error", text}, {"exit_code", static_cast<int>(kExitFailure)}};
+  memory_error.json = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
 
 std::string with_options(const std::string& text) {
   std::string result;
@@ -131,7 +157,8 @@ int run_to_exit_code(const std::function<ExitCode()>& body) {
     return fail_without_memory();
   } catch (const std::system_error& error) {
     if (error.code() != std::errc::resource_unavailable_try_again) return fail(kExitFailure, error.what());
-    return fail(kExitFailure, "cannot start a thread: the limit on memory or processes is reached");
+    return fail(kExitFailure,
+                fmt::format("cannot start a thread{}: the limit on memory or processes is reached", for_inputs()));
   } catch (const std::exception& error) {
     return fail(kExitFailure, error.what());
   }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "cli/console/exit_code.h"
 #include "ods/base/error.h"
@@ -22,6 +23,9 @@ struct Console {
 };
 
 extern Console console;
+
+// The files that the command reads, for the message that memory has run out: then it is too late to make one.
+void name_inputs(const std::vector<std::string>& files);
 
 // Whether stderr is a terminal that can move its cursor.
 bool stderr_is_terminal();

@@ -89,7 +89,7 @@ CompareReport compare(const CompareJob& job) {
     encode(a);
     encode(b);
   }
-  report.comparison = ods::compare_eyes(a.eyes, b.eyes);
+  report.comparison = ods::compare_eyes(a.eyes, b.eyes, {fmt::format("'{}'", job.a), fmt::format("'{}'", job.b)});
   if (!a.variance.empty() && !b.variance.empty()) report.z = z_test(a.eyes, b.eyes, a.variance, b.variance);
   return report;
 }

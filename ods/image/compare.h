@@ -5,7 +5,9 @@
 //
 // Pixels that hold NaN or infinity in either picture are counted, and excluded from everything else.
 #pragma once
+#include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "ods/image/image.h"
@@ -41,8 +43,10 @@ struct Comparison {
   Errors whole;  // every pixel of every eye
 };
 
-// Throws Error(kInput), one line, if the pictures differ in number of eyes, size or channels.
-Comparison compare_eyes(const std::vector<Image>& a, const std::vector<Image>& b);
+// names: of the pictures, for messages. Throws Error(kInput), one line, if the pictures differ in number of eyes, size
+// or channels.
+Comparison compare_eyes(const std::vector<Image>& a, const std::vector<Image>& b,
+                        const std::array<std::string, 2>& names = {"the first picture", "the second one"});
 
 // b - a; 0 where a pixel is not finite. Precondition: equal sizes.
 Image difference(const Image& a, const Image& b);

@@ -165,6 +165,16 @@ TEST(OutOfMemoryDeathTest, TheCommandSaysSoWhereNothingMayThrow) {
               testing::ExitedWithCode(1), "^ods: error: not enough memory; a smaller scene or picture needs less\n$");
 }
 
+TEST(OutOfMemoryDeathTest, TheCommandNamesItsFiles) {
+  EXPECT_EXIT(_exit(run_command([] {
+                name_inputs({"a.png", "b.png"});
+                fail_allocations(0, true);
+                throw std::bad_alloc();
+              })),
+              testing::ExitedWithCode(1),
+              "^ods: error: not enough memory for 'a.png', 'b.png'; a smaller scene or picture needs less\n$");
+}
+
 TEST(OutOfMemoryDeathTest, TheCommandSaysThatNoThreadStarts) {
   EXPECT_EXIT(_exit(run_command([] { throw std::system_error(EAGAIN, std::generic_category()); })),
               testing::ExitedWithCode(1), "^ods: error: cannot start a thread");
