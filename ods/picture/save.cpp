@@ -12,6 +12,7 @@
 
 #include "ods/base/error.h"
 #include "ods/files/atomic_file.h"
+#include "ods/image/format/image_limits.h"
 #include "ods/image/image_file.h"
 #include "ods/picture/anaglyph.h"
 #include "ods/picture/metadata/metadata.h"
@@ -60,6 +61,8 @@ static void check_layout(const std::string& path, FileFormat format, const SaveO
     throw unfit(path, fmt::format("{}x{} pixels are too many for this format; use .exr, .tif or .png", size.width,
                                   size.height));
   }
+  const std::string fault = image_size_fault(size.width, size.height);
+  if (!fault.empty()) throw unfit(path, fault + ", beyond which ods could not read it; give a smaller width");
 }
 
 static FileFormat format_for(const std::string& path) {
