@@ -275,6 +275,20 @@ TEST(House, TypesHaveOneDefinition) {
   }
 }
 
+// What starts another program limits its time, and ends it with us.
+TEST(House, OneFileStartsPrograms) {
+  const std::set<std::string> own = {"cli/console/programs.cpp", "cli/console/supervisor.cpp"};
+  for (const Source& source : all_sources()) {
+    const bool is_ours = source.path.starts_with("ods/") || source.path.starts_with("cli/");
+    if (!is_ours || own.contains(source.path)) continue;
+    for (const std::string& line : source.lines) {
+      for (const char* word : {"posix_spawn", " fork(", "popen(", "std::system(", "execv"}) {
+        EXPECT_EQ(line.find(word), std::string::npos) << source.path << ": " << line;
+      }
+    }
+  }
+}
+
 // The library's users have settings, `layout`; --layout is the command's (with_options() in cli/console/console.h). A
 // farm's tasks and exports are command lines by nature.
 TEST(House, TheLibraryNamesNoOption) {

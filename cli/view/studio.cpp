@@ -118,6 +118,19 @@ ods::StereoCamera shortened(ods::StereoCamera camera) {
   return camera;
 }
 
+// Counts those who wait for a frame.
+struct Waiting {
+  explicit Waiting(std::atomic<int>& all) : all_(all), count_(++all) {}
+  ~Waiting() { all_--; }
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+  int count() const { return count_; }
+
+ private:
+  std::atomic<int>& all_;
+  int count_;
+};
+
 }  // namespace
 
 WebAnswer json_answer(const Json& json) {
@@ -311,19 +324,6 @@ std::vector<std::string> Studio::words(const std::string& maps, bool is_shown) c
 static const char* part_name(bool is_patch) {
   return is_patch ? "patch" : "base";
 }
-
-// Counts those who wait for a frame.
-struct Waiting {
-  explicit Waiting(std::atomic<int>& all) : all_(all), count_(++all) {}
-  ~Waiting() { all_--; }
-  Waiting(const Waiting&) = delete;
-  Waiting& operator=(const Waiting&) = delete;
-  int count() const { return count_; }
-
- private:
-  std::atomic<int>& all_;
-  int count_;
-};
 
 WebAnswer Studio::frame(const WebRequest& request) {
   const std::string after = value_of(request, "after");
