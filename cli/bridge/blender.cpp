@@ -62,7 +62,7 @@ struct Report {
 
 void fail_in_time(const char* program, const std::string& scene, float seconds) {
   fail_in_blender(
-      scene, fmt::format("{} did not finish within {:g} seconds (--convert-limit gives it more)", program, seconds));
+      scene, fmt::format("{} did not finish within {:g} seconds (--blender-limit gives it more)", program, seconds));
 }
 
 std::string find_blender(const BlenderOptions& options) {

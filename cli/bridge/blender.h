@@ -8,7 +8,7 @@
 struct BlenderOptions {
   std::string program;   // --blender; empty: as PATH finds it
   int bake = 0;          // --bake: pixels of the pictures that are made of computed materials; 0: none
-  float seconds = 1800;  // --convert-limit, of each program
+  float seconds = 1800;  // --blender-limit, of each program
 };
 
 // What of this decides what comes out: which Blender, which exporter, which options.

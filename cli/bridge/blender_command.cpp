@@ -12,7 +12,7 @@ int ods_blender(int argc, char** argv) {
     Options options("blender", "Installs the add-on: the panel Stereo 360 in Blender's render properties.",
                     "  ods blender\n  ods blender --blender ~/blender-4.2/blender");
     options.text("--blender", "PROGRAM", blender.program, "which Blender; by default the one on PATH");
-    options.number("--convert-limit", blender.seconds, 0.1f, 1e6f, "the seconds that Blender may take");
+    options.number("--blender-limit", blender.seconds, 0.1f, 1e6f, "the seconds that Blender may take");
     options.group("Console");
     add_console_options(options);
     if (!options.parse(argc, argv)) return;

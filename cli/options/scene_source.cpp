@@ -61,7 +61,7 @@ static void add_blender_options(Options& options, SceneSource& source) {
   options.number(
       "--bake", source.blender.bake, 0, 8192,
       "for these files: bake what nodes of materials compute into pictures this many pixels wide; 0: do not bake");
-  options.number("--convert-limit", source.blender.seconds, 0.1f, 1e6f,
+  options.number("--blender-limit", source.blender.seconds, 0.1f, 1e6f,
                  "the seconds that Blender, or Assimp in its place, may take to convert the file");
 }
 

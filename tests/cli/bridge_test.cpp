@@ -160,8 +160,8 @@ TEST_F(Bridge, AFailingBlenderIsOneLine) {
 // Itself, what it has started, what has a session of its own, and what hears no SIGTERM.
 TEST_F(Bridge, AHangingBlenderIsEndedWithAllThatItHasStarted) {
   program(hanging());
-  expect_failure("Blender did not finish within 0.5 seconds (--convert-limit gives it more)",
-                 {"--convert-limit", "0.5"});
+  expect_failure("Blender did not finish within 0.5 seconds (--blender-limit gives it more)",
+                 {"--blender-limit", "0.5"});
   expect_ended();
 }
 
@@ -206,9 +206,9 @@ TEST_F(Bridge, AHangingAssimpIsEnded) {
   fs::permissions(folder_ + "/assimp", fs::perms::owner_all);
   const std::string path = getenv("PATH");
   setenv("PATH", (folder_ + ":/usr/bin:/bin").c_str(), 1);
-  Ods ods({"info", folder_ + "/car.3ds", "--convert-limit", "0.5"});
+  Ods ods({"info", folder_ + "/car.3ds", "--blender-limit", "0.5"});
   EXPECT_EQ(ods.finish(), 3);
-  EXPECT_NE(ods.err.find("car.3ds': Assimp did not finish within 0.5 seconds (--convert-limit gives it more)"),
+  EXPECT_NE(ods.err.find("car.3ds': Assimp did not finish within 0.5 seconds (--blender-limit gives it more)"),
             std::string::npos)
       << ods.err;
   expect_ended();

@@ -299,7 +299,7 @@ const std::set<std::string> kOthers = {"--output",
                                        "--lens-polynomial",
                                        "--bake",
                                        "--blender",
-                                       "--convert-limit",
+                                       "--blender-limit",
                                        "--camera-from"};
 
 TEST_F(VideoOptions, EveryOptionIsOneOrTheOther) {
