@@ -13,10 +13,10 @@ namespace ods {
 
 namespace {
 
-// Of an object: small letters, digits and "-", with an end that is no "-". A pod's host name has the task's number
-// behind it, and is at most 63 long.
+// Names an object: small letters, digits and "-", with an end that is not "-". A pod's host name has the task's number
+// behind it, its own name five random characters more; both are at most 63 long.
 std::string object_name(const std::string& plan, const std::string& group) {
-  const size_t kLongest = 63 - std::string("-1000000").size();
+  const size_t kLongest = 63 - std::string("-1000000-abcde").size();
   std::string name = plan.substr(0, kLongest - 1 - group.size()) + "-" + group;
   for (char& c : name) {
     c = std::isalnum(static_cast<unsigned char>(c)) ? static_cast<char>(std::tolower(static_cast<unsigned char>(c)))
@@ -82,7 +82,7 @@ spec:
 
 void check_mount(const FarmPlan& plan, const SchedulerWishes& wishes) {
   for (const PlanPath& path : plan.paths) {
-    if (path.path.starts_with(wishes.mount + "/") || wishes.mount == "/") continue;
+    if (path.path == wishes.mount || path.path.starts_with(wishes.mount + "/") || wishes.mount == "/") continue;
     throw Error(ErrorKind::kUsage, fmt::format("'{}' is outside '{}', where the pods see the volume: --mount DIR names "
                                                "a folder that has all files, --copy-scene copies the scene",
                                                path.path, wishes.mount));

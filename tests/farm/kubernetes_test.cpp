@@ -40,9 +40,13 @@ TEST_F(Schedulers, KubernetesIsAnIndexedJobThatStopsOnWrongCommands) {
     EXPECT_EQ(run_line("JOB_COMPLETION_INDEX=6 sh -c " + shell_word(line)).code, 0);
     EXPECT_EQ(said(), expected(group, 7, {"--threads", "3"}));
   }
-  wishes.mount = "/elsewhere";
-  EXPECT_THROW(write_kubernetes(plan, wishes), Error);
-  wishes.mount = "/disk", plan.cpus = 0;
+  plan.paths = {{"/disk", false, true}};  // of frames in the mounted folder itself
+  EXPECT_NO_THROW(write_kubernetes(plan, wishes));
+  for (const char* path : {"/", "/disks", "/dis", "/elsewhere/disk"}) {
+    plan.paths = {{path, false, true}};
+    EXPECT_THROW(write_kubernetes(plan, wishes), Error) << path;
+  }
+  plan.paths.clear(), plan.cpus = 0;
   EXPECT_THROW(write_kubernetes(plan, wishes), Error) << "a whole machine cannot be asked for";
 }
 
@@ -72,7 +76,7 @@ try { new Job(job).validate(); console.log('valid'); } catch (error) { console.l
   }
 }
 
-// A pod's host name is that of the job and its index, at most 63 characters.
+// A pod's host name is that of the job and its index, its own name five random characters more; both have at most 63.
 TEST_F(Schedulers, KubernetesNamesLeaveRoomForPods) {
   plan.cpus = 1;
   plan.groups[0].tasks = 100'000;
@@ -80,7 +84,7 @@ TEST_F(Schedulers, KubernetesNamesLeaveRoomForPods) {
   for (const FarmFile& file : write(Scheduler::kKubernetes)) {
     std::smatch name;
     if (!std::regex_search(file.text, name, std::regex("metadata:\n  name: ([a-z0-9-]+)\n"))) continue;
-    EXPECT_LE((name[1].str() + "-99999").size(), 63u);
+    EXPECT_LE((name[1].str() + "-99999-abcde").size(), 63u);
     EXPECT_TRUE(name[1].str().ends_with(file.name.substr(0, file.name.find('.')))) << name[1];
   }
 }
