@@ -35,10 +35,11 @@ struct ExitMeaning {
 
 constexpr ExitMeaning kExitMeanings[] = {
     {"0", "done"},
-    {"1", "anything else: not enough memory, a limit of ods compare, a fault that ods lint found"},
+    {"1", "anything else: not enough memory"},
     {"2", "the command line is wrong: a value, a conflict, a name that is unknown or not in the file"},
     {"3", "a file is absent, broken or not supported"},
     {"4", "a file could not be written"},
+    {"5", "the input was judged and has a fault: ods lint found one, a limit of ods compare is exceeded"},
     {"130", "interrupted (Ctrl-C), 143 terminated (SIGTERM), 129 hung up (SIGHUP)"}};
 
 const ManualEntry kHelpOption = {Kind::kOption, "-h,--help", "", "show this help"};

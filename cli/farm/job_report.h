@@ -26,6 +26,7 @@ struct GroupReport {
   std::map<std::string, int> nodes;         // how many tasks run on each
   std::optional<std::pair<int, int>> made;  // frames, parts or views that are there, of so many
   std::vector<FailedTask> failed;
+  std::vector<int> faults;  // tasks that are done, and whose command judged its input and found a fault
   std::optional<double> seconds_left;
 };
 
@@ -35,6 +36,7 @@ struct JobReport {
   bool is_known() const;  // what its tasks do, because Slurm or the tasks say so
   bool is_over() const;   // nothing runs or waits
   bool is_done() const;   // all tasks are
+  bool found_fault() const;
 };
 
 // tasks: of Slurm's queue, of any job. The tasks of jobs that Slurm has forgotten are known by what they left in the

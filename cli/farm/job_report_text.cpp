@@ -50,6 +50,10 @@ std::string notes_text(const JobReport& job) {
       text +=
           fmt::format("{} {}: {} neither ended nor in the queue; submit it again\n", job.name, group.name, group.lost);
     }
+    for (const int task : group.faults) {
+      text +=
+          fmt::format("{0} {1} {2}: found a fault, see {3}/logs/{1}.{2}.log\n", job.name, group.name, task, job.folder);
+    }
     for (const FailedTask& task : group.failed) {
       text += fmt::format("{} {} {}: {}{}{}{}\n", job.name, group.name, task.number,
                           task.nodes.empty() ? "" : "on " + task.nodes + ", ", task.why, task.last.empty() ? "" : ": ",
@@ -69,6 +73,7 @@ Json json_of(const JobReport& job, const GroupReport& group) {
                {"lost", group.lost},
                {"restarts", group.restarts},
                {"nodes", group.nodes},
+               {"faults", group.faults},
                {"failed", Json::array()}});
   for (const FailedTask& task : group.failed) {
     json["failed"].push_back(

@@ -74,18 +74,19 @@ std::vector<JobReport> find_jobs(const JobsWishes& wishes) {
   return jobs;
 }
 
-void jobs(int argc, char** argv) {
+ExitCode jobs(int argc, char** argv) {
   JobsWishes wishes;
   Options options("jobs",
                   "Shows how much is done, running, waiting and failed of the jobs that ods submit sent to Slurm.",
                   kJobsExamples);
   options.optional_argument("NAME", wishes.name, "a job, or its folder; by default all");
   options.flag("--follow", wishes.follow,
-               "show it again every five seconds until the job has ended; exit code 1 if it is not complete");
+               "show it again every five seconds until the job has ended; exit code 1 if it is not complete, 5 if it "
+               "judged its input and found a fault");
   options.flag("--json", wishes.json, "print it as JSON");
   options.group("Console");
   add_console_options(options);
-  if (!options.parse(argc, argv)) return;
+  if (!options.parse(argc, argv)) return kExitOk;
   if (wishes.follow) end_on_interrupts();
   std::vector<JobReport> found;
   std::string before;
@@ -99,15 +100,16 @@ void jobs(int argc, char** argv) {
     if (!wishes.follow || over) break;
     std::this_thread::sleep_for(std::chrono::seconds(5));
   }
-  if (!wishes.follow) return;
+  if (!wishes.follow) return kExitOk;
   for (const JobReport& job : found) {
     if (!job.is_done())
       throw ods::Error(ods::ErrorKind::kCancelled, fmt::format("'{}' has ended, but it is not complete", job.name));
   }
+  return std::ranges::any_of(found, &JobReport::found_fault) ? kExitFault : kExitOk;
 }
 
 }  // namespace
 
 int ods_jobs(int argc, char** argv) {
-  return run_command([=] { jobs(argc, argv); });
+  return run_command([=] { return jobs(argc, argv); });
 }

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "cli/console/console.h"
 #include "cli/lint/compare_report.h"
@@ -31,7 +30,7 @@ constexpr const char* kCompareSummary =
     "sphere)\n"
     "and the largest error and its place, per eye and overall. Two integer files are compared as code values from 0 "
     "to\n"
-    "1, all others in linear light; the peak is 1. Exit code 1: a limit was exceeded.";
+    "1, all others in linear light; the peak is 1. Exit code 5: a limit was exceeded.";
 
 struct CompareJob {
   std::string a, b;
@@ -113,34 +112,39 @@ void write_difference(const CompareReport& report, const std::string& path) {
   save_picture(picture, options, path);
 }
 
-// A failure becomes exit code 1. NaN, if nothing could be compared, exceeds every limit.
-void check_limits(const CompareJob& job, const ods::Errors& whole) {
-  auto fail = [](const std::string& text) { throw std::runtime_error(text); };
+// NaN, if nothing could be compared, exceeds every limit.
+std::vector<std::string> exceeded_limits(const CompareJob& job, const ods::Errors& whole) {
+  std::vector<std::string> exceeded;
   if (job.max_rmse && !(whole.rmse <= *job.max_rmse)) {
-    fail(fmt::format("RMSE {:.4g} is above --max-rmse {}", whole.rmse, *job.max_rmse));
+    exceeded.push_back(fmt::format("RMSE {:.4g} is above --max-rmse {}", whole.rmse, *job.max_rmse));
   }
   if (job.min_psnr && !(whole.psnr >= *job.min_psnr)) {
-    fail(fmt::format("PSNR {:.2f} is below --min-psnr {}", whole.psnr, *job.min_psnr));
+    exceeded.push_back(fmt::format("PSNR {:.2f} is below --min-psnr {}", whole.psnr, *job.min_psnr));
   }
   if (job.max_error && !(whole.largest.error <= *job.max_error)) {
-    fail(fmt::format("the largest error {:.4g} is above --max-error {}", whole.largest.error, *job.max_error));
+    exceeded.push_back(
+        fmt::format("the largest error {:.4g} is above --max-error {}", whole.largest.error, *job.max_error));
   }
   const bool limited = job.max_rmse || job.min_psnr || job.max_error;
-  if (limited && whole.not_finite > 0) fail(fmt::format("{} pixels are NaN or infinite", whole.not_finite));
+  if (limited && whole.not_finite > 0) {
+    exceeded.push_back(fmt::format("{} pixels are NaN or infinite", whole.not_finite));
+  }
+  return exceeded;
 }
 
-void run_compare(int argc, char** argv) {
+ExitCode run_compare(int argc, char** argv) {
   CompareJob job;
-  if (!read_options(job, argc, argv)) return;
+  if (!read_options(job, argc, argv)) return kExitOk;
   for (const std::string& input : {job.a, job.b}) refuse_overwriting(job.difference, input);
-  const CompareReport report = compare(job);
+  CompareReport report = compare(job);
+  report.exceeded = exceeded_limits(job, report.comparison.whole);
   job.json ? print_json(report) : print_text(report);
   if (!job.difference.empty()) write_difference(report, job.difference);
-  check_limits(job, report.comparison.whole);
+  return report.exceeded.empty() ? kExitOk : kExitFault;
 }
 
 }  // namespace
 
 int ods_compare(int argc, char** argv) {
-  return run_command([=] { run_compare(argc, argv); });
+  return run_command([=] { return run_compare(argc, argv); });
 }

@@ -73,6 +73,13 @@ Json to_json(const CompareReport& report, const char* name, const ods::Errors& e
 
 }  // namespace
 
+static void print_noise(const std::optional<ods::ZTest>& z) {
+  if (!z) return fmt::print("\nnoise: unknown, because not both files have variance.R, G and B\n");
+  fmt::print("\nnoise: z has mean {:.4f} (0 expected), rms {:.4f} (1), beyond 3 {:.3g} % (0.27), largest {:.3g}",
+             z->mean, z->rms, 100.0 * z->beyond_3, z->largest);
+  fmt::print("; {} values differ without any noise\n", z->sure_differences);
+}
+
 void print_text(const CompareReport& report) {
   for (size_t i = 0; i < 2; i++) {
     fmt::print("{} {}: {}, {}\n", "AB"[i], report.paths[i], layout_word(report.files[i]), report.files[i].guess.reason);
@@ -83,13 +90,8 @@ void print_text(const CompareReport& report) {
   const std::vector<ods::Errors>& eyes = report.comparison.eyes;
   for (size_t i = 0; i < eyes.size(); i++) print_row(report, eye_word(report, i), eyes[i]);
   if (eyes.size() > 1) print_row(report, "both", report.comparison.whole);
-  if (!report.z) {
-    fmt::print("\nnoise: unknown, because not both files have variance.R, G and B\n");
-    return;
-  }
-  fmt::print("\nnoise: z has mean {:.4f} (0 expected), rms {:.4f} (1), beyond 3 {:.3g} % (0.27), largest {:.3g}",
-             report.z->mean, report.z->rms, 100.0 * report.z->beyond_3, report.z->largest);
-  fmt::print("; {} values differ without any noise\n", report.z->sure_differences);
+  print_noise(report.z);
+  for (const std::string& limit : report.exceeded) fmt::print("{}\n", limit);
 }
 
 void print_json(const CompareReport& report) {
@@ -101,6 +103,7 @@ void print_json(const CompareReport& report) {
   const std::vector<ods::Errors>& eyes = report.comparison.eyes;
   for (size_t i = 0; i < eyes.size(); i++) json["eyes"].push_back(to_json(report, eye_word(report, i), eyes[i]));
   json["whole"] = to_json(report, "all", report.comparison.whole);
+  json["exceeded"] = report.exceeded;
   json["z"] = nullptr;
   if (report.z) {
     json["z"] = {{"values", report.z->values},   {"mean", report.z->mean},

@@ -8,7 +8,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <stdexcept>
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
@@ -33,7 +32,7 @@ constexpr const char* kLintSummary =
     "in\n"
     "videos also eyes that are apart in time, cuts of one eye, duplicate frames. Each finding has a certainty (0 to "
     "1),\n"
-    "the evidence and a cure; what was judged and what was not is listed. docs/lint.md explains them. Exit code 1: a\n"
+    "the evidence and a cure; what was judged and what was not is listed. docs/lint.md explains them. Exit code 5: a\n"
     "fault was found; warnings and information do not count.";
 
 struct LintJob {
@@ -80,9 +79,9 @@ ods::LintReport lint_with_progress(const LintJob& job, ProgressLines& lines) {
   return ods::lint_video(job.path, {job.lint, job.every}, progress);
 }
 
-void run_lint(int argc, char** argv) {
+ExitCode run_lint(int argc, char** argv) {
   LintJob job;
-  if (!read_options(job, argc, argv)) return;
+  if (!read_options(job, argc, argv)) return kExitOk;
   const bool is_film = !ods::names_eye(job.path) && std::filesystem::exists(job.path) && ods::is_video(job.path);
   if (!is_film && job.every > 0) throw UsageError(fmt::format("--every is for videos, and '{}' is not one", job.path));
   ods::LintReport report;
@@ -97,11 +96,11 @@ void run_lint(int argc, char** argv) {
     return finding.certainty < static_cast<double>(job.min_certainty);
   });
   job.json ? print_json(job.path, report) : print_text(job.path, report);
-  if (has_finding(report, ods::Severity::kFault, 0.0)) throw std::runtime_error("a fault was found");
+  return has_finding(report, ods::Severity::kFault, 0.0) ? kExitFault : kExitOk;
 }
 
 }  // namespace
 
 int ods_lint(int argc, char** argv) {
-  return run_command([=] { run_lint(argc, argv); });
+  return run_command([=] { return run_lint(argc, argv); });
 }

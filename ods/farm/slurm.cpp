@@ -64,10 +64,10 @@ std::string unfinished_file(const TaskGroup& group) {
 }
 
 // A line per start is in "starts", what the command makes in "files". A command line that is wrong (exit code 2) is so
-// on every machine; all else goes back into the queue, for another node if there is one, since disks fill and empty,
-// network disks show files late, and machines break; so does a task at the end of its time limit, whose next start
-// finds what it left. The third start without a file is the last, also of a task whose node dies under it or takes it
-// back.
+// on every machine, and a verdict (5) is the same on all; all else goes back into the queue, for another node if there
+// is one, since disks fill and empty, network disks show files late, and machines break; so does a task at the end of
+// its time limit, whose next start finds what it left. The third start without a file is the last, also of a task whose
+// node dies under it or takes it back.
 constexpr const char* kSlurmScript = R"sh(#!/bin/sh
 {0}
 folder={1}
@@ -126,7 +126,7 @@ if [ $late = yes ]; then
   wait "$child" || :
   code=143
 fi
-case $code in 0 | 2) end "$code" ;; esac
+case $code in 0 | 2 | 5) end "$code" ;; esac
 is_stuck || again "$code"
 [ $late = no ] ||
   echo "ods: error: the time limit was over three times before a file was made: more time (--sbatch --time=...) or less work"

@@ -143,11 +143,14 @@ TEST_F(Cli, CompareMeasuresAndJudges) {
   EXPECT_EQ(run(a + folder.path("b_%V.png") + " --max-error 0 --json"), 0) << err;
   EXPECT_NE(out.find("\"rmse\": 0.0"), std::string::npos) << out;
   for (const char* limit : {"--max-rmse 0.001", "--min-psnr 60", "--max-error 0.001"}) {
-    EXPECT_EQ(run(a + folder.path("c_SBS.png") + " " + limit), 1) << limit;
-    EXPECT_NE(err.find(limit), std::string::npos) << err;
+    EXPECT_EQ(run(a + folder.path("c_SBS.png") + " " + limit), 5) << limit;
+    EXPECT_NE(out.find(limit), std::string::npos) << out;
+    EXPECT_EQ(err, "") << "a verdict is not an error";
+    EXPECT_EQ(run(a + folder.path("c_SBS.png") + " --json " + limit), 5) << limit;
+    EXPECT_NE(out.find(limit), std::string::npos) << out;
   }
   EXPECT_EQ(run(a + folder.path("c_SBS.png") + " --diff " + folder.path("d.exr")), 0) << err;
-  EXPECT_EQ(run(a + folder.path("d.exr") + " --min-psnr 100"), 1) << err;
+  EXPECT_EQ(run(a + folder.path("d.exr") + " --min-psnr 100"), 5) << err;
   EXPECT_EQ(run(a + folder.path("b_left.png") + " --layout separate"), 3);
   EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
   EXPECT_EQ(run(a + folder.path("absent.png")), 3);
@@ -474,15 +477,16 @@ TEST_F(Cli, LintTellsByItsExitCode) {
   EXPECT_EQ(run("lint --json " + picture), 0) << err;
   EXPECT_NE(out.find(R"("check": "time between the eyes")"), std::string::npos) << out;
   const std::string swapped = "lint --layout bottom-top " + picture;
-  EXPECT_EQ(run(swapped), 1) << out;
+  EXPECT_EQ(run(swapped), 5) << out;
   EXPECT_NE(out.find("fault eyes-swapped: "), std::string::npos) << out;
-  EXPECT_EQ(run(swapped + " --json"), 1);
+  EXPECT_EQ(run(swapped + " --json"), 5);
   EXPECT_NE(out.find("\"fault\": \"eyes-swapped\""), std::string::npos) << out;
   EXPECT_EQ(run(swapped + " --min-certainty 1"), 0) << out;
   // The cure is a command that works.
   const std::string wrong = folder.path("wrong_TB.png"), cured = folder.path("cured_TB.png");
   ASSERT_EQ(run("convert " + picture + " -o " + wrong + " --right-raise 2 --right-roll -3"), 0) << err;
-  EXPECT_EQ(run("lint " + wrong), 1) << out;
+  EXPECT_EQ(run("lint " + wrong), 5) << out;
+  EXPECT_EQ(err, "") << "a verdict is not an error";
   EXPECT_NE(out.find("fault vertical-offset: "), std::string::npos) << out;
   const size_t cure = out.find("ods convert " + wrong + " -o corrected.png ") + 4;
   std::string command = out.substr(cure, out.find(".\n", cure) - cure);

@@ -90,7 +90,7 @@ TEST_F(ConvertVideoCommand, StabilizingTurnsBack) {
   ASSERT_EQ(convert(path("still_360_TB.mp4"), "left.#.png", "-q --yaw -90"), 0) << err;
   const std::string compare = "compare " + path("back.0.png") + " ";
   EXPECT_EQ(run(compare + path("left.0.png") + " --max-error 0"), 0) << err << out;
-  EXPECT_EQ(run(compare + path("as_it_was.0.png") + " --max-error 0.01"), 1) << err << out;
+  EXPECT_EQ(run(compare + path("as_it_was.0.png") + " --max-error 0.01"), 5) << err << out;
 
   EXPECT_EQ(convert(video, "a.mp4", "--stabilize " + path("broken.keys")), 3);
   expect_error("broken.keys");

@@ -87,6 +87,7 @@ TEST_F(SlurmStarts, WhatMayGetBetterIsTriedElsewhere) {
                                                                {2, "one 2"},
                                                                {3, "one two two 3"},
                                                                {4, "one two two 4"},
+                                                               {5, "one 5"},
                                                                {139, "one two two 139"}}) {
     program("ods", fmt::format("exit {}\n", code));
     EXPECT_EQ(run("frames-1.sbatch"), starts);
