@@ -24,6 +24,11 @@ extern "C" {
 #include <libavutil/opt.h>
 }
 
+// libnuma, which x265 asks to keep its threads near their memory, prints where it cannot: without /sys, in many
+// containers. A program may define these two (numa(3)); a library of ours prints nothing.
+extern "C" void numa_error(char*) {}
+extern "C" void numa_warn(int, char*, ...) {}
+
 namespace ods {
 
 using av::checked, av::made, av::Owned;
@@ -160,13 +165,22 @@ static bool is_large(const AVCodecContext& context) {
   return static_cast<int64_t>(context.width) * context.height > 6'000'000;
 }
 
+static int processors_for(const EncodeOptions& options) {
+  return options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+// The threads of x265's pool. With fewer than four its lookahead searches in another way, so the output differs; more
+// than 64 become several pools. Unless it is told their number, it asks libnuma, which counts no processors where there
+// is no /sys, and then x265 does without a pool, which is another output again.
+static int x265_pool(const EncodeOptions& options) {
+  return std::clamp(processors_for(options), 4, 64);
+}
+
 // The output must not depend on the number of threads. x264's depends on its thread count, so that is fixed; x265's on
 // the number of frames in flight; with a bit rate it differs from run to run if there are several. libvpx's and
 // libaom's differ between one thread and several. SVT-AV1's and ProRes's do not depend on it.
 static void set_threads(AVCodecContext& context, const EncoderFacts& facts, const EncodeOptions& options) {
   const int x264_threads = is_large(context) ? 6 : 12;
-  const auto processors = static_cast<int>(std::thread::hardware_concurrency());
-  const int wanted = options.threads > 0 ? options.threads : std::max(1, processors);
   context.thread_count = options.threads;
   if (facts.name == "libx264") context.thread_count = x264_threads;
   if (facts.name == "libx265") {
@@ -174,7 +188,9 @@ static void set_threads(AVCodecContext& context, const EncoderFacts& facts, cons
     const int rows = (context.height + kBlock - 1) / kBlock;
     context.thread_count = options.bitrate ? 1 : std::clamp((rows + 1) / 2, 1, kFrames);
   }
-  if (facts.name == "libaom-av1" || facts.name == "libvpx-vp9") context.thread_count = std::clamp(wanted, 2, 64);
+  if (facts.name == "libaom-av1" || facts.name == "libvpx-vp9") {
+    context.thread_count = std::clamp(processors_for(options), 2, 64);
+  }
 }
 
 // What HDR pictures say of their light, in the stream's own messages too: as x264, x265 and SVT-AV1 want to be told.
@@ -246,11 +262,10 @@ static void set_own_words(AVCodecContext& context, const EncoderFacts& facts, co
   }
   if (name == "libsvtav1" && !light.empty()) set(context, "svtav1-params", light.substr(1));
   if (name == "libx264" && options.preset.empty() && is_large(context)) set(context, "rc-lookahead", "20");
-  if (name == "libx265") {                                   // logs to the console on its own
-    std::string words = "log-level=none:open-gop=0:info=0";  // its info SEI would contain the thread count
-    if (options.threads > 0) words += fmt::format(":pools={}", options.threads);
-    words += fmt::format(":ctu={}", largest_block(context)) + light;
-    set(context, "x265-params", words);
+  if (name == "libx265") {                                          // logs to the console on its own
+    const char* const kQuiet = "log-level=none:open-gop=0:info=0";  // its info SEI would contain the thread count
+    set(context, "x265-params",
+        fmt::format("{}:pools={}:ctu={}{}", kQuiet, x265_pool(options), largest_block(context), light));
   }
   if (name == "libaom-av1" || name == "libvpx-vp9") set(context, "row-mt", "1");
   if (name == "libvpx-vp9") {
