@@ -9,10 +9,12 @@
 #endif
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <new>
 #include <vector>
 
+#include "ods/render/cpu/exact_hit.h"
 #include "ods/scene/placement.h"
 
 // All differences between Embree 3 and 4.
@@ -85,8 +87,9 @@ struct RayContext {
   PathTracer* tracer;
   int ray;
   uint still;
-  uint index;  // of the first ray's sample
-  int clear;   // surfaces of clear glass that a shadow ray met
+  uint index;       // of the first ray's sample
+  int clear;        // surfaces of clear glass that a shadow ray met
+  ExactRays exact;  // if the scene is portable
 };
 
 }  // namespace
@@ -99,7 +102,7 @@ struct EmbreeScene::Handles {
   RTCScene top = nullptr;
   RTCScene still = nullptr;      // null if nothing moves
   uint still_id = 0;             // in the top scene
-  bool portable = false;         // Scene::portable
+  bool portable = false;         // Scene::portable: what a ray meets is decided by ods/render/cpu/exact_hit.h
   bool coherent = true;          // trace packets of rays as one; Embree 3.13 may never return where there are instances
   std::vector<RTCScene> shared;  // by mesh; null if the mesh is copied
   std::vector<char> moves;       // by instance
@@ -122,7 +125,7 @@ static int instance_of(uint geometry, uint instance, uint still) {
 }
 
 // Embree calls this for the candidate hits of one or several rays on a surface with alpha, or that some rays do not
-// meet, or of shadow rays on one that may be clear glass.
+// meet, or of shadow rays on one that may be clear glass; and for all if the scene is portable.
 template <bool kShadow>
 static void filter(const RTCFilterFunctionNArguments* arguments) {
   auto* context = reinterpret_cast<RayContext*>(arguments->context);
@@ -137,13 +140,22 @@ static void filter(const RTCFilterFunctionNArguments* arguments) {
     hit.v = RTCHitN_v(arguments->hit, count, i);
     hit.instance = instance_of(geometry, instance, context->still);
     hit.triangle = static_cast<int>(RTCHitN_primID(arguments->hit, count, i));
-    context->tracer->path.index = context->index + RTCRayN_id(arguments->ray, count, i);
-    if (context->tracer->is_absent(context->ray, hit.instance) ||
-        context->tracer->passes(hit, context->tracer->alpha_draw(context->ray, hit))) {
+    const uint id = RTCRayN_id(arguments->ray, count, i);
+    context->tracer->path.index = context->index + id;
+    const bool is_portable = context->exact.rays != nullptr;
+    const double t = is_portable ? context->exact.distance(*context->tracer, id, hit) : 0.0;
+    if (t < 0.0) {
+      arguments->valid[i] = 0;
+    } else if (context->tracer->is_absent(context->ray, hit.instance) ||
+               context->tracer->passes(hit, context->tracer->alpha_draw(context->ray, hit))) {
       arguments->valid[i] = 0;
     } else if (kShadow && context->ray == kShadowRay && context->tracer->is_clear(hit, true)) {
       arguments->valid[i] = 0;
       context->clear++;
+    } else if (!kShadow && is_portable) {
+      context->exact.keep(id, t, hit);
+      RTCRayN_tfar(arguments->ray, count, i) =
+          static_cast<float>(t) * kCandidates;  // Embree asks for those up to there
     }
   }
 }
@@ -190,8 +202,10 @@ static RTCGeometry make_geometry(RTCDevice device, const Scene& scene, const Mes
   }
   const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
   const bool may_pass = material.alpha_mode != kAlphaOpaque || absences;
-  if (may_pass) rtcSetGeometryIntersectFilterFunction(geometry, filter<false>);
-  if (may_pass || material.transmission > 0.0f) rtcSetGeometryOccludedFilterFunction(geometry, filter<true>);
+  if (may_pass || scene.portable) rtcSetGeometryIntersectFilterFunction(geometry, filter<false>);
+  if (may_pass || scene.portable || material.transmission > 0.0f) {
+    rtcSetGeometryOccludedFilterFunction(geometry, filter<true>);
+  }
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
   rtcCommitGeometry(geometry);
   return geometry;
@@ -351,23 +365,8 @@ static RayContext make_context(PathTracer& tracer, int ray, uint still) {
   context.still = still;
   context.index = tracer.path.index;
   context.clear = 0;
+  context.exact = {};
   return context;
-}
-
-// Computes anew where a ray meets the triangle that Embree has found. Embree divides by the processor's approximate
-// reciprocals, whose last bits are each maker's own. Source: Moeller and Trumbore, "Fast, Minimum Storage Ray-Triangle
-// Intersection" (1997).
-static void place_exactly(PathTracer& tracer, const Ray& ray, Hit& hit) {
-  if (hit.t < 0.0f) return;
-  const auto triangle = tracer.triangle_of(tracer.instance_now(hit.instance), tracer.corners_of(hit));
-  const glm::dvec3 ab(triangle.ab), ac(triangle.ac), direction(ray.direction);
-  const glm::dvec3 from = glm::dvec3(ray.origin) - glm::dvec3(triangle.a);
-  const glm::dvec3 p = glm::cross(direction, ac), q = glm::cross(from, ab);
-  const double determinant = glm::dot(ab, p);
-  if (determinant == 0.0) return;
-  hit.t = static_cast<float>(std::max(0.0, glm::dot(ac, q) / determinant));
-  hit.u = static_cast<float>(std::clamp(glm::dot(from, p) / determinant, 0.0, 1.0));
-  hit.v = static_cast<float>(std::clamp(glm::dot(direction, q) / determinant, 0.0, 1.0 - double{hit.u}));
 }
 
 Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, int kind) const {
@@ -376,7 +375,10 @@ Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, int kind) const
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   RayContext context = make_context(tracer, kind, handles_->still_id);
+  NearestHit nearest;
+  if (handles_->portable) context.exact = {&ray, &tracer.ray_time, nullptr, &nearest};
   intersect(handles_->top, context.embree, found);
+  if (handles_->portable) return nearest.hit;
   Hit hit;
   const bool missed = found.hit.geomID == RTC_INVALID_GEOMETRY_ID;
   hit.t = missed ? -1.0f : found.ray.tfar;
@@ -384,14 +386,14 @@ Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, int kind) const
   hit.v = missed ? 0.0f : found.hit.v;
   hit.instance = missed ? -1 : instance_of(found.hit.geomID, found.hit.instID[0], handles_->still_id);
   hit.triangle = missed ? -1 : static_cast<int>(found.hit.primID);
-  if (handles_->portable) place_exactly(tracer, ray, hit);
   return hit;
 }
 
 bool EmbreeScene::occluded(PathTracer& tracer, const Ray& ray, float length, int kind, int* clear) const {
   RTCRay shadow;
-  set_ray(shadow, ray, length, tracer.ray_time);
+  set_ray(shadow, ray, handles_->portable ? length * kCandidates : length, tracer.ray_time);
   RayContext context = make_context(tracer, kind, handles_->still_id);
+  if (handles_->portable) context.exact = {&ray, &tracer.ray_time, &length};
   occlude(handles_->top, context.embree, shadow);
   if (clear) *clear = context.clear;
   return shadow.tfar < 0.0f;
@@ -454,6 +456,8 @@ void EmbreeScene::closest_hits(PathTracer& tracer, const RayPacket& packet, Hit*
     found.hit.geomID[i] = found.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   RayContext context = packet_context(tracer, packet, handles_->still_id);
+  NearestHit nearest[RayPacket::kMost];
+  if (handles_->portable) context.exact = {packet.rays, packet.times, nullptr, nearest};
   intersect16(valid, handles_->top, context.embree, handles_->coherent, found);
   for (int i = 0; i < packet.count; i++) {
     const bool missed = found.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID;
@@ -462,9 +466,7 @@ void EmbreeScene::closest_hits(PathTracer& tracer, const RayPacket& packet, Hit*
     hits[i].v = missed ? 0.0f : found.hit.v[i];
     hits[i].instance = missed ? -1 : instance_of(found.hit.geomID[i], found.hit.instID[0][i], handles_->still_id);
     hits[i].triangle = missed ? -1 : static_cast<int>(found.hit.primID[i]);
-    if (!handles_->portable) continue;
-    tracer.ray_time = packet.times[i];
-    place_exactly(tracer, packet.rays[i], hits[i]);
+    if (handles_->portable) hits[i] = nearest[i].hit;
   }
 }
 
@@ -481,6 +483,10 @@ void EmbreeScene::occluded(PathTracer& tracer, const RayPacket& packet, bool* hi
   set_rays(shadows, packet);
   for (int i = 0; i < packet.count; i++) valid[i] = packet.lengths[i] > 0.0f ? -1 : 0;
   RayContext context = packet_context(tracer, packet, handles_->still_id);
+  if (handles_->portable) {
+    context.exact = {packet.rays, packet.times, packet.lengths};
+    for (float& farthest : shadows.tfar) farthest *= kCandidates;
+  }
   occlude16(valid, handles_->top, context.embree, shadows);
   for (int i = 0; i < packet.count; i++) hidden[i] = valid[i] == 0 || shadows.tfar[i] < 0.0f;
 }
