@@ -72,10 +72,10 @@ class Outside : public Served {
 
   void write_triangle(const std::string& name) const { folder.write(name, "v -1 0 -2\nv 1 0 -2\nv 1 2 -2\nf 1 2 3\n"); }
 
-  // Whether it holds within ten seconds.
+  // Waits until it holds, up to a minute; tells whether it does.
   template <class Condition>
   bool soon(const Condition& holds) const {
-    for (int i = 0; i < 200 && !holds(); i++) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    for (int i = 0; i < 1200 && !holds(); i++) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     return holds();
   }
 

@@ -86,7 +86,8 @@ class Ranges : public Outside, public ::testing::WithParamInterface<Case> {
 
 TEST_P(Ranges, OfEveryNumber) {
   const std::string help = run_line("'" + ods_command() + "' " + GetParam().command + " --help").out;
-  const std::regex option("\n  (?:-[a-z],)?(--[a-z-]+) [NX][ \n]"), range("is a (whole )?number from ([^ ]+) to ([^,]+),");
+  const std::regex option("\n  (?:-[a-z],)?(--[a-z-]+) [NX][ \n]"),
+      range("is a (whole )?number from ([^ ]+) to ([^,]+),");
   int count = 0;
   for (std::sregex_iterator each(help.begin(), help.end(), option), end; each != end; ++each, ++count) {
     const std::string name = (*each)[1];
