@@ -44,6 +44,10 @@ constexpr Case kCases[] = {
     {"testcard", "-o x.png --width 64"},
 };
 
+std::string help_of(const std::string& command) {
+  return run_line("'" + ods_command() + "' " + command + " --help").out;
+}
+
 class Ranges : public Outside, public ::testing::WithParamInterface<Case> {
  protected:
   void SetUp() override {
@@ -51,7 +55,16 @@ class Ranges : public Outside, public ::testing::WithParamInterface<Case> {
     make_picture("in_360_TB.png", "--width 16"), make_picture("in.exr", "--width 16 --statistics");
   }
 
-  // A line of the command with this option in it, once. It has four gigabytes and two seconds.
+  // Commands share options: those before this one in the table have tried the ends of its range.
+  bool was_tried(const std::string& option) const {
+    for (const Case& each : kCases) {
+      if (each.command == std::string_view(GetParam().command)) return false;
+      if (std::regex_search(help_of(each.command), std::regex("[ ,]" + option + " [NX][ \n]"))) return true;
+    }
+    return false;
+  }
+
+  // A line of the command with this option in it, once. It has four gigabytes and a second.
   Ran run_with(const std::string& option, const std::string& value) {
     std::vector<std::string> words = {option, "'" + value + "'"};
     std::istringstream all(GetParam().words);
@@ -59,7 +72,7 @@ class Ranges : public Outside, public ::testing::WithParamInterface<Case> {
       if (word == option && all >> word) continue;
       words.push_back("'" + word + "'");
     }
-    std::string line = fmt::format("{} timeout -k 10 2 '{}' {}", kSanitized ? "" : "ulimit -v 4000000;", ods_command(),
+    std::string line = fmt::format("{} timeout -k 10 1 '{}' {}", kSanitized ? "" : "ulimit -v 4000000;", ods_command(),
                                    GetParam().command);
     for (const std::string& word : words) line += " " + word;
     const Ran ran = shell(line + " >/dev/null");
@@ -85,7 +98,7 @@ class Ranges : public Outside, public ::testing::WithParamInterface<Case> {
 };
 
 TEST_P(Ranges, OfEveryNumber) {
-  const std::string help = run_line("'" + ods_command() + "' " + GetParam().command + " --help").out;
+  const std::string help = help_of(GetParam().command);
   const std::regex option("\n  (?:-[a-z],)?(--[a-z-]+) [NX][ \n]"),
       range("is a (whole )?number from ([^ ]+) to ([^,]+),");
   int count = 0;
@@ -98,7 +111,7 @@ TEST_P(Ranges, OfEveryNumber) {
     const double low = std::stod(found[2]), high = std::stod(found[3]), step = found[1].matched ? 1.0 : 0.001;
     expect_refused(name, fmt::format("{}", low - step * std::max(1.0, std::abs(low))));
     expect_refused(name, fmt::format("{}", high + step * std::max(1.0, std::abs(high))));
-    expect_sane(name, found[2]), expect_sane(name, found[3]);
+    if (!was_tried(name)) expect_sane(name, found[2]), expect_sane(name, found[3]);
   }
   EXPECT_GT(count, 0) << help;
 }
@@ -113,8 +126,7 @@ TEST(RangesCover, EveryCommandWithNumbers) {
   const std::string overview = run_line("'" + ods_command() + "' --help").out;
   const std::regex row("\n  ([a-z]+) +[a-z]"), number("\n  (?:-[a-z],)?--[a-z-]+ [NX][ \n]");
   for (std::sregex_iterator each(overview.begin(), overview.end(), row), end; each != end; ++each) {
-    const std::string help = run_line("'" + ods_command() + "' " + (*each)[1].str() + " --help").out;
-    EXPECT_EQ(std::regex_search(help, number), known.contains((*each)[1])) << (*each)[1];
+    EXPECT_EQ(std::regex_search(help_of((*each)[1]), number), known.contains((*each)[1])) << (*each)[1];
   }
 }
 
