@@ -64,16 +64,16 @@ class Ranges : public Outside, public ::testing::WithParamInterface<Case> {
     return false;
   }
 
-  // A line of the command with this option in it, once. It has four gigabytes and a second.
-  Ran run_with(const std::string& option, const std::string& value) {
+  // A line of the command with this option in it, once. It has four gigabytes, and so many seconds.
+  Ran run_with(const std::string& option, const std::string& value, int seconds = 60) {
     std::vector<std::string> words = {option, "'" + value + "'"};
     std::istringstream all(GetParam().words);
     for (std::string word; all >> word;) {
       if (word == option && all >> word) continue;
       words.push_back("'" + word + "'");
     }
-    std::string line = fmt::format("{} timeout -k 10 1 '{}' {}", kSanitized ? "" : "ulimit -v 4000000;", ods_command(),
-                                   GetParam().command);
+    std::string line = fmt::format("{} timeout -k 60 {} '{}' {}", kSanitized ? "" : "ulimit -v 4000000;", seconds,
+                                   ods_command(), GetParam().command);
     for (const std::string& word : words) line += " " + word;
     const Ran ran = shell(line + " >/dev/null");
     for (const std::string& name : folder.names()) {
@@ -90,7 +90,7 @@ class Ranges : public Outside, public ::testing::WithParamInterface<Case> {
 
   // Done, refused for another reason, too much for the memory that it has, or still at work when it is terminated.
   void expect_sane(const std::string& option, const std::string& value) {
-    const Ran ran = run_with(option, value);
+    const Ran ran = run_with(option, value, 1);
     const bool lacks_memory = ran.code == 1 && ran.out.find("memory") != std::string::npos;
     EXPECT_TRUE((ran.code >= 0 && ran.code <= 5 && ran.code != 1) || lacks_memory || ran.code == 124)
         << option << " " << value << ": exit code " << ran.code << ", " << ran.out;
