@@ -94,8 +94,8 @@ void check_mount(const FarmPlan& plan, const SchedulerWishes& wishes) {
 
 constexpr const char* kKubernetesSubmit = R"sh(#!/bin/sh
 # Sends the jobs to the cluster that kubectl knows, each when the one before is complete, and waits for the last; ends
-# with 1 when one fails, with 5 when one has judged its input and found a fault. Started again it resumes: it waits for a
-# job that runs, and sends one that has ended again, whose tasks skip what is there.
+# with 1 when one fails, with 5 when one has judged its input and found a fault. Started again it resumes: it waits for
+# a job that runs, and sends one that has ended again, whose tasks skip what is there.
 set -eu
 cd "$(dirname "$0")"
 die() {
