@@ -88,6 +88,12 @@ struct StereoCamera {
 // Two maps with the same numbers are one map.
 bool same_map(const std::shared_ptr<const Image>& a, const std::shared_ptr<const Image>& b);
 
+// Points into the image.
+CameraMap camera_map(const Image& image);
+
+// Returns whether a map has one value per elevation, all the way around. An empty map has.
+bool is_same_around(const CameraMap& map);
+
 // Whether the eyes of both stand in the same places, from the circle's centre, for every line of sight. Precondition:
 // both have the same circle. Maps turn with the camera, so a camera with a map that varies around may not be turned.
 bool same_eyes(const StereoCamera& a, const StereoCamera& b);

@@ -11,17 +11,9 @@ namespace ods {
 
 // --- cameras ---------------------------------------------------------------------------------------------------------
 
-// Whether a merge map has the same value in all directions of an elevation.
-static bool is_round(const CameraMap& map) {
-  for (int i = 0; i < map.width * map.height; i++) {
-    if (map.texels[i] != map.texels[i / map.width * map.width]) return false;
-  }
-  return true;
-}
-
 static bool is_symmetric(const Camera& camera) {
   const bool upright = camera.axis == vec3(0.0f, 1.0f, 0.0f) && camera.up == vec3(0.0f, 1.0f, 0.0f);
-  return upright && camera.projection.kind == kLatLong && !has_head_tilt(camera) && is_round(camera.merge_map);
+  return upright && camera.projection.kind == kLatLong && !has_head_tilt(camera) && is_same_around(camera.merge_map);
 }
 
 static float density(const Projection& projection, Extent size) {

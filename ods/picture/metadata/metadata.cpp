@@ -27,16 +27,13 @@ static std::string attribute_of(const CameraFieldRow& row, size_t i) {
                                       : std::string(row.attribute);
 }
 
-// A map that is the same all around, as a merge by depth is, is a curve: "4x180:" and a number per row, from the top.
-// Empty: it is not.
+// A map that is the same all around, such as a merge by depth, is a curve: "4x180:" and a number per row, from the top.
+// Empty for other maps.
 static std::string text_of_curve(const Image& map) {
+  if (map.height > kMostCurveRows || !is_same_around(camera_map(map))) return "";
   std::string text = fmt::format("{}x{}:", map.width, map.height);
-  for (int y = 0; y < map.height; y++) {
-    const float* row = map.at(0, y);
-    if (!std::all_of(row, row + map.width, [&](float value) { return value == *row; })) return "";
-    text += fmt::format(" {}", decimal(*row));
-  }
-  return map.height <= kMostCurveRows ? text : "";
+  for (int y = 0; y < map.height; y++) text += fmt::format(" {}", decimal(*map.at(0, y)));
+  return text;
 }
 
 // Nothing: that is no curve.
