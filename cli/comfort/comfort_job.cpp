@@ -28,7 +28,7 @@ constexpr const char* kComfortExamples =
 constexpr const char* kComfortSummary =
     "Judges how a stereo 360 picture strains its viewer's eyes: by its depth layer, or, if it has none, by matching\n"
     "its eyes. Judges a scene before it is rendered, too. Lists what strains most, where it is, and what would help.\n"
-    "docs/comfort.md explains the strains and their limits. Exit code 1: something is an error; cautions and warnings\n"
+    "docs/comfort.md explains the strains and their limits. Exit code 5: something is an error; cautions and warnings\n"
     "do not count.";
 
 // Where the lenses of headsets focus.
@@ -107,7 +107,7 @@ bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
       "where the headset's lenses focus: metres, quest-2 (1.3), quest-3 (1.3, provisional), rift (2), infinity");
   options.custom(
       "--viewer-ipd", "METRES", "0.065", [&](const std::string& word) { viewer.ipd = parse_viewer_ipd(word); },
-      "distance between the viewer's pupils: 0.05, or 50mm, of a child to 0.075 of a man");
+      "the viewer's pupil distance, e.g. 0.05 (child) to 0.075 (large adult); 50mm also works");
   options.number("--gaze", viewer.gaze_degrees, 1.0f, 45.0f, "degrees that the eyes turn before the head does");
   options.number("--head-roll", viewer.roll_degrees, 0.0f, 45.0f,
                  "degrees that the line through the ears may be out of level");
@@ -119,7 +119,7 @@ bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
   options.text("--heat", ValueKind::output_file(), job.heat,
                "save the picture with what strains in yellow, orange, red");
   options.text("--html", ValueKind::output_file(), job.html,
-               "save the report as one page with pictures and, of a video, curves");
+               "save the report as one page with pictures and, for a video, curves");
   options.number("--width", job.width, 64, 8192, "width of the pictures of a scene that are judged");
   options.flag("--json", job.json, "print JSON");
   add_input_layout_option(options, job.format.layout, "layout of a picture's eyes, if it is not detected");

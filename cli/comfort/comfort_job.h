@@ -20,8 +20,8 @@ struct ComfortJob {
   ods::ComfortOptions comfort;
   ods::FormatHint format;  // of a picture or a video
   int width = 1024;        // of the pictures of a scene that are judged
-  std::string heat;        // where to save the levels as a picture; empty: nowhere
-  std::string html;        // likewise the report as a page
+  std::string heat;        // file for the levels as a picture; empty: none
+  std::string html;        // file for the report as a page; empty: none
   bool json = false;
   ProgressMode progress = ProgressMode::kAuto;  // of a video
 };

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/comfort/first_look.h"
 #include "cli/console/console.h"
 #include "cli/options/eye_options.h"
 #include "cli/options/picture_options.h"
@@ -13,6 +12,7 @@
 #include "ods/scene/motion.h"
 #include "ods/scene/sheet_glass.h"
 #include "ods/sequence/looks.h"
+#include "ods/stage/judge_scene.h"
 #include "ods/stage/place.h"
 
 namespace {
@@ -114,8 +114,8 @@ void warn_of_strain(const RenderJob& job, ods::FrameRenderer& renderer, const st
   if (samples < kLongSamples || job.part || ods::eye_list(job.render.eyes).size() < 2) return;
   for (const size_t i : ods::looks_at(all, ods::kLooks)) {
     const ods::Shot shot = renderer.set(all[i]);
-    const std::string line =
-        strain_line(renderer.renderer(), renderer.scene(), shot.camera(), ods::ComfortLevel::kError);
+    const ods::JudgedPicture judged = ods::judge_scene(renderer.renderer(), renderer.scene(), shot.camera());
+    const std::string line = ods::strain_line(judged.verdict, ods::ComfortLevel::kError);
     if (line.empty()) continue;
     return warn(line + (job.camera.merge_limit ? "" : ", or --merge auto or a smaller --ipd") +
                 "; ods comfort has more");

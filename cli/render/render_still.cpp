@@ -7,7 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "cli/comfort/first_look.h"
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
 #include "cli/render/library_options.h"
@@ -15,6 +14,7 @@
 #include "ods/picture/cryptomatte.h"
 #include "ods/render/part_file.h"
 #include "ods/render/render_target.h"
+#include "ods/scene/things.h"
 
 namespace {
 
@@ -27,7 +27,7 @@ const char* stopping_words() {
 std::optional<ods::ObjectLayer> objects_of(const RenderJob& job, const ods::FrameRenderer& renderer,
                                            const ods::StereoCamera& camera, const ods::RenderOptions& options) {
   if (!job.object_layer) return {};
-  const Things things = things_of(renderer.scene());
+  const ods::Things things = ods::things_of(renderer.scene());
   std::vector<float> numbers;
   for (const std::string& name : things.names) numbers.push_back(name.empty() ? 0.0f : ods::matte_number(name));
   ods::ObjectLayer layer{{}, things.names};

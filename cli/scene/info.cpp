@@ -4,11 +4,11 @@
 // ods info: shows what is in a scene, as text or JSON.
 #include "ods/scene/info.h"
 
-#include "cli/comfort/first_look.h"
 #include "cli/console/console.h"
 #include "cli/options/camera_options.h"
 #include "cli/options/scene_source.h"
 #include "cli/scene/info_report.h"
+#include "ods/stage/judge_scene.h"
 #include "ods/stage/light/supply.h"
 
 using ods::SceneInfo, ods::vec3;
@@ -44,8 +44,8 @@ void info(int argc, char** argv) {
   const vec3 position = place_camera(camera, scene).position;
   SceneInfo info = describe(scene, position);
   if (info.nearest_surface >= 0.0f) {
-    found.strain =
-        strain_line(ods::CpuRenderer(scene), scene, place_camera(camera, scene), ods::ComfortLevel::kWarning);
+    const ods::JudgedPicture judged = ods::judge_scene(ods::CpuRenderer(scene), scene, place_camera(camera, scene));
+    found.strain = ods::strain_line(judged.verdict, ods::ComfortLevel::kWarning);
   }
   info.has_environment |= wishes.given.radiance != vec3(0.0f);
   found.advice = with_options(found.advice), found.settled.unit_reason = with_options(found.settled.unit_reason);

@@ -13,7 +13,7 @@
 #include "cli/slits/rig_report.h"
 #include "cli/slits/rig_scripts.h"
 #include "ods/render/cpu/render.h"
-#include "ods/stage/comfortable_merge.h"
+#include "ods/stage/judge_scene.h"
 #include "ods/stitch/slit_error.h"
 
 namespace {

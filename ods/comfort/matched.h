@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "ods/comfort/comfort.h"
+#include "ods/comfort/verdict.h"
 #include "ods/disparity/gray_view.h"
 
 namespace ods {
@@ -21,22 +21,18 @@ void check_matchable(const ProjectionSetting& projection, int width, const std::
 // Both eyes as small views that are as high as each other.
 struct AlignedEyes {
   std::vector<GrayView> views;
-  double apart = 0.0;            // as MatchedEyes::apart
+  double apart = 0.0;            // as MatchQuality::apart
   bool are_one_picture = false;  // enough of one eye is in the other
 };
 AlignedEyes align_eyes(const std::vector<Image>& eyes, const ProjectionSetting& projection, bool is_float,
                        int width = kMatchedWidth);
 
-inline constexpr double kLeastMatched = 0.02;  // MatchedEyes::share: with less, nothing is judged
+inline constexpr double kMinMatched = 0.02;  // MatchQuality::share: with less, nothing is judged
 
-struct MatchedEyes {
+// What holds one eye higher than the other, MatchQuality::apart, is taken out before the eyes are matched.
+struct MatchedEyes : MatchQuality {
   std::vector<SeenDepth> seen;  // of the left and the right eye: lat-long; unknown where nothing could be matched
   std::vector<Image> grey;      // the views
-  double share = 0.0;           // of what the picture shows, by solid angle: matched
-  double precision = 0.0;       // of parallax, minutes of arc
-  // How much higher one eye sees what is within 30 degrees of the horizon, at most, minutes of arc: a raise, pitch,
-  // roll or zoom of one eye's picture. It is taken out before the eyes are matched.
-  double apart = 0.0;
 };
 
 // eyes: left and right, as grey_eyes() returns them. The camera says how they were seen; where the picture does not

@@ -125,10 +125,10 @@ std::vector<float> comfortable_shares(const SeenDepth& seen, const Viewer& viewe
 }
 
 std::vector<SeenDepth> seen_by_eyes(const StoredPicture& picture) {
-  constexpr int kMostWidth = 2048;
+  constexpr int kMaxWidth = 2048;
   std::vector<SeenDepth> eyes;
   for (size_t i = 0; i < picture.eyes.size(); i++) {
-    Image depth = nearest_of_blocks(depth_of_eye(picture, i), kMostWidth);
+    Image depth = nearest_of_blocks(depth_of_eye(picture, i), kMaxWidth);
     eyes.push_back({picture.camera, picture.eyes[i].eye, std::move(depth), {}, {}});
   }
   return eyes;

@@ -17,7 +17,7 @@ struct ViewerMotion {
   int places = 0;            // that agree
 };
 
-inline constexpr int kLeastPlaces = 20;  // fewer tell nothing
+inline constexpr int kMinPlaces = 20;  // of ViewerMotion::places; with fewer, the motion is unknown
 
 // Two views of one eye and the distances that the first shows (1 channel, lat-long, of any width; NaN: unknown).
 // Without enough places it is all 0.

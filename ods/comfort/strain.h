@@ -21,6 +21,7 @@
 #pragma once
 #include <string_view>
 
+#include "ods/base/enum_array.h"
 #include "ods/base/names.h"
 
 namespace ods {
@@ -86,11 +87,12 @@ double looked_at(double elevation);
 inline constexpr double kFusionLimit = 25.6;                     // minutes of arc: kVertical is a warning beyond
 inline constexpr double kGoogleAhead = 0.6, kGoogleAbove = 3.5;  // metres: Google's least distances
 
-// The values from which on a strain has a level; infinite: never.
+// A value above a limit has that level; infinite: no value has.
 struct StrainLimits {
   double caution, warning, error;
 };
 StrainLimits strain_limits(Strain strain, const Viewer& viewer);
+EnumArray<Strain, StrainLimits> strain_limits(const Viewer& viewer);
 ComfortLevel level_of(double value, const StrainLimits& limits);
 
 // Where the eyes of a circle of this radius show a point, at the distance `across` from its axis, which is larger, and

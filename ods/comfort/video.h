@@ -12,7 +12,7 @@
 
 #include "ods/base/names.h"
 #include "ods/base/progress.h"
-#include "ods/comfort/comfort.h"
+#include "ods/comfort/judge_picture.h"
 #include "ods/comfort/strain.h"
 #include "ods/picture/metadata/stereo_format.h"
 
@@ -106,17 +106,15 @@ struct VideoStrain {
 };
 
 struct VideoComfort {
-  StereoCamera camera;
-  int frames = 0;        // of the video; 0: unknown
-  double seconds = 0.0;  // it lasts
-  double every = 0.0;    // seconds from one moment to the next
-  double precision = 0.0;
+  ComfortLevel level = ComfortLevel::kOk;  // the worst of the moments
+  int frames = 0;                          // of the video; 0: unknown
+  double seconds = 0.0;                    // it lasts
+  double every = 0.0;                      // seconds from one moment to the next
+  double precision = 0.0;                  // minutes of arc
   std::vector<VideoMoment> moments;
   std::vector<VideoStrain> strains;  // worst first, at most ten
-  // The worst moment's picture.
-  std::optional<SeenDepth> seen;
-  Image grey;
-  ComfortReport report;
+  JudgedPicture worst;               // the picture of the worst moment
+  std::vector<std::string> notes;    // for messages
 };
 
 struct VideoComfortOptions {
@@ -125,10 +123,10 @@ struct VideoComfortOptions {
   int most_moments = 90;  // of a long video
 };
 
-// Throws Error(kInput), as open_video() and VideoDecoder, and if it has one eye or nothing matches; Error(kCancelled).
+// Judges both eyes of a video's frames. Videos whose layout and projection their metadata leave open are identified by
+// their pixels. Throws Error(kInput) as identified(), open_video() and VideoDecoder, and if it has one eye or nothing
+// matches; Error(kCancelled).
 VideoComfort judge_video(const std::string& path, const VideoComfortOptions& options = {},
                          const Progress& progress = {});
-
-ComfortLevel worst_level(const VideoComfort& video);
 
 }  // namespace ods

@@ -13,8 +13,8 @@
 
 #include "ods/render/light_cache.h"
 #include "ods/render/render_target.h"
-#include "ods/stage/comfortable_merge.h"
 #include "ods/stage/exposure.h"
+#include "ods/stage/judge_scene.h"
 
 namespace ods {
 

@@ -235,7 +235,8 @@ TEST_F(CliStitch, ATiltedHeadIsRefused) {
 // From the scene when the rig is planned, or from the views' depth when they are put together.
 TEST_F(CliStitch, TheMergeFollowsDepth) {
   const auto worst = [&](const std::string& picture) {
-    EXPECT_LE(run("comfort " + picture + " --json"), 1) << err;
+    const int code = run("comfort " + picture + " --json");
+    EXPECT_TRUE(code == 0 || code == 5) << err;
     const size_t at = out.find("\"vertical\": ");
     return at == std::string::npos ? -1.0 : std::atof(out.c_str() + at + 12);
   };

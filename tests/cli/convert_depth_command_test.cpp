@@ -27,7 +27,8 @@ class ConvertDepth : public Cli {
 
   // In minutes of arc, as ods comfort measures it.
   double worst_vertical(const std::string& name) {
-    EXPECT_LE(run(in_folder("comfort @" + name + " --json")), 1) << err;
+    const int code = run(in_folder("comfort @" + name + " --json"));
+    EXPECT_TRUE(code == 0 || code == 5) << err;
     const size_t at = out.find("\"vertical\": ");
     return at == std::string::npos ? -1.0 : std::atof(out.c_str() + at + 12);
   }

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "ods/image/image_file.h"
+#include "tests/support/exr_files.h"
 #include "tests/support/programs.h"
 #include "tests/support/served.h"
 
@@ -166,13 +167,21 @@ TEST_F(ViewCommand, DividesLightAsItIsAskedTo) {
   }
 }
 
-// What ods comfort says, by matching the eyes: the card has things from 0.4 m on.
+// The verdict of ods comfort. By matching the eyes: the card has things from 0.4 m on. By depth: the right eye alone
+// sees a wall 0.3 m away.
 TEST_F(ViewCommand, JudgesThePicturesComfort) {
   const std::string near = folder.path("near_360_TB.png"), one_eye = folder.path("one_360.png");
+  for (const auto& [eye, depth] : {std::pair{"left", 20.0f}, {"right", 0.3f}}) {
+    ods::ExrForm form;
+    form.width = 64, form.height = 32;
+    form.channels = {"B", "G", "R", "Z"};
+    form.types = {Imf::FLOAT, Imf::FLOAT, Imf::FLOAT, Imf::FLOAT};
+    write_exr_of(folder.path(std::string("pair_") + eye + ".exr"), form, std::vector<float>(64 * 32 * 4, depth));
+  }
   ASSERT_EQ(run("testcard -q --width 1024 -o " + near), 0) << err;
   ASSERT_EQ(run("convert " + near + " -q --mono -o " + one_eye), 0) << err;
   Served::TearDown();
-  serve({near, one_eye});
+  serve({near, one_eye, folder.path("pair_%V.exr")});
   const std::string said = get("item/0/comfort.json");
   EXPECT_EQ(status_of(said), 200) << said;
   EXPECT_NE(said.find("\"level\":"), std::string::npos) << said;
@@ -183,6 +192,9 @@ TEST_F(ViewCommand, JudgesThePicturesComfort) {
   const std::string none = get("item/1/comfort.json");
   EXPECT_EQ(status_of(none), 400);
   EXPECT_NE(none.find("has one eye and no depth"), std::string::npos) << none;
+  const std::string pair = get("item/2/comfort.json");
+  EXPECT_NE(pair.find("\"level\":\"error\""), std::string::npos) << pair;
+  EXPECT_NE(pair.find("\"text\":\"Most: "), std::string::npos) << pair;
 }
 
 // What was a link when ods view was started is the file behind it.

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Judges a picture file: by its depth, or, if it has none, by matching its eyes.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ods/comfort/measured_eyes.h"
+#include "ods/comfort/verdict.h"
+#include "ods/picture/metadata/stereo_format.h"
+
+namespace ods {
+
+struct JudgePictureOptions {
+  ComfortOptions comfort;
+  FormatHint format;
+  bool wants_light = false;    // for JudgedPicture::light
+  std::string scratch_folder;  // as OpenOptions::scratch_folder
+};
+
+struct JudgedPicture {
+  ComfortVerdict verdict;
+  StereoCamera camera;                   // as recorded or as measured
+  std::vector<Image> light;              // the colours of each eye, for heat.h: 3 channels, linear; may be empty
+  std::optional<MeasuredEyes> measured;  // if it has depth, but its metadata do not record how its eyes were placed
+  std::string why_matched;               // although it has depth; empty: by its depth, or it has none
+  std::vector<std::string> hidden;       // of a scene: things within the viewing circle, where no ray begins
+  std::vector<std::string> notes;        // for messages
+  std::vector<std::string> warnings;
+};
+
+// Pictures whose layout and projection their metadata leave open are identified by their pixels. Throws Error(kInput)
+// as open_picture() and identified(), and if nothing in the picture shows how far things are; Error(kOutput),
+// Error(kMemory) as Scratch.
+JudgedPicture judge_picture(const std::string& path, const JudgePictureOptions& options = {});
+
+// Grey as a display shows it, 1 channel, as light of 3 channels.
+Image light_of(const Image& grey);
+
+}  // namespace ods
