@@ -103,7 +103,19 @@ static void warn_of_undrawn(const GltfFile& file, Scene& scene) {
                           counted(points, "point"), all == 1 ? " is" : "s are"));
 }
 
-static Scene read_scene(GltfFile& file, const SceneOptions& options) {
+static int chosen_scene(const GltfFile& file, const SceneOptions& options) {
+  if (options.scene_name.empty()) return options.scene;
+  std::vector<std::string> names;
+  for (const JsonValue* each : file.scenes) names.push_back(printable(*(*each)["name"].text));
+  const auto found = std::find(names.begin(), names.end(), options.scene_name);
+  if (found != names.end()) return static_cast<int>(found - names.begin());
+  throw Error(ErrorKind::kUsage, fmt::format("`scene`: '{}' has no scene '{}'{}", file.path, options.scene_name,
+                                             did_you_mean(options.scene_name, names)));
+}
+
+static Scene read_scene(GltfFile& file, const SceneOptions& given) {
+  SceneOptions options = given;
+  options.scene = chosen_scene(file, given);
   Scene scene;
   scene.name = std::filesystem::path(file.path).stem().string();
   check_extensions(file, scene);

@@ -37,6 +37,7 @@ namespace ods {
 
 struct SceneOptions {
   int scene = -1;         // index of the file's scene; -1: its default, or the first
+  std::string scene_name{};  // its name, which counts before the index; empty: none
   std::string confine{};  // the only folder that files are read from (ods/files/confined_file.h); empty: no limit
   std::string variant{};  // one of the file's material variants, by name; empty: each mesh has its default material
   std::string camera{};   // if no camera has this name, nodes that do become view points
@@ -44,7 +45,7 @@ struct SceneOptions {
 };
 
 // Throws Error(kInput), naming the file: missing, damaged, or unsupported. Throws Error(kUsage):
-// no scene with that index, no variant of that name.
+// no scene with that index or name, no variant of that name.
 Scene load_gltf(const std::string& path, const SceneOptions& options = {});
 
 // The same from memory; `path` stands for it in messages, and relative paths start from its folder.
