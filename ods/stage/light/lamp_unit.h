@@ -19,8 +19,9 @@ static_assert(has_every_member(kLampUnitTable));
 
 inline constexpr double kLumensPerWatt = 683.0;
 
-// Whether the lamps are 683 times as bright as what glows beside them: Blender wrote the file, something in it glows,
-// and a lamp is brighter than any in watts: 100 candela, or a sun of 50 lux.
+// Whether the lamps are 683 times as bright as what glows beside them: Blender wrote the file, or all lamps have round
+// numbers of watts, as after another program has compressed it; something in it glows, and a lamp is brighter than any
+// in watts: 100 candela, or a sun of 50 lux.
 bool lamps_are_in_watts(const Scene& scene);
 
 // Multiplies the intensity of all lamps, moving ones too. Leaves the scene at rest. Precondition: no clip plays.
