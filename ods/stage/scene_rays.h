@@ -20,6 +20,7 @@ namespace ods {
 struct Sight {
   float distance = std::numeric_limits<float>::infinity();  // infinite: the ray leaves the scene
   bool front = true;                                        // it meets the surface's front, as its winding defines it
+  bool two_sided = false;                                   // its material is made to be seen from both sides
   bool clear = false;                                       // the surface lets light through: glass
   vec3 normal{0.0f};                                        // of the triangle, on the side that the ray comes from
   int instance = -1;
