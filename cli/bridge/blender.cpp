@@ -115,7 +115,7 @@ std::string find_blender(const BlenderOptions& options) {
 }
 
 std::string describe(const BlenderOptions& options) {
-  return fmt::format("{} {} {}", find_blender(options), options.bake, exporter_number());
+  return fmt::format("{} {} {} {}", find_blender(options), options.bake, exporter_number(), options.scene);
 }
 
 // A distribution's Blender takes its Python from the first python3 of PATH, and its own needs the system's modules: a
@@ -158,6 +158,7 @@ static void run_script(const BlenderOptions& options, const std::vector<std::str
 void run_blender(const BlenderOptions& options, const std::string& scene, const std::string& folder) {
   std::vector<std::string> arguments = {fs::absolute(scene).native(), folder};
   if (options.bake > 0) arguments.insert(arguments.end(), {"--bake", std::to_string(options.bake)});
+  if (!options.scene.empty()) arguments.insert(arguments.end(), {"--scene", options.scene});
   run_script(options, {"--factory-startup"}, "run.py", arguments, scene);
   if (!fs::exists(fs::path(folder) / "bridge.json")) fail_in_blender(scene, "Blender ended before it was done");
 }

@@ -7,6 +7,7 @@
 
 struct BlenderOptions {
   std::string program;   // --blender; empty: as PATH finds it
+  std::string scene;     // --scene: which of a file's scenes, by name or number; empty: the active one
   int bake = 0;          // --bake: pixels of the pictures that are made of computed materials; 0: none
   float seconds = 1800;  // --blender-limit
 };

@@ -68,6 +68,14 @@ ForeignScene read_result(const std::string& folder) {
     scene.environment = found["environment"];
     if (scene.environment.ends_with(".exr")) scene.environment = folder + "/" + scene.environment;
   }
+  scene.background = found.value("background", "");
+  if (scene.background.ends_with(".exr")) scene.background = folder + "/" + scene.background;
+  scene.shutter = found.value("shutter", 0.0f);
+  scene.unit = found.value("unit", 1.0f);
+  if (found.contains("frames")) {
+    const json& frames = found["frames"];
+    scene.frames = {frames.value("first", 0), frames.value("count", 0), frames.value("saved", 0)};
+  }
   if (found.contains("fps") && found["fps"].is_number()) scene.fps = found["fps"];
   for (const json& warning : found.value("warnings", json::array())) {
     if (warning.is_string()) scene.warnings.push_back(warning);

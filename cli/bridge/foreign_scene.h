@@ -11,13 +11,24 @@
 #include "cli/bridge/blender.h"
 #include "ods/picture/metadata/sidecar.h"
 
+// The frames of a file as the program that made it counts them.
+struct FileFrames {
+  int first = 0;
+  int count = 0;  // 0: nothing moves
+  int saved = 0;  // at which the file was saved
+};
+
 // A scene as Blender or Assimp has converted it.
 struct ForeignScene {
   std::string file;                    // .glb
   std::string environment;             // as --env has it; empty: the scene has none of its own
+  std::string background;              // as --background has it; empty: the environment
   std::optional<ods::Sidecar> camera;  // of a Blender file
   bool has_stereo = false;             // the camera's eyes and merge are the file's, too
   std::optional<float> fps;
+  float shutter = 0.0f;      // angle, degrees
+  float unit = 1.0f;         // metres
+  FileFrames frames;
   bool is_blender_file = false;
   std::vector<std::string> warnings;
 };

@@ -64,6 +64,8 @@ void take_camera(CameraOptions& camera, const ForeignScene& scene) {
   camera.stereo.projection = own.projection;
   if (own.pitch != 0.0f) camera.pitch = own.pitch;
   if (own.roll != 0.0f) camera.roll = own.roll;
+  camera.stereo.lens_radius = own.lens_radius;
+  camera.stereo.focus_distance = own.focus_distance;
   if (!scene.has_stereo) return;
   camera.stereo.ipd = own.ipd;
   camera.stereo.convergence = own.convergence;

@@ -17,7 +17,7 @@
 
 struct SceneSource {
   std::string name;          // a file or a built-in scene
-  std::optional<int> scene;  // which of the file's scenes; none: its default scene
+  std::string scene;         // which of the file's scenes, by name or number; empty: its default scene
   LightOptions light;
   std::vector<std::string> catchers;
   std::string confine;  // --confine

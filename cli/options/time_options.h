@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/bridge/foreign_scene.h"
 #include "cli/console/options.h"
 #include "cli/options/camera_options.h"
 #include "ods/base/names.h"
@@ -27,6 +28,7 @@ constexpr std::string_view grain_name(Grain noise) {
 }
 
 struct TimeOptions {
+  FileFrames file;            // those of the scene's file; frame `first` is at 0 seconds
   std::optional<float> time;  // seconds
   std::string animation;      // empty: what ods::play() chooses
   std::string frames;         // empty or "all": the whole duration
@@ -60,5 +62,6 @@ void check_only(const std::string& only);
 // lie one behind the other. All of them without --only. Throws UsageError if a list names none.
 std::vector<int> own_frames(const std::string& only, const std::vector<int>& all);
 
-// The frames of the video; frame f is at f / fps seconds. Precondition: start_clock() has run. Throws ods::Error.
+// The frames of the video; frame f is at (f - file.first) / fps seconds. Precondition: start_clock() has run. Throws
+// UsageError, if the file has none of the frames that the options name, and ods::Error.
 std::vector<int> video_frames(const TimeOptions& time);

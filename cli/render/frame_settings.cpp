@@ -82,7 +82,7 @@ void add_scene(Settings& settings, const SceneSource& source) {
   } else {
     add(settings, "SCENE", name);
   }
-  add(settings, "--scene", scene ? fmt::format("{}", *scene) : "of the file");
+  add(settings, "--scene", scene.empty() ? "of the file" : scene);
   add(settings, "--variant", variant.empty() ? "of the file" : variant);
   add_flag(settings, "--solid-glass", solid_glass);
   add_flag(settings, "--portable", portable);
@@ -132,7 +132,7 @@ void add_camera(Settings& settings, const CameraOptions& camera) {
 }
 
 void add_time(Settings& settings, const TimeOptions& options) {
-  const auto& [time, animation, frames, only, fps, duration, move, shutter, own_grain, skip_existing, is_video] =
+  const auto& [file, time, animation, frames, only, fps, duration, move, shutter, own_grain, skip_existing, is_video] =
       options;
   const auto& [seconds, turns, pivot, fly_to] = move;
   add(settings, "--time", time ? fmt::format("{}", *time) : "0");

@@ -33,6 +33,7 @@ ods::SequenceOptions sequence_of(const RenderJob& job, const TimeOptions& time) 
     return ods::moved(place_camera_again(job.camera, scene), time.move, seconds);
   };
   options.fps = static_cast<double>(time.fps);
+  options.first_frame = time.file.first;
   const bool is_timed = asks_for_video(time) || time.time;
   options.shutter = is_timed ? static_cast<double>(time.shutter) : 0.0;
   options.render = job.render;

@@ -110,6 +110,8 @@ void check_rig(const Options& options, const RenderJob& job) {
 void take_foreign(RenderJob& job, const ForeignScene& scene) {
   take_camera(job.camera, scene);
   if (scene.fps) job.time.fps = *scene.fps;
+  job.time.file = scene.frames;
+  job.time.shutter = scene.shutter;
 }
 
 bool gives(const RenderJob& job, std::string_view option) {

@@ -278,7 +278,7 @@ WebAnswer Studio::set(const std::string& body) {
 std::vector<std::string> Studio::words(const std::string& maps, bool is_shown) const {
   std::vector<std::string> words = {"render", is_shown ? title() : source_.name};
   const auto add = [&](const char* option, const std::string& value) { words.insert(words.end(), {option, value}); };
-  if (source_.scene) add("--scene", fmt::format("{}", *source_.scene));
+  if (!source_.scene.empty()) add("--scene", source_.scene);
   if (!settings_.variant.empty()) add("--variant", settings_.variant);
   if (source_.solid_glass) words.emplace_back("--solid-glass");
   if (source_.portable) words.emplace_back("--portable");

@@ -23,7 +23,7 @@ std::vector<SequenceFrame> make_frames(const SequenceOptions& options, const std
   std::vector<SequenceFrame> frames;
   for (const int number : numbers) {
     const uint32_t own = hash_pair(options.render.seed, static_cast<uint32_t>(number));
-    frames.push_back({number, number / options.fps, names->path(number), changing_grain ? own : options.render.seed});
+    frames.push_back({number, (number - options.first_frame) / options.fps, names->path(number), changing_grain ? own : options.render.seed});
   }
   return frames;
 }

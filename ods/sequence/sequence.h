@@ -19,6 +19,7 @@ struct SequenceOptions {
   // The camera at a time, in seconds; the scene is as it is then. Required.
   std::function<StereoCamera(const Scene& scene, double seconds)> camera;
   double fps = 30.0;
+  int first_frame = 0;   // the number of the frame at 0 seconds
   double shutter = 0.0;  // shutter angle, degrees, centred on the frame's time: 360 is the time between two frames
   RenderOptions render;  // of a picture; height 0: what suits the camera's projection. `layers` and `statistics`:
                          // whether the files have them
@@ -34,7 +35,7 @@ struct SequenceFrame {
   uint32_t seed = 0;
 };
 
-// Frames with these numbers, named by a pattern (ods/files/frames.h); frame f is at f / fps seconds. changing_grain:
+// Frames with these numbers, named by a pattern (ods/files/frames.h); frame f is at (f - first_frame) / fps seconds. changing_grain:
 // each has noise of its own; else all have that of options.render.seed. Throws Error(kUsage): no number in the pattern.
 std::vector<SequenceFrame> make_frames(const SequenceOptions& options, const std::vector<int>& numbers,
                                        const std::string& pattern, bool changing_grain = true);

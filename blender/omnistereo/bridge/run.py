@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Omnistereo authors
 # SPDX-License-Identifier: Apache-2.0
-"""What `blender --background --python` runs: run.py -- SCENE FOLDER [--bake N]."""
+"""What `blender --background --python` runs: run.py -- SCENE FOLDER [--bake N] [--scene NAME]."""
 import os
 import sys
 import traceback
