@@ -28,8 +28,8 @@ bool shares_paths(const RenderOptions& options) {
 
 PictureSamples no_samples(const RenderOptions& options) {
   const int begin = samples_of_part(options).begin;
-  PictureSamples samples{options.width, options.height, begin, begin, 0, {}, {}};
-  samples.noisy.assign(block_count(options), 3);
+  PictureSamples samples{options.width, options.height, begin, begin, 0, {}, 0.0f, {}};
+  samples.noisy.assign(block_count(options), kBothClasses);
   const size_t pixels = static_cast<size_t>(options.width) * static_cast<size_t>(options.height);
   for (const int eye : eye_list(options.eyes)) {
     EyeSamples& sums = samples.eyes.emplace_back();

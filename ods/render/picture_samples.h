@@ -47,14 +47,17 @@ void each_plane(Eye& eye, const Function& function) {
   function("light_with", eye.light_with), function("light_without", eye.light_without);
 }
 
+inline constexpr uint8_t kBothClasses = 3;  // in PictureSamples::noisy
+
 struct PictureSamples {
   int width = 0;
   int height = 0;
-  int done = 0;                // pixels that are still noisy have all samples before this one, or their share of them
+  int done = 0;                // pixels that have always been noisy have all samples before this one, or their share
   int pass_to = 0;             // where the pass ends that has begun; `done` if none has
   int blocks_done = 0;         // in that pass
   std::vector<uint8_t> noisy;  // of each block (ods/render/sampling_plan.h): bits 0 and 1 for the classes of its pixels
                                // that are still sampled
+  float judged_at = 0.0f;      // RenderOptions::noise_exposure by which judge_noise() has found that out
   std::vector<EyeSamples> eyes;
 };
 

@@ -40,8 +40,9 @@ size_t block_at(const SamplingPlan& plan, int x, int y);
 // How many of the first `samples` samples a pixel of this block takes.
 int samples_of(const SamplingPlan& plan, size_t block, int samples);
 
-// Updates which blocks are still noisier than options.noise. Returns how many more samples the picture may need, as a
-// multiple of those it has: noise falls with the square root of their number. Precondition: options.noise > 0.
+// Updates which blocks are still noisier than options.noise; if the exposure differs from that of the last call, blocks
+// that have stopped are judged again, too. Returns how many more samples the picture may need, as a multiple of those
+// it has: noise falls with the square root of their number. Preconditions: options.noise > 0, no pass has begun.
 double judge_noise(const SamplingPlan& plan, const RenderOptions& options, PictureSamples& samples);
 
 }  // namespace ods

@@ -23,7 +23,7 @@ static_assert(std::endian::native == std::endian::little);
 namespace {
 
 constexpr std::string_view kMark = "ods unfinished\n";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 class Writer {
  public:
@@ -119,6 +119,7 @@ void each_field(Stream& stream, About& picture, Samples& samples) {
   stream.number(o.layers), stream.number(o.transparent), stream.number(o.statistics);
   stream.number(samples.width), stream.number(samples.height), stream.number(samples.done);
   stream.number(samples.pass_to), stream.number(samples.blocks_done), stream.list(samples.noisy);
+  stream.number(samples.judged_at);
   for (auto& eye : samples.eyes) {
     stream.number(eye.eye);
     each_plane(eye, [&](const char*, auto& plane) { stream.list(plane); });

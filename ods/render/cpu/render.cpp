@@ -322,7 +322,11 @@ void render_passes(const Job& job, const SamplingPlan& plan, PictureSamples& sam
                    const KeepSamples& keep) {
   Keeper keeper(keep);
   Passes passes(job.options, samples.done);
-  if (passes.can_judge()) passes.expect(judge_noise(plan, job.options, samples));
+  const auto judge = [&] {
+    if (passes.can_judge()) passes.expect(judge_noise(plan, job.options, samples));
+  };
+  const bool has_begun = samples.pass_to > samples.done;  // an interrupted pass goes to the same blocks as it began
+  if (!has_begun) judge();
   const bool stops = job.options.noise > 0.0f || job.options.time_limit > 0.0;
   while (samples.pass_to > samples.done || passes.next_step(keeper.seconds()) > 0) {
     if (samples.pass_to > samples.done) {
@@ -336,7 +340,7 @@ void render_passes(const Job& job, const SamplingPlan& plan, PictureSamples& sam
     const SampleRange whole = stops ? SampleRange{samples.done, samples.pass_to} : SampleRange{0, job.options.samples};
     render_pass(job, {plan, samples.noisy, samples.done, samples.pass_to, whole}, samples, part, keeper);
     passes.finish_step(keeper.seconds() - began);
-    if (passes.can_judge()) passes.expect(judge_noise(plan, job.options, samples));
+    judge();
   }
   if (progress.report) progress.report(1.0);
 }

@@ -56,6 +56,27 @@ TEST(Resume, GivesTheBitsOfARunWithoutInterruption) {
   }
 }
 
+// What was clean in the dark is sampled further when it is shown with more light, to the noise of a picture that was
+// judged at this exposure all the time.
+TEST(Resume, AtAnotherExposureBlocksAreJudgedAgain) {
+  const Scene scene = load_scene("toys");
+  const CpuRenderer renderer(scene);
+  const StereoCamera camera;
+  const auto sample = [&](PictureSamples& samples, float exposure) {
+    RenderOptions options = options_with(1024, 0.01f);
+    options.noise_exposure = exposure;
+    renderer.sample({&camera, 1}, options, samples);
+    return static_cast<double>(count_samples(samples));
+  };
+  PictureSamples lit = no_samples(options_with(1024, 0.01f));
+  const double wanted = sample(lit, 4.0f);
+  PictureSamples samples = no_samples(options_with(1024, 0.01f));
+  const double dark = sample(samples, -6.0f);
+  EXPECT_LT(dark, 0.8 * wanted) << "else this test shows nothing";
+  EXPECT_EQ(sample(samples, -6.0f), dark);
+  EXPECT_NEAR(sample(samples, 4.0f) / wanted, 1.0, 0.15);
+}
+
 TEST(Parts, AddUpToTheBitsOfOneRun) {
   const Scene scene = load_scene("toys");
   RenderOptions options = options_with(50, 0.0f);
