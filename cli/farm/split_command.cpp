@@ -14,8 +14,7 @@
 #include "cli/console/console.h"
 #include "cli/farm/command_words.h"
 #include "cli/options/picture_options.h"
-#include "cli/render/frame_settings.h"
-#include "cli/render/library_options.h"
+#include "cli/render/plan.h"
 #include "cli/render/render_frames.h"
 #include "cli/slits/stitch_frames.h"
 #include "cli/video/video_job.h"
@@ -27,6 +26,7 @@
 #include "ods/scene/builtin/builtin.h"
 #include "ods/scene/gltf/gltf.h"
 #include "ods/sequence/frame_renderer.h"
+#include "ods/sequence/identity.h"
 #include "ods/sequence/video_journal.h"
 
 namespace fs = std::filesystem;
@@ -90,7 +90,7 @@ size_t bytes_of_files(const SplitCommand& split) {
 // The picture, the libraries, and a scene that is decoded and has its acceleration structure. A denoised frame of a
 // video has two beside it.
 size_t memory_of(const SplitCommand& split, const RenderJob& job) {
-  const size_t picture = ods::picture_bytes(options_to_finish(job));
+  const size_t picture = ods::picture_bytes(plan(job).sampled);
   const size_t pictures = job.time.is_video ? 3 : 1;
   return (size_t{512} << 20) + pictures * picture + picture / 2 + 8 * bytes_of_files(split);
 }
@@ -137,7 +137,7 @@ Split split_video(const Words& words) {
     if (!job.render.has_layout) job.render.save.layout = rig.layout;
     const ods::VideoPlan plan = expect_video(job.render.save.layout, rig.eyes.size(), rig.eye, rig.camera.projection);
     encode_options(job.video, plan.size, 0);
-    settings = stitch_settings(job.rig, given.front().value, job.render.save);
+    settings = stitch_identity(job.rig, given.front().value, job.render.save.layout);
     if (job.render.time.frames.empty()) throw UsageError("--rig needs --frames: the numbers of the views' folders");
     frames = ods::parse_frames(job.render.time.frames);
   } else {
@@ -145,12 +145,12 @@ Split split_video(const Words& words) {
         expect_video(job.render.save.layout, ods::eye_list(job.render.render.eyes).size(),
                      {job.render.render.width, job.render.render.height}, job.render.camera.stereo.projection);
     encode_options(job.video, plan.size, 0);
-    settings = frame_settings(job.render);
+    settings = frame_identity(identified(job.render));
     frames = frames_of(job.render);
   }
   split.memory = memory_of(split, job.render);
   split.restart = job.restart;
-  split.halo = !has_rig && draws_on_neighbours(job.render) ? 1 : 0;
+  split.halo = !has_rig && plan(job.render).sequence.draws_on_neighbours ? 1 : 0;
   count(split, "frame", frames);
   split.prepare = [output = split.output, settings, frames, restart = job.restart] {
     ods::VideoJournal(output, settings, restart, ods::JournalUse::kShared).plan(frames, frames);
@@ -160,7 +160,7 @@ Split split_video(const Words& words) {
   if (split.halo > 0) {
     split.raw = split_group(split, kRawGroup, command_words("video", given, {"--raw"}), "--only",
                             pattern + std::string(ods::kRawEnd));
-    split.disk = frames.size() * ods::samples_bytes(options_to_finish(job.render));
+    split.disk = frames.size() * ods::samples_bytes(plan(job.render).sampled);
   }
   split.groups = {split_group(split, "frames", command_words("video", given), "--only", pattern),
                   {"video", command_words("video", given, kLate), ""}};
@@ -182,17 +182,19 @@ void check_parts(const RenderJob& first, const ods::FrameNames& names) {
   const fs::path folder = fs::path(names.before).parent_path();
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) return;
+  const ods::SequenceOptions of_first = identified(first);
   for (const int number : ods::frames_on_disk(names)) {
     const ods::Settings then = ods::read_part_header(names.path(number)).settings;
-    ods::Settings now = sample_settings(first);
-    now.back().value = fmt::format("{}/{}", number, first.part->count);
+    ods::SequenceOptions part = of_first;
+    part.render.part.number = number;
+    const ods::Settings now = sample_identity(part, double{first.time.time.value_or(0.0f)});
     expect_same_settings(names.path(number), then, now, "`restart` discards the parts and starts over");
   }
 }
 
 // docs/farm.md says where the numbers come from.
 size_t merge_memory(const RenderJob& job) {
-  const bool denoised = denoiser_of(job) != ods::Denoiser::kNone;
+  const bool denoised = plan(job).sequence.finish.denoiser != ods::Denoiser::kNone;
   const size_t of_pixel = denoised ? 84 : ods::keeps_layers(job.output) ? 40 : 12;
   const size_t pixels = static_cast<size_t>(job.render.width) * static_cast<size_t>(job.render.height);
   const size_t parts = std::min(static_cast<size_t>(job.parts), size_t{200});
@@ -228,7 +230,7 @@ void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const
   Words merge = kLate;
   if (!job.keep_parts) merge.push_back("--remove-parts");
   split.memory = memory_of(split, checked);
-  split.disk = static_cast<size_t>(job.parts) * ods::samples_bytes(options_to_finish(checked));
+  split.disk = static_cast<size_t>(job.parts) * ods::samples_bytes(plan(checked).sampled);
   split.groups = {split_group(split, "parts", render, "--part", pattern),
                   {"merge", command_words("merge", of_merge, merge), "", 1, merge_memory(job)}};
 }

@@ -3,6 +3,7 @@
 //
 // Says which frames of other processes are waited for (ods/sequence/shared_frames.h). noun: "frame", or what they are.
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,5 +11,5 @@
 
 ods::OnWaiting say_waiting(const std::string& noun);
 
-// As ods::wait_for_frames().
-void wait_for_frames(const std::vector<ods::SharedFrame>& frames, const std::string& noun, float seconds);
+// Says how many files are waited for, for ods::wait_for_frames().
+std::function<void(size_t missing)> say_late(const std::string& noun, float seconds);

@@ -11,27 +11,10 @@
 #include "cli/options/field_option.h"
 #include "cli/options/projection_options.h"
 #include "ods/base/error.h"
-#include "ods/base/suggest.h"
 #include "ods/picture/metadata/stereo_format.h"
-#include "ods/scene/motion.h"
 #include "ods/stage/place.h"
 
 using ods::CameraField, ods::StereoCamera, ods::Scene, ods::vec3, ods::ViewPoint;
-
-namespace {
-
-const ViewPoint& find_view_point(const Scene& scene, const std::string& name) {
-  std::vector<std::string> names;
-  for (const ViewPoint& view : scene.view_points) {
-    if (view.name == name) return view;
-    names.push_back(view.name);
-  }
-  if (names.empty()) throw UsageError("--camera: the scene has no camera; use --position X,Y,Z");
-  throw UsageError(fmt::format("--camera: the scene has no camera '{}'{} (ods info lists them)", name,
-                               ods::did_you_mean(name, names)));
-}
-
-}  // namespace
 
 vec3 parse_point(const std::string& name, const std::string& word) {
   const std::vector<float> p = parse_numbers(word);
@@ -122,33 +105,12 @@ void finish_camera_options(CameraOptions& camera, int width, int& height) {
   finish_projection(camera.stereo.projection, width, height);
 }
 
-static ViewPoint chosen_view(const CameraOptions& camera, const Scene& scene) {
-  const bool is_named = ods::camera_choice(camera.view_point) == ods::CameraChoice::kNamed;
-  return is_named ? find_view_point(scene, camera.view_point) : ods::default_view(scene);
-}
-
-StereoCamera place_camera_again(const CameraOptions& camera, const Scene& scene) {
-  const ViewPoint view = chosen_view(camera, scene);
-  StereoCamera stereo = camera.stereo;
-  stereo.position = camera.position.value_or(view.position);
-  stereo.yaw = camera.yaw.value_or(view.yaw);
-  stereo.pitch = camera.pitch.value_or(0.0f);
-  stereo.roll = camera.roll.value_or(0.0f);
-  const std::string fault = camera_fault(stereo);  // a scene's view point may be outside the camera's ranges
-  if (!fault.empty()) throw UsageError("the camera's " + fault);
-  return stereo;
-}
-
-bool file_moves_camera(const CameraOptions& camera, const Scene& scene) {
-  if (camera.position && camera.yaw) return false;
-  const bool is_named = ods::camera_choice(camera.view_point) == ods::CameraChoice::kNamed;
-  if (!is_named) return uses_own_camera(scene) && moves_view(scene.animation, 0);
-  const ptrdiff_t index = &find_view_point(scene, camera.view_point) - scene.view_points.data();
-  return moves_view(scene.animation, static_cast<int>(index));
+ods::SceneCamera scene_camera(const CameraOptions& camera) {
+  return {camera.stereo, camera.view_point, camera.position, camera.yaw, camera.pitch, camera.roll, {}};
 }
 
 void note_camera(const CameraOptions& camera, const Scene& scene, const StereoCamera& stereo) {
-  const ViewPoint view = chosen_view(camera, scene);
+  const ViewPoint view = view_of(scene_camera(camera), scene);
   const bool is_ours = ods::camera_choice(camera.view_point) != ods::CameraChoice::kNamed && !uses_own_camera(scene);
   std::string from = is_ours ? view.name : "the scene's camera '" + view.name + "'";
   if (camera.position) from = "--position";
@@ -160,7 +122,7 @@ void note_camera(const CameraOptions& camera, const Scene& scene, const StereoCa
 }
 
 StereoCamera place_camera(const CameraOptions& camera, const Scene& scene) {
-  const StereoCamera stereo = place_camera_again(camera, scene);
+  const StereoCamera stereo = camera_in(scene_camera(camera), scene);
   note_camera(camera, scene, stereo);
   return stereo;
 }

@@ -9,7 +9,7 @@
 #include "cli/bridge/foreign_scene.h"
 #include "cli/console/options.h"
 #include "ods/camera/stereo_camera.h"
-#include "ods/scene/scene.h"
+#include "ods/sequence/scene_camera.h"
 
 // The commands' default: kUsualMerge at both poles.
 inline ods::StereoCamera usual_camera() {
@@ -55,14 +55,11 @@ void finish_camera_options(CameraOptions& camera, int width, int& height);
 // Pitch and roll of a view point are ignored: in a headset the horizon must be level. Throws UsageError.
 ods::StereoCamera place_camera(const CameraOptions& camera, const ods::Scene& scene);
 
-// Likewise without the note: for every frame of a video.
-ods::StereoCamera place_camera_again(const CameraOptions& camera, const ods::Scene& scene);
+// The camera that the options ask for, for any scene; without a move.
+ods::SceneCamera scene_camera(const CameraOptions& camera);
 
-// That note. stereo: the camera, which may have moved since it was placed.
+// Notes where the camera is. stereo: the camera, which may have moved since it was placed.
 void note_camera(const CameraOptions& camera, const ods::Scene& scene, const ods::StereoCamera& stereo);
-
-// Whether the file's animation, as it plays, moves this camera. Throws UsageError.
-bool file_moves_camera(const CameraOptions& camera, const ods::Scene& scene);
 
 // The camera that the options ask for if there is no scene: at the origin by default.
 ods::StereoCamera place_camera(const CameraOptions& camera);

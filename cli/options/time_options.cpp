@@ -137,7 +137,7 @@ static void turn_object(TimeOptions& time, ods::Scene& scene) {
 }
 
 static Grain usual_grain(const TimeOptions& time, const CameraOptions& camera, const ods::Scene& scene) {
-  return ods::moves(time.move) || file_moves_camera(camera, scene) ? Grain::kChanging : Grain::kFixed;
+  return ods::moves(time.move) || is_moved_by_file(scene_camera(camera), scene) ? Grain::kChanging : Grain::kFixed;
 }
 
 void start_clock(TimeOptions& time, const CameraOptions& camera, ods::Scene& scene) {

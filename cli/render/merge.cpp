@@ -10,8 +10,8 @@
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "cli/render/library_options.h"
 #include "cli/render/merge_job.h"
+#include "cli/render/plan.h"
 #include "ods/render/part_file.h"
 
 namespace fs = std::filesystem;
@@ -43,7 +43,7 @@ void merge_and_save(MergeJob& job, ProgressLines& lines) {
   const auto report = [&](double done) {
     lines.report(0.9 * done, seconds_since(start), {"merge", 0, 0, job.render.output});
   };
-  const auto files = ods::finish_picture(finish_of(job.render), job.render.render, job.camera,
+  const auto files = ods::finish_picture(plan(job.render).sequence.finish, job.render.render, job.camera,
                                          picture_of(job, {report, {}}), job.render.output);
   lines.report(1.0, seconds_since(start), {"merge", 0, 0, job.render.output});
   lines.clear();

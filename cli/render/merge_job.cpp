@@ -13,13 +13,13 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
-#include "cli/render/frame_settings.h"
-#include "cli/render/library_options.h"
+#include "cli/render/plan.h"
 #include "ods/denoise/oidn.h"
 #include "ods/files/frames.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/save.h"
 #include "ods/render/part_file.h"
+#include "ods/sequence/identity.h"
 
 namespace {
 
@@ -50,7 +50,7 @@ std::vector<std::string> files_of(const std::vector<std::string>& words) {
 
 ods::Settings settings_of(const ods::SampledPicture& part) {
   ods::Settings settings = part.settings;
-  std::erase_if(settings, [](const ods::Setting& setting) { return setting.name == kPartSetting; });
+  std::erase_if(settings, [](const ods::Setting& setting) { return setting.name == ods::kPartSetting; });
   return settings;
 }
 
@@ -173,7 +173,7 @@ void add_options(Options& options, MergeJob& job, std::optional<ods::Layout>& la
 // How the parts' light found its way over several surfaces.
 ods::Indirect indirect_of(const ods::SampledPicture& picture) {
   for (const ods::Setting& setting : picture.settings) {
-    if (setting.name == "--indirect") return ods::find_in(ods::kIndirectTable, setting.value).value_or(ods::Indirect{});
+    if (setting.name == "`indirect`") return ods::find_in(ods::kIndirectTable, setting.value).value_or(ods::Indirect{});
   }
   return {};
 }
@@ -200,8 +200,9 @@ void finish_options(MergeJob& job, std::optional<ods::Layout> layout) {
 // Sums that nothing is made of are left where they are.
 void leave_out_layers(MergeJob& job) {
   ods::RenderOptions& options = job.picture.options;
-  const ods::RenderOptions needed = options_to_finish(job.render);
-  options.layers &= needed.layers, options.statistics &= needed.statistics;
+  const ods::RenderOptions needed = plan(job.render).sampled;
+  options.layers &= needed.layers;
+  options.statistics &= needed.statistics;
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "cli/console/console.h"
@@ -125,11 +124,6 @@ void add_exposure_option(Options& options, RenderJob& job) {
                  "stops added to the exposure, given or auto: 1 is twice as bright, -1 half");
 }
 
-float brightened(float exposure, float brighter) {
-  const double sum = std::clamp(double{exposure} + double{brighter}, -double{ods::kMostStops}, double{ods::kMostStops});
-  return static_cast<float>(std::round(1e4 * sum) / 1e4);
-}
-
 void add_wait_option(Options& options, float& seconds, const char* noun) {
   options.number("--wait", seconds, 0.0f, 3600.0f,
                  fmt::format("seconds to wait for {} of other machines that a shared disk does not show yet", noun));
@@ -141,7 +135,7 @@ void finish_render_job(const Options& options, const Quality& quality, RenderJob
     throw UsageError("--only chooses among frames, or among the views of --rig; this is one picture");
   }
   job.given = options.given_words();
-  if (job.exposure) job.exposure = brightened(*job.exposure, std::exchange(job.brighter, 0.0f));
+  if (job.exposure) job.exposure = ods::brightened(*job.exposure, std::exchange(job.brighter, 0.0f));
   job.scene.has_places =
       !job.rig.empty() || job.camera.position || job.time.move.pivot || !job.time.move.fly_to.empty();
   job.scene.camera = job.camera.view_point;

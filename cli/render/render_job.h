@@ -22,7 +22,7 @@ struct RenderJob {
   ods::RenderOptions render;
   ods::SaveOptions save;
   std::optional<ods::Denoiser> denoise;  // none: for all files but those that keep the scene's light
-  std::optional<float> exposure;         // stops; none: FrameRenderer::find_exposure() chooses
+  std::optional<float> exposure;         // stops; none: ods::look_first() chooses
   float brighter = 0.0f;                 // stops, added to what it chooses
   bool has_layout = false;               // given by an option
   bool object_layer = false;             // an .exr gets the names of what its pixels show
@@ -45,9 +45,6 @@ bool gives(const RenderJob& job, std::string_view option);
 
 // Adds --exposure auto|STOPS and --brighter STOPS.
 void add_exposure_option(Options& options, RenderJob& job);
-
-// The exposure with --brighter, within what --exposure takes: rounded, so that printed it is the same number.
-float brightened(float exposure, float brighter);
 
 // What a scene of another program says of camera and time: the default of the options.
 void take_foreign(RenderJob& job, const ForeignScene& scene);

@@ -7,7 +7,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
-#include "cli/render/library_options.h"
+#include "cli/render/plan.h"
 
 namespace {
 
@@ -58,7 +58,7 @@ bool read_video_job(VideoJob& job, int argc, char** argv) {
     throw UsageError("--restart and --only exclude each other: other processes may be making frames");
   }
   render.render.layers = false;
-  if (render.raw && (render.time.only.empty() || !job.rig.empty() || !draws_on_neighbours(render))) {
+  if (render.raw && (render.time.only.empty() || !job.rig.empty() || !plan(render).sequence.draws_on_neighbours)) {
     throw UsageError("--raw needs --only, and frames that ods denoises");
   }
   job.video.rate = parse_rate(fmt::format("{}", render.time.fps));

@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a first look at some of a sequence's frames tells of all of them. It depends on the sequence alone, so processes
-// that share the frames or resume them find the same.
+// A first look at some of a sequence's frames finds what suits all of them. It depends on the sequence alone, so
+// processes that share its frames find the same.
 #pragma once
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "ods/image/image.h"
 #include "ods/sequence/frame_renderer.h"
 
 namespace ods {
@@ -19,17 +17,27 @@ namespace ods {
 std::set<size_t> looks_at(const std::vector<SequenceFrame>& frames, size_t count);
 inline constexpr size_t kLooks = 5;
 
-// The exposure that suits the light of all frames (ods/stage/exposure.h). None: all is black.
-std::optional<float> suitable_exposure(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames);
+enum class ExposureReason {
+  kGiven,    // SequenceOptions::exposure
+  kPainted,  // Scene::as_painted: the colours are shown as they are
+  kLight,    // it suits the light of all frames (ods/stage/exposure.h)
+  kDark,     // no light reaches the camera
+  kFrames,   // render_video(): frames exist that were made with it
+};
 
-// The merge map with which no frame strains the eyes by more than `limit` minutes of arc above and below
-// (ods/comfort/merge_from_depth.h).
-Image comfortable_merge(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames, float limit);
+struct FirstLook {
+  float exposure = 0.0f;  // stops
+  ExposureReason reason = ExposureReason::kGiven;
+};
+
+// Finds what the options leave open, the exposure and the merge, and sets it in the renderer's options: noise_exposure,
+// and the camera's merge map.
+FirstLook look_first(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames);
 
 // What a frame will take, judged by a small picture of it.
 struct SmallFrame {
   double seconds = 0.0;
-  double bytes = 0.0;  // of its file
+  double bytes = 0.0;  // the size of its file
 };
 
 // Renders a small picture of a frame, denoises and saves it there.

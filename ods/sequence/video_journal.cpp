@@ -17,6 +17,7 @@
 #include "ods/files/frames.h"
 #include "ods/files/read_file.h"
 #include "ods/sequence/frame_renderer.h"
+#include "ods/sequence/identity.h"
 
 namespace fs = std::filesystem;
 
@@ -25,7 +26,7 @@ namespace {
 
 constexpr const char* kNote = "job.txt";
 constexpr const char* kFrame = "frame.######.exr";
-constexpr const char* kMark = "omnistereo video frames, 1";  // the number is the version of the note's format
+constexpr const char* kMark = "omnistereo video frames, 2";  // the number is the version of the note's format
 constexpr const char* kFrames = "frames";
 
 fs::file_type type_of(const std::string& path) {
@@ -36,6 +37,11 @@ fs::file_type type_of(const std::string& path) {
 // Whether a file in the folder is a partial copy of this one, left by a killed run.
 bool is_half(const std::string& name, const std::string& of) {
   return name.starts_with("." + of + ".tmp.");
+}
+
+Setting* find_setting(Settings& settings, std::string_view name) {
+  const auto found = std::ranges::find(settings, name, &Setting::name);
+  return found == settings.end() ? nullptr : &*found;
 }
 
 // Whether a folder holds at most what a process left that was killed while writing the first note.
@@ -54,7 +60,9 @@ std::string frame_pattern(const std::string& video) {
 VideoJournal::VideoJournal(const std::string& video, const Settings& settings, bool restart, JournalUse use,
                            std::chrono::seconds patience)
     : claim_(use == JournalUse::kAlone ? claim(video, patience) : nullptr),
+      video_(video),
       folder_(video + ".frames"),
+      given_(settings),
       settings_(settings) {
   const fs::file_type type = type_of(folder_);
   if (type != fs::file_type::directory && type != fs::file_type::not_found) {
@@ -84,12 +92,32 @@ void VideoJournal::begin(bool restart) {
     }
     return;
   }
+  for (Setting& setting : settings_) {
+    const Setting* was = setting.value == kByFirstLook ? find_setting(then, setting.name) : nullptr;
+    if (was) setting.value = was->value;
+  }
   if (restart || (!has_frames() && !settings_difference(then, settings_).empty())) {
     remove();
     frames_.clear();
   } else {
     expect_same_settings(folder_, then, settings_);
   }
+  if (restart || (claim_ && !has_frames())) settings_ = given_;  // shared frames may be at work already
+}
+
+std::optional<std::string> VideoJournal::found(std::string_view setting) const {
+  for (size_t i = 0; i < given_.size(); i++) {
+    const bool is_found = given_[i].value == kByFirstLook && settings_[i].value != kByFirstLook;
+    if (is_found && given_[i].name == setting) return settings_[i].value;
+  }
+  return std::nullopt;
+}
+
+void VideoJournal::record(std::string_view setting, const std::string& value) {
+  Setting* now = find_setting(settings_, setting);
+  if (!now || now->value != kByFirstLook) return;
+  now->value = value;
+  write_note();
 }
 
 VideoJournal::~VideoJournal() {

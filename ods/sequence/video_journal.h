@@ -3,15 +3,18 @@
 //
 // The frames of an unfinished video: a folder beside it, VIDEO.frames, with a note (job.txt) that lists the settings
 // that they were made with and their numbers. After an interruption the next job resumes from them; frames made with
-// other settings are never mixed in. The job holds the claim on the video (ods/files/claim.h) from start to end.
-// Several processes may also share the frames: each claims a frame before it makes it, and none makes the video.
+// other settings are never mixed in. A setting that a first look at the frames finds (kByFirstLook) is found once, and
+// holds for all frames that are added later. The job holds the claim on the video (ods/files/claim.h) from start to
+// end. Several processes may also share the frames: each claims a frame before it makes it, and none makes the video.
 //
 // The folder must be a real one, not a link. Only files listed in the note are ever used or removed.
 #pragma once
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ods/base/settings.h"
@@ -26,7 +29,7 @@ enum class JournalUse { kAlone, kShared };
 
 class VideoJournal {
  public:
-  // Opens the frames of this video, or starts anew. `restart` removes existing frames. Throws Error(kUsage) if the
+  // Opens the frames of this video, or begins with none. `restart` removes existing frames. Throws Error(kUsage) if the
   // folder holds frames made with other settings or is not ours; Error(kOutput), also if another process is working on
   // the video, and does not end within `patience`.
   VideoJournal(const std::string& video, const Settings& settings, bool restart, JournalUse use = JournalUse::kAlone,
@@ -38,6 +41,7 @@ class VideoJournal {
   // with the frames that came too late.
   ~VideoJournal();
 
+  const std::string& video() const { return video_; }
   const std::string& folder() const { return folder_; }
   std::string pattern() const;  // frame_pattern()
 
@@ -45,6 +49,11 @@ class VideoJournal {
   // if a file for one of them exists that no job of ours made; Error(kOutput). Of frames that are recorded already it
   // looks at its own only.
   void plan(const std::vector<int>& frames, const std::vector<int>& own);
+
+  // The value of a setting that was given as kByFirstLook, as it holds for the existing frames; nullopt if there are
+  // none. record() keeps it for the frames to come.
+  std::optional<std::string> found(std::string_view setting) const;
+  void record(std::string_view setting, const std::string& value);
 
   // Throws Error(kOutput) if another machine has taken the video over. Call it regularly.
   void check() const {
@@ -63,9 +72,9 @@ class VideoJournal {
   void begin(bool restart);
 
   std::unique_ptr<Claim> claim_;  // released last; null where the frames are shared
-  std::string folder_;
-  Settings settings_;
-  std::set<int> frames_;  // that this job and earlier ones made, or were going to make
+  std::string video_, folder_;
+  Settings given_, settings_;  // as the caller gave them, and with what was found
+  std::set<int> frames_;       // that this job and earlier ones made, or were going to make
 };
 
 }  // namespace ods

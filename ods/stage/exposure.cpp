@@ -124,4 +124,9 @@ std::optional<float> suitable_exposure(std::span<const Picture> looks) {
   return static_cast<float>(std::round(10.0 * std::clamp(stops, -limit, limit)) / 10.0) + 0.0f;
 }
 
+float brightened(float exposure, float brighter) {
+  const double sum = std::clamp(double{exposure} + double{brighter}, -double{kMostStops}, double{kMostStops});
+  return static_cast<float>(std::round(1e4 * sum) / 1e4);
+}
+
 }  // namespace ods

@@ -25,6 +25,9 @@ StereoCamera first_look_camera(const StereoCamera& camera);
 // pixels first, as single pixels of so few samples are noise.
 std::optional<float> suitable_exposure(std::span<const Picture> looks);
 
+// That exposure and some stops more, within kMostStops; rounded, so that it is the same number where it is printed.
+float brightened(float exposure, float brighter);
+
 inline constexpr float kExposedMean = 0.18f;  // middle grey
 inline constexpr float kHighlight = 1.5f;     // PBR Neutral shows it at 0.93
 inline constexpr float kHighlightShare = 0.05f;

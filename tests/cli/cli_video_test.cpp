@@ -79,7 +79,7 @@ TEST_F(Video, FramesAreKeptWhereAskedAndUsedAgain) {
   ASSERT_EQ(folder.names(), (std::vector<std::string>{"a.mp4", "a.mp4.frames"}));
   const std::string video = folder.read("a.mp4");
   // Another packing of the same frames, and more of them.
-  ASSERT_EQ(run(words("a.mp4", "--keep-frames --exposure 1 --frames 1-5")), 0) << err;
+  ASSERT_EQ(run(words("a.mp4", "--keep-frames --tone linear --frames 1-5")), 0) << err;
   EXPECT_NE(err.find("4 of 5 frames exist already"), std::string::npos) << err;
   EXPECT_NE(folder.read("a.mp4"), video);
   ASSERT_EQ(run("encode " + folder.path("a.mp4.frames/frame.######.exr") + " --codec h264 --frames 1-4 -o " +
@@ -89,7 +89,27 @@ TEST_F(Video, FramesAreKeptWhereAskedAndUsedAgain) {
   EXPECT_EQ(folder.read("b.mp4"), video);
 }
 
-// Those beside a missing frame are rendered anew, for its sake.
+// Frames whose pixels stop when they are clean belong to the exposure at which they were judged; others to none.
+TEST_F(Video, FramesJudgedAtAnotherExposureAreNotMixedIn) {
+  const auto video = [&](const std::string& more) {
+    return "video toys --width 16 --samples 64 --denoise none --keep-frames --frames 1-2 -o " + folder.path("a.mp4") +
+           " " + more;
+  };
+  ASSERT_EQ(run(video("--noise 0.05")), 0) << err;
+  EXPECT_EQ(run(video("--noise 0.05 --exposure 4")), 2);
+  EXPECT_NE(err.find("--exposure was 0, now 4; --restart"), std::string::npos) << err;
+  ASSERT_EQ(run(video("--noise none --restart")), 0) << err;
+  const std::string first = folder.read("a.mp4");
+  ASSERT_EQ(run(video("--noise none --exposure 4")), 0) << err;
+  EXPECT_NE(folder.read("a.mp4"), first);
+  // An exposure that a first look has found holds for frames that are added.
+  ASSERT_EQ(run(video("--noise 0.05 --env 0.05 --restart")), 0) << err;
+  EXPECT_NE(err.find(" stops, from a first look"), std::string::npos) << err;
+  ASSERT_EQ(run(video("--noise 0.05 --env 0.05 --frames 1-4")), 0) << err;
+  EXPECT_NE(err.find(" stops, as the frames that exist"), std::string::npos) << err;
+}
+
+// Frames beside a missing one are rendered again, for its sake.
 TEST_F(Video, DenoisedFramesDrawOnEachOtherAndNotOnInterruptions) {
   const auto path = [&](int number) { return folder.path(fmt::format("a.mp4.frames/frame.{:06}.exr", number)); };
   const auto read = [&](int number) { return folder.read(fmt::format("a.mp4.frames/frame.{:06}.exr", number)); };
@@ -196,12 +216,11 @@ class VideoOptions : public Video {
 };
 
 const std::map<std::string, std::string> kVideoAlone = {
-    {"--target", "youtube"}, {"--codec", "h264"},      {"--encoder", "libx264"}, {"--preset", "ultrafast"},
-    {"--crf", "30"},         {"--bitrate", "1"},       {"--bits", "10"},         {"--chroma", "444"},
-    {"--apple", ""},         {"--exposure", "1"},      {"--tone", "linear"},     {"--frames", "1-3"},
-    {"--threads", "1"},      {"--progress", "openjd"}, {"--quiet", ""},          {"--no-color", ""},
-    {"--confine", "."},      {"--keep-frames", ""},    {"--skip-existing", ""},  {"--duration", "3"},
-    {"--brighter", "1"},     {"--force", ""},
+    {"--target", "youtube"},  {"--codec", "h264"},     {"--encoder", "libx264"}, {"--preset", "ultrafast"},
+    {"--crf", "30"},          {"--bitrate", "1"},      {"--bits", "10"},         {"--chroma", "444"},
+    {"--apple", ""},          {"--tone", "linear"},    {"--frames", "1-3"},      {"--threads", "1"},
+    {"--progress", "openjd"}, {"--quiet", ""},         {"--no-color", ""},       {"--confine", "."},
+    {"--keep-frames", ""},    {"--skip-existing", ""}, {"--duration", "3"},      {"--force", ""},
 };
 std::map<std::string, std::string> with_circle(std::map<std::string, std::string> options) {
   for (const ods::CameraFieldRow& row : ods::camera_fields()) {
@@ -251,6 +270,8 @@ const std::map<std::string, std::string> kOfFrames = with_circle({
     {"--quality", "draft"},
     {"--samples", "2"},
     {"--noise", "0.05"},
+    {"--exposure", "1"},
+    {"--brighter", "1"},
     {"--time-limit", "1h"},
     {"--denoise", "none"},
     {"--bounces", "2"},
@@ -295,7 +316,8 @@ TEST_F(VideoOptions, EveryOptionIsOneOrTheOther) {
   EXPECT_GT(options.size(), 60u);
   for (const std::string& option : options) {
     const size_t known = kVideoAlone.count(option) + kOfFrames.count(option) + kOthers.count(option);
-    EXPECT_EQ(known, 1u) << option << ": does it change frames? Then cli/render/frame_settings.cpp has to know it";
+    EXPECT_EQ(known, 1u)
+        << option << ": does it change frames? Then ods/sequence/identity.cpp or cli/render/plan.cpp has to know it";
   }
 }
 
@@ -309,8 +331,11 @@ TEST_F(VideoOptions, WhatChangesTheVideoAloneMayChange) {
 TEST_F(VideoOptions, WhatChangesAFrameIsRefusedByName) {
   for (const auto& [option, value] : kOfFrames) {
     EXPECT_EQ(run(job + " " + option + " " + value), 2) << option << err;
-    const std::map<std::string, std::string> kSaidAs = {
-        {"--merge", "--merge-top"}, {"--camera-preset", "--ipd"}, {"--face", "--projection"}, {"--quality", "--noise"}};
+    const std::map<std::string, std::string> kSaidAs = {{"--merge", "--merge-top"},
+                                                        {"--camera-preset", "--ipd"},
+                                                        {"--face", "--projection"},
+                                                        {"--quality", "--noise"},
+                                                        {"--brighter", "--exposure"}};
     const auto other = kSaidAs.find(option);
     const std::string said = other == kSaidAs.end() ? option : other->second;
     EXPECT_NE(err.find(said + " was "), std::string::npos) << option << ": " << err;
