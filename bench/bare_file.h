@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The yardstick of benchmarks that go from file to file: the same files only read and written.
+// The baseline of benchmarks from file to file: only reading and writing the same files.
 #pragma once
+#include "ods/files/atomic_file.h"
 #include "ods/image/image_file.h"
 
 struct BareFile {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A room that Blender has made, through the bridge and in Cycles' own stereo camera, where Blender and the shared tools
-// are there: mean radiance by region, how far apart edges are, and what the conversion takes. Without the room's glass,
-// whose caustics are noise in either renderer for hours, and without its hair. docs/blender.md has the figures.
+// A room made in Blender, rendered through the bridge and by Cycles' own stereo camera, if Blender and the shared tools
+// are installed: mean radiance by region, the distance of edges, and the time of the conversion. Without the room's
+// glass, whose caustics are noise in both renderers for hours, and without its hair. docs/blender.md has the figures.
 //   blender_bench, in a build that has the command
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -31,13 +31,13 @@ using namespace ods;
 namespace fs = std::filesystem;
 
 const std::string kInterior = shared_scenes() + "/../tools/interior.py";
-constexpr int kWidth = 384, kSamples = 192;         // of the picture
-constexpr int kFilmWidth = 192, kFilmSamples = 16;  // of a frame
-constexpr int kFilmFrames = 24;                     // of 60
+constexpr int kWidth = 384, kSamples = 192;         // the picture's
+constexpr int kFilmWidth = 192, kFilmSamples = 16;  // a frame's
+constexpr int kFilmFrames = 24;                     // out of 60
 constexpr int kSeeds[] = {0, 7};
 constexpr std::array<const char*, 2> kEyes = {"left", "right"};
 
-// Pixels of the left eye at the width of kWidth.
+// Pixels of the left eye at the width kWidth.
 struct Region {
   const char* name;
   int x0, x1, y0, y1;
@@ -50,7 +50,7 @@ constexpr Region kRegions[] = {
     {"lamp", 233, 239, 95, 100},     {"whole_picture", 0, kWidth, 0, kWidth / 2},
 };
 
-// Leaves judged.blend, and has Cycles render its first frames as FOLDER/cycles.FRAME.exr.
+// Saves judged.blend, and lets Cycles render its first frames as FOLDER/cycles.FRAME.exr.
 constexpr const char* kScript = R"(import bpy
 scene = bpy.context.scene
 for name in ('window pane', 'table top', 'glass ball'):
@@ -86,7 +86,8 @@ std::string own_program() {
   return fs::canonical("/proc/self/exe").replace_filename("ods").native();
 }
 
-// Why it cannot run; empty: it can. Then interior.blend and own.glb, Blender's own export, are in the folder.
+// The reason why it cannot run. Empty if it can; then interior.blend and own.glb, Blender's own export, are in the
+// folder.
 std::string missing(const Folder& folder) {
   if (!fs::exists(kInterior) || !runs("blender --version")) return "needs Blender and the shared tools";
   if (!fs::exists(own_program())) return "needs the command: build it first";
@@ -99,7 +100,7 @@ struct Rendered {
   Image cycles, ours;  // left eye above right eye
 };
 
-// Empty if something failed.
+// Empty on failure.
 std::vector<Rendered> render_both(const Folder& folder, int width, int samples, int frames, int seed = 0) {
   std::ofstream(folder.path("render.py"))
       << fmt::format(kScript, fmt::arg("folder", folder.path()), fmt::arg("samples", samples), fmt::arg("width", width),
@@ -139,7 +140,7 @@ double mean(const Image& grey, const Region& region) {
   return sum / ((region.x1 - region.x0) * (region.y1 - region.y0));
 }
 
-// The logarithm of medians of 3 x 3 pixels: edges without bright specks.
+// The logarithm of medians of 3 x 3 pixels, which has edges but no bright specks.
 Image edges(const Image& grey) {
   Image result(grey.width, grey.height, 1);
   for (int y = 1; y + 1 < grey.height; y++) {
@@ -171,8 +172,8 @@ double likeness(const std::vector<double>& a, const std::vector<double>& b) {
   return dot(a, b) / std::sqrt(dot(a, a) * dot(b, b) + 1e-9);
 }
 
-// By how many pixels two pictures are shifted to the side, for each block with strong edges, by correlation. A block
-// that is as like the other picture wherever it is moved to has level edges only, which tell nothing of it.
+// The horizontal shift in pixels between two pictures, for each block with strong edges, by correlation. Blocks that
+// are equally similar at all shifts have only horizontal edges, and are not used.
 std::vector<double> shifts(const Image& theirs, const Image& ours) {
   constexpr double kStrong = 0.25, kLevel = 0.05;
   std::vector<double> found;
@@ -243,7 +244,7 @@ void film_against_cycles(benchmark::State& state) {
         const Image theirs = edges(luminance(frame.cycles, eye));
         const std::vector<double> here = shifts(theirs, edges(luminance(frame.ours, eye)));
         all.insert(all.end(), here.begin(), here.end());
-        moved = shifts(first, theirs);  // how far the last frame is from the first
+        moved = shifts(first, theirs);  // movement of the last frame relative to the first
       }
       say_shifts(state, kEyes[size_t(eye)], all);
       say_shifts(state, fmt::format("{}_moved", kEyes[size_t(eye)]), moved);
@@ -251,8 +252,8 @@ void film_against_cycles(benchmark::State& state) {
   }
 }
 
-// The first `ods info` of a scene, and the second, over Blender's own export with its start. Only the very first also
-// compiles the exporter, for all scenes: the first iteration, which is one of three.
+// The first `ods info` of a scene, and the second one, relative to Blender's own export including its start. Only the
+// very first run also compiles the exporter, for all scenes: the first iteration, which is one of three.
 void conversion_over_export(benchmark::State& state) {
   const Folder folder;
   if (const std::string why = missing(folder); !why.empty()) return state.SkipWithError(why.c_str());

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How well pictures without depth are judged: built-in scenes, without noise of light, as JPEGs whose eyes are matched,
-// against the exact depth that they were rendered with; and the pictures named as arguments, .exr with depth. Prints
+// Accuracy of verdicts on pictures without depth: built-in scenes, without noise of light, as JPEGs whose eyes are
+// matched, compared with the exact depth of the rendering; and the pictures named as arguments, .exr with depth. Prints
 // the table of docs/comfort.md.
 #include <fmt/format.h>
 
@@ -27,7 +27,7 @@ using namespace ods;
 
 constexpr int kWidth = 2048;
 
-// Degrees are what eyes converge by: of each pixel, minutes of arc; NaN: unknown.
+// The angle in degrees by which eyes converge, for each pixel, in arc minutes; NaN if unknown.
 std::vector<double> vergences(const SeenDepth& seen) {
   std::vector<double> all;
   for (int y = 0; y < seen.depth.height; y++) {
@@ -60,13 +60,13 @@ void compare(const std::string& name, const Picture& picture, const StereoCamera
   const auto at = [&](double share) { return off[static_cast<size_t>(share * static_cast<double>(off.size() - 1))]; };
   const auto wrong =
       static_cast<double>(off.end() - std::ranges::lower_bound(off, 60.0)) / static_cast<double>(off.size());
-  const ComfortReport a = judge_comfort(truth), b = judge_comfort(matched.seen[0]);
+  const ComfortVerdict a = judge_comfort(truth), b = judge_comfort(matched.seen[0]);
   fmt::print(
       "| {} | {:.0f} % | {:.1f} | {:.1f} | {:.1f} | {:.0f} | {:.1f} % | {:.2f}, {:.2f} | {}, {} | {:.1f}, {:.1f} % | "
       "{:.2f} |\n",
       name, 100.0 * matched.share, matched.precision, at(0.5), at(0.9), at(0.99), 100.0 * wrong, a.nearest, b.nearest,
-      comfort_level_name(worst_level(a)), comfort_level_name(worst_level(b)), 100.0 * a.share[3], 100.0 * b.share[3],
-      seconds);
+      comfort_level_name(a.level), comfort_level_name(b.level), 100.0 * a.share[ComfortLevel::kError],
+      100.0 * b.share[ComfortLevel::kError], seconds);
   std::fflush(stdout);
 }
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How long conversions take, over a yardstick that is measured in the same run: only reading and writing the same
-// files, and resizing by the program oiiotool and the ffmpeg program's v360 where they are installed. Wall clock, and
-// CPU seconds for machines that have other work. The pictures have gradients, edges and grain, so that they take about
-// as long to pack as photographs.
+// Duration of conversions, relative to baselines measured in the same run: only reading and writing the same files, and
+// resizing by the program oiiotool and the ffmpeg program's v360 if they are installed. Wall clock, and CPU seconds for
+// machines with other work. The pictures have gradients, edges and grain, so that they compress about as slowly as
+// photographs.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -52,7 +52,7 @@ void make_picture(const std::string& path, const std::vector<int>& eyes, Extent 
   save_picture(rows, &camera, options, path);
 }
 
-// What `ods convert` does: the whole way from file to file.
+// The job of `ods convert`, from file to file.
 void convert_file(const std::string& from, const std::string& to, const ProjectionSetting& projection,
                   std::optional<Extent> eye, const std::string& scratch_folder) {
   OpenOptions open;
@@ -90,7 +90,7 @@ void cubes(benchmark::State& state, const std::string& extension) {
 }
 
 // Mono 8192x4096 to cubes against the ffmpeg program's v360, from file to file too, by its widest filter. It only
-// interpolates: where a face is coarser than the picture, it leaves out texels.
+// interpolates: if a face is coarser than the picture, it skips texels.
 void v360(benchmark::State& state, const std::string& extension) {
   const Folder folder;
   const std::string from = folder.path("from." + extension), to = folder.path("to." + extension);
@@ -130,7 +130,7 @@ void halved(benchmark::State& state, const std::string& extension) {
   }
 }
 
-// The largest picture that is read: 16384x16384, both eyes, to cubes. Target: below 2000 MB.
+// The largest readable picture: 16384x16384, both eyes, to cubes. Target: below 2000 MB.
 void largest(benchmark::State& state, const std::string& extension) {
   const Folder folder;
   const std::string from = folder.path("from." + extension);

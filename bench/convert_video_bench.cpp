@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How fast videos are converted, over the ffmpeg program's v360 (lanczos) with the same encoder and settings, in turns
-// in the same run; and how near the pictures of both are to those of the world that the video shows, which is a
-// formula. over_v360: our CPU seconds over its; below 1 is faster. bare: decoded and converted, but not encoded.
+// Speed of video conversions, relative to the ffmpeg program's v360 (lanczos) with the same encoder and settings,
+// alternating in the same run; and the accuracy of both relative to the world in the video, which is a formula.
+// over_v360: our CPU seconds over its; below 1 is faster. bare: decoded and converted, but not encoded.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -31,7 +31,7 @@ float world(vec3 d, int eye) {
   return 0.45f + wave + (edge ? 0.12f : 0.0f);
 }
 
-// An eye's picture of it, each pixel the mean light over its area. Moved to the right by `turn` degrees.
+// An eye's picture of the world, each pixel the mean light over its area. Moved to the right by `turn` degrees.
 std::vector<float> picture_of_world(Extent eye, vec2 longitude, int which, float turn) {
   constexpr int kSamples = 3;  // per side of a pixel
   std::vector<float> codes(static_cast<size_t>(eye.width) * static_cast<size_t>(eye.height));
@@ -100,14 +100,14 @@ std::string make_video(const Folder& folder, Extent eye, int frames, int quality
   return path;
 }
 
-// --- the race --------------------------------------------------------------------------------------------------------
+// --- speed --------------------------------------------------------------------------------------------------------
 
 struct Case {
   const char* name;
   float yaw;
-  int width;  // of an eye, of 1920 at the video's own resolution
+  int width;  // per eye; 1920 is the video's own resolution
 };
-// What vr180 cuts out of a whole sphere is a part of its pixels, unless it is turned or of another size.
+// A vr180 picture cut out of a whole sphere is a part of its pixels, unless it is turned or of another size.
 constexpr Case kCases[] = {{"vr180", 0.0f, 1920}, {"vr180 turned", 7.3f, 1920}, {"vr180 of 2/3", 7.3f, 1280}};
 
 ConvertTarget target_of(const Case& wish, const StoredPicture& prototype) {
@@ -191,7 +191,7 @@ BENCHMARK(convert)
     ->Unit(benchmark::kSecond)
     ->UseRealTime();
 
-// --- how near to the world -------------------------------------------------------------------------------------------
+// --- accuracy --------------------------------------------------------------------------------------------------------
 
 double psnr(const std::vector<float>& codes, const std::function<double(size_t x, size_t y)>& luma, Extent eye) {
   double sum = 0.0;
@@ -205,7 +205,7 @@ double psnr(const std::vector<float>& codes, const std::function<double(size_t x
   return -10.0 * std::log10(sum / static_cast<double>(codes.size()));
 }
 
-// The left eye's luma, by the widest filters of both.
+// The left eye's luma, with the widest filters of both.
 void nearness(benchmark::State& state) {
   const Case& wish = kCases[state.range(0)];
   if (!has_programs(state)) return;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// CPU seconds to equal noise over those of Blender's Cycles in the same run, where Blender and the shared scenes are
-// there: both eyes, white sky of 1, box filter, 8 bounces, no denoising. Each renderer is measured against itself.
+// CPU seconds to equal noise relative to Blender's Cycles in the same run, if Blender and the shared scenes are
+// installed: both eyes, white sky of 1, box filter, 8 bounces, no denoising. Each renderer is measured against itself.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ using namespace ods;
 constexpr int kWidth = 256;
 constexpr int kSamples = 64;
 
-// numpy.bool: the importer of Blender 3.4 asks for it, and numpy 1.24 has none.
+// The importer of Blender 3.4 uses numpy.bool, which numpy 1.24 does not have.
 constexpr const char* kScript = R"(import bpy, numpy, resource
 if not hasattr(numpy, 'bool'): numpy.bool = bool
 bpy.ops.object.select_all(action='SELECT')

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What denoising buys, and what it costs: the error of N samples denoised against that of 8 N samples; how much the
-// eyes differ where they see the same; CPU seconds and memory of a large picture.
+// Benefit and cost of denoising: the error of N samples denoised over the error of 8 N samples; the difference between
+// the eyes where they see the same; CPU seconds and memory for a large picture.
 //
 // The truth is not needed. Two pictures A and B of 8 N samples with other seeds have independent noise, so the mean of
-// (d - A)(d - B) is the squared error of d, and half of that of (A - B)^2 the squared error of 8 N samples. Errors are
-// taken of linear light, which one bright lamp's edge may rule, and of what a screen shows (clipped to 0..1, sRGB).
+// (d - A)(d - B) is the squared error of d, and half of the mean of (A - B)^2 the squared error of 8 N samples. Errors
+// are those of linear light, which the edge of one bright lamp may dominate, and of the displayed picture (clipped to
+// 0..1, sRGB).
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -44,7 +45,7 @@ Picture render(const Stage& stage, int width, int samples, uint32_t seed) {
   return render_cpu(stage.scene, stage.camera, options, {});
 }
 
-// The mean over all values of all eyes; those that are not finite are left out.
+// The mean over all values of all eyes, without those that are not finite.
 double mean_of(std::initializer_list<const Picture*> pictures, LightView view,
                const std::function<double(const std::vector<double>&)>& of) {
   double sum = 0.0;
@@ -75,7 +76,7 @@ struct Seen {
   Camera camera;
 };
 
-// RMS of the difference between a pixel of one picture and another picture where it shows the same point. Nothing but
+// RMS of the difference between a pixel of one picture and the pixel of another picture that shows the same point. Only
 // the camera moves.
 double difference_of(const Seen& one, const Seen& other, LightView view) {
   const EyeImage &left = one.image, &right = other.image;
@@ -113,7 +114,7 @@ double difference_of_eyes(const Picture& picture, const StereoCamera& stereo, Li
   return difference_of({picture.eyes[0], camera}, {picture.eyes[1], camera}, view);
 }
 
-// Ratios to the error of the raw picture of as many samples.
+// Ratios to the error of the raw picture with the same number of samples.
 void error_against_eight_times_the_samples(benchmark::State& state, const std::string& name, int width, int samples) {
   const Stage stage = load_stage(name);
   const Picture raw = render(stage, width, samples, 1);
@@ -139,8 +140,8 @@ void error_against_eight_times_the_samples(benchmark::State& state, const std::s
   }
 }
 
-// How much successive frames of a turntable differ after exact motion, as screens show them: over the same of raw
-// frames with eight times the samples. The room turns in 20 seconds.
+// The difference between successive frames of a turntable after exact motion, as displayed, over that of raw frames
+// with eight times the samples. The room turns in 20 seconds.
 void flicker(benchmark::State& state, const std::string& name, int width, int samples) {
   Stage stage = load_stage(name);
   std::vector<StereoCamera> cameras;
@@ -175,8 +176,8 @@ void flicker(benchmark::State& state, const std::string& name, int width, int sa
   }
 }
 
-// The same of a picture whose indirect light comes out of a cache that each frame fills anew, over that of a picture of
-// whole paths. The camera turns, or moves by 2 cm between frames.
+// The difference between frames whose indirect light comes from a cache that each frame fills again, over that of
+// frames with whole paths. The camera turns, or moves by 2 cm between frames.
 void flicker_of_cache(benchmark::State& state, const std::string& name, bool moves) {
   Stage stage = load_stage(name);
   std::vector<StereoCamera> cameras;
@@ -212,7 +213,7 @@ void flicker_of_cache(benchmark::State& state, const std::string& name, bool mov
   }
 }
 
-// Both eyes 4096x2048. Peak memory is that of the process: the picture with its statistics needs 940 MB.
+// Both eyes 4096x2048. Peak memory is the process's: the picture with its statistics needs 940 MB.
 void large_picture(benchmark::State& state) {
   const Stage stage = load_stage("toys");
   Picture picture = render(stage, 4096, 2, 1);

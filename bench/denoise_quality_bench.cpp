@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How good denoised pictures look: denoise_quality_bench [FOLDER [SCENE|all [WIDTH SAMPLES]]]. It renders what the
-// folder lacks, so a second run, with another denoiser, takes seconds. WIDTH and SAMPLES (of A and B) take the place of
-// a scene's own. small-window and neon-street are files of build/release/kinds_of_scene FOLDER. Results of other
-// denoisers, or of an older one, that lie beside a picture (room_16.exr: room_16.LABEL.exr) are judged in the same run.
+// Quality of denoised pictures: denoise_quality_bench [FOLDER [SCENE|all [WIDTH SAMPLES]]]. It renders the pictures
+// that are missing in the folder, so a second run, with another denoiser, takes seconds. WIDTH and SAMPLES (of A and B)
+// replace a scene's own. small-window and neon-street are files of build/release/kinds_of_scene FOLDER. Results of
+// other denoisers, or of an older one, beside a picture (room_16.exr: room_16.LABEL.exr) are judged in the same run.
 //
-// shown: RMSE of what a screen shows, sRGB, at the exposure that ods render chooses. FLIP: tests/support/flip.h.
-// room_16c: with a light cache, as drafts have it. plain and edge: shown, of pixels without and with a step in normal
-// or albedo beside them. blotch: RMSE of the means of 8x8 pixels, of plain ones only. energy: the sum of light over the
+// shown: RMSE of the displayed picture, sRGB, at the exposure that ods render chooses. FLIP: tests/support/flip.h.
+// room_16c: with a light cache, as in drafts. plain and edge: shown, for pixels without and with a step in normal or
+// albedo beside them. blotch: RMSE of the means of 8x8 pixels, for plain ones only. energy: the sum of light over the
 // raw picture's.
 //
-// The truth is not needed for the errors: see denoise_bench.cpp. FLIP has the mean of A and B for its reference.
+// The truth is not needed for the errors, see denoise_bench.cpp. The reference of FLIP is the mean of A and B.
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
@@ -39,9 +39,9 @@ namespace fs = std::filesystem;
 
 struct Row {
   const char* name;
-  const char* file = "";  // in the folder or below shared_scenes(); empty: the built-in scene
+  const char* file = "";  // in the folder or below shared_scenes(); empty for the built-in scene
   int width;
-  int samples;  // of A and B
+  int samples;  // for A and B
 };
 
 constexpr Row kRows[] = {{"room", "", 256, 512},
@@ -54,7 +54,7 @@ constexpr Row kRows[] = {{"room", "", 256, 512},
                          {"neon-street", "neon-street.glb", 256, 512},
                          {"leafy", "leafy.glb", 256, 512}};
 
-constexpr int kCachePaths = 1 << 20;  // what a draft of a useful size fills its light cache with
+constexpr int kCachePaths = 1 << 20;  // the number for a draft of a useful size
 
 struct Opened {
   Picture picture;
@@ -91,7 +91,7 @@ Picture radiance_of(const fs::path& path) {
   return picture;
 }
 
-// What the screen shows, linear or encoded.
+// The displayed picture, linear or encoded.
 Image on_screen(const Image& light, float exposure, bool encode) {
   Image result = light;
   for (size_t i = 0; i < light.pixels.size(); i += 3) {
@@ -105,7 +105,7 @@ Image on_screen(const Image& light, float exposure, bool encode) {
   return result;
 }
 
-// 1 where a step in normal or albedo is beside.
+// 1 for pixels beside a step in normal or albedo.
 std::vector<char> edges_of(const EyeImage& eye) {
   const int width = eye.normal.width, height = eye.normal.height;
   std::vector<char> edges(static_cast<size_t>(width) * static_cast<size_t>(height));
@@ -179,8 +179,8 @@ class Judge {
     return {image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]};
   }
 
-  // The product of two errors as a screen shows them, mean of the channels: in light, times the tone curve's slope. A
-  // noisy truth has the right mean in light, but not on a curve.
+  // The product of two errors as displayed, mean of the channels: in light, times the tone curve's slope. A noisy truth
+  // has the right mean in light, but not after a curve.
   double seen(vec3 d, vec3 a, vec3 b) const {
     const auto shown = [&](vec3 light) {
       const vec3 c = tone_map(light, exposure_, ToneCurve::kNeutral);
@@ -220,7 +220,7 @@ void print(const std::string& name, const std::string& label, const Judged& judg
              judged.plain, judged.edge, judged.blotch, judged.flip, judged.energy, seconds);
 }
 
-// Other results of the picture in this file.
+// Other results for the picture in this file.
 std::vector<std::pair<std::string, fs::path>> others_of(const fs::path& folder, const std::string& stem) {
   std::vector<std::pair<std::string, fs::path>> others;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {

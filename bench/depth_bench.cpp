@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Stereo from a mono picture and its depth: how fast, and how near to the rendered stereo. The tables of docs/depth.md.
+// Stereo from a mono picture and its depth: speed, and accuracy relative to rendered stereo. Prints the tables of
+// docs/depth.md.
 //
-// Speed: every eighth row of both eyes of 8192x4096, without reading and writing files; beside it a turn of the same
-// picture by a third of a pixel, which only resamples. CPU seconds, so that other work on the machine does not count.
+// Speed: every eighth row of both eyes of 8192x4096, without reading and writing files; for comparison, a turn of the
+// same picture by a third of a pixel, which only resamples. CPU seconds, so that other work on the machine does not
+// count.
 //
-// Quality: the albedo of what is seen first, which has no noise, of scenes rendered from the middle and from both eyes.
-// Depth is exact, of 8 bits by 1 / metres, or of 8 bits and blurred over 9 pixels, whose edges are sharpened or used as
-// they are. PSNR of display-encoded colours, for
-// what the middle sees, too, and for what it does not.
+// Quality: the albedo of the first hit, which has no noise, for scenes rendered from the middle and from both eyes.
+// Depth is exact, 8-bit 1 / metres, or 8-bit and blurred over 9 pixels, with sharpened or unchanged edges. PSNR of
+// display-encoded colours, separately for the surfaces that the middle sees, and for the others.
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
@@ -32,7 +33,7 @@ using namespace ods;
 
 // --- speed -----------------------------------------------------------------------------------------------------------
 
-// A room with things in it, metres.
+// A room with objects in it, metres.
 float room_depth(vec3 d) {
   float depth = 1e9f;
   const vec3 half(3.0f, 1.5f, 4.0f);
@@ -129,7 +130,7 @@ float depth_of(const StoredPicture& picture, int x, int y) {
   return depth;
 }
 
-// The depth as somebody would deliver it; returns nothing for exact depth.
+// Degrades the depth as if delivered by another program; exact depth is not changed.
 void spoil(MadePicture& made, DepthCase how) {
   if (how == DepthCase::kExact) return;
   DepthNumbers depth{Image(1024, 512, 1), 255, "depth.png"};

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How fast frames become a video, over the ffmpeg program on the same frames with the same encoder and settings,
-// measured in turns in the same run. The frames have gradients, edges and grain that moves, so that they take about as
-// long to pack as photographs. above_ffmpeg: 1 is as fast, more is faster;
-// by wall clock and, for machines that have other work, by CPU seconds. And how fast a title is laid over a video, over
-// the ffmpeg program decoding and encoding it alone.
+// Speed of encoding frames to a video, relative to the ffmpeg program on the same frames with the same encoder and
+// settings, alternating in the same run. The frames have gradients, edges and moving grain, so that they compress about
+// as slowly as photographs. above_ffmpeg: 1 is as fast, more is faster; by wall clock and, for machines with other
+// work, by CPU seconds. Also the speed of compositing a title over a video, relative to the ffmpeg program decoding and
+// encoding it alone.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -46,7 +46,7 @@ PictureRows frame(int width, int number) {
   return rows;
 }
 
-// Ours and theirs in turns, the least of each: a machine has other work too.
+// Alternates ours and theirs, and takes the minimum of each, because the machine has other work.
 struct Race {
   Seconds ours{1e9, 1e9}, theirs{1e9, 1e9};
 
@@ -72,7 +72,7 @@ constexpr Settings kSettings[] = {{"libx264", VideoCodec::kH264, "-preset", "med
                                   {"libx265", VideoCodec::kHevc, "-preset", "ultrafast"},
                                   {"libsvtav1", VideoCodec::kAv1, "-preset", "12"}};
 
-// What a user of ffmpeg writes to get the same pictures: the matrix and the rounding are not its defaults.
+// The options with which ffmpeg makes the same pictures: the matrix and the rounding are not its defaults.
 std::string ffmpeg_words(const Settings& settings, const std::string& frames, const std::string& video) {
   std::ostringstream words;
   words << "ffmpeg -v error -y -framerate 30 -i " << frames

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How often a picture without words is recognised: every layout with every projection, in worlds by formula and in
-// built-in scenes, as JPEGs of two sizes and qualities (PNGs where eyes alternate), and pictures as others make them.
-// Prints the tables of docs/identify.md; a word as argument takes only the sources whose name has it, --others only
-// pictures as others make them, -v names each file that was not read rightly.
+// Recognition rate of pictures without metadata: every layout with every projection, in worlds by formula and in
+// built-in scenes, as JPEGs of two sizes and qualities (PNGs if eyes alternate), and pictures as other programs make
+// them. Prints the tables of docs/identify.md. An argument selects the sources whose name contains it, --others selects
+// pictures as other programs make them, -v lists each file that was misread.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -104,7 +104,7 @@ Image with_bars(Image image) {
   return image;
 }
 
-// Six faces in an order that none of ours has.
+// Six faces in an order that we do not support.
 Image of_other_order(const Image& image) {
   Image other = image;
   const int face = image.width / 3;
@@ -179,7 +179,7 @@ class Bench {
     const std::vector<Identity> seen = identities(truths, changed, pixels, 75);
     for (size_t i = 0; i < truths.size(); i++) {
       Verdict own = verdict_on(seen[i], truths[i]);
-      // A cube of another order is none of the readings: it is told at best.
+      // A cube in another order is not among the readings; naming it is the best possible result.
       if (seen[i].has_other_faces && !seen[i].is_sure()) own = Verdict::kNamed;
       const auto verdict = static_cast<size_t>(own);
       others_[name][verdict]++;

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Omnistereo authors
 # SPDX-License-Identifier: Apache-2.0
-"""How often ods convert takes others' files for what they are: photographs and panoramas from packages, made into the
-files that circulate by FFmpeg. Prints the table of docs/identify.md.
+"""Recognition rate of ods convert for files of other programs: photographs and panoramas from packages, converted by
+FFmpeg to common formats. Prints the table of docs/identify.md.
 
-    bench/identify_others.py build/release/ods FOLDER             # the half by which the marks were weighed
-    bench/identify_others.py build/release/ods FOLDER --held-out  # the half that nobody weighs by
+    bench/identify_others.py build/release/ods FOLDER             # the half used for the weights of the marks
+    bench/identify_others.py build/release/ods FOLDER --held-out  # the half that is held out
 
-Fetched into FOLDER, once: npm's @pmndrs/assets (18 panoramas by Poly Haven's photographers), Debian's
+Downloads into FOLDER, once: npm's @pmndrs/assets (18 panoramas by Poly Haven's photographers), Debian's
 lomiri-wallpapers-16.04, lomiri-wallpapers-20.04 and mate-backgrounds (photographs), opencv-doc (stereo pairs). Two eyes
-with a panorama's textures are rendered in a cube of it, 4 m wide, with things in it; if FOLDER/renders has stereo panoramas
-(bench/lint_others.sh), those are eyes, too: *yard* to weigh by, *hall* held out."""
+with a panorama's textures are rendered in a cube of it, 4 m wide, with objects in it; if FOLDER/renders has stereo
+panoramas (bench/lint_others.sh), those are used, too: *yard* for the weights, *hall* held out."""
 import base64, collections, concurrent.futures, glob, json, os, random, re, struct, subprocess, sys
 
 PHOTOS = ("lomiri-wallpapers-16.04", "lomiri-wallpapers-20.04", "mate-backgrounds", "opencv-doc")
@@ -21,7 +21,7 @@ def run(*words, **more):
 
 
 def ffmpeg(source, target, filters, *more):
-    """One picture out of one or two."""
+    """Makes one picture from one or two."""
     if os.path.exists(target):
         return target
     sources = [source] if isinstance(source, str) else source
@@ -31,7 +31,7 @@ def ffmpeg(source, target, filters, *more):
     return target
 
 
-# --- what is fetched ----------------------------------------------------------------------------------------------
+# --- downloads ----------------------------------------------------------------------------------------------------
 
 def fetch(folder):
     if not os.path.isdir(f"{folder}/panoramas"):
@@ -129,7 +129,7 @@ def of_eyes(each, stack="hstack", then=""):
 
 
 def phoned(source, target, filters):
-    """As a messenger sends it on: smaller, by H.264, and a picture of that."""
+    """As forwarded by a messenger: smaller, by H.264, and a picture of that."""
     film = ffmpeg(source, target[:-4] + ".mkv", filters, *PHONE)
     return ffmpeg(film, target, "null", *JPEG)
 
@@ -226,13 +226,13 @@ def all_files(ods, folder, held_out):
         yield from files_of_pair(name, left, right, out)
 
 
-# --- what became of them ------------------------------------------------------------------------------------------
+# --- results ------------------------------------------------------------------------------------------------------
 
 VERDICTS = ("right", "asked", "wrong, not sure", "sure and wrong")
 
 
 def verdict(ods, truth, path):
-    """What ods convert took a file for, and its verdict. To stop and ask is right where nothing else is."""
+    """The format that ods convert detected in a file, and the verdict. If no format is right, stopping to ask is."""
     made = path + ".out.png"
     done = subprocess.run([ods, "convert", path, "-o", made, "--width", "96"], capture_output=True, text=True)
     if os.path.exists(made):

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What public files are taken for, object or place, against what they are: bench/kinds_of_files.txt lists them and
-// where they come from. It fetches nothing: --files DIR is the folder that has them; those that are not there, or are
-// others of that name, are counted and left out. -v prints each file, not only what was taken for something else.
+// Classification of public files as object or place, compared with their actual kind: bench/kinds_of_files.txt lists
+// them and their sources. It downloads nothing: --files DIR is the folder with the files; missing ones, or other files
+// of the same name, are counted and left out. -v prints all files, not only misclassified ones.
 //   kinds_bench --files DIR [-v], in the folder of the repository
 #include <fmt/format.h>
 
@@ -46,7 +46,7 @@ std::vector<KnownFile> known_files(const std::filesystem::path& list) {
   return files;
 }
 
-// Nothing if the folder does not have this file.
+// Empty if the folder does not have this file.
 std::vector<unsigned char> bytes_of(const std::filesystem::path& path, const KnownFile& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return {};

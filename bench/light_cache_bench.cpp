@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How wrong the light cache is, against whole paths: light_cache_bench [SAMPLES [SCENE...]]. A scene is one of those
+// Error of the light cache relative to whole paths: light_cache_bench [SAMPLES [SCENE...]]. A scene is one of those
 // below or a glTF file. 1024 samples of all of them take an hour of a core.
 //
-// mean: of the picture's light, against that of paths. blocks: the share of blocks of 8x8 pixels whose mean is within
-// 2 % of that of paths, or within three standard deviations of both pictures' noise. worst: the error that 1 % of the
+// mean: the picture's light relative to paths. blocks: the fraction of blocks of 8x8 pixels whose mean is within 2 % of
+// the mean by paths, or within three standard deviations of both pictures' noise. worst: the error that 1 % of the
 // blocks exceed. noise: the median block's standard deviation. s: CPU seconds of a picture by paths, by the cache, and
-// of filling it with 2^20 paths. Two pictures each, with a cache of its own for each; one eye, 256x128 pixels, box
-// filter.
+// of filling it with 2^20 paths. Two pictures each, each with its own cache; one eye, 256x128 pixels, box filter.
 //
-// leaks is made for it: rooms of different light behind walls of 1 cm, a shelf of thin boards, a cupboard ajar, and
-// a garden seen through an open window.
+// The scene `leaks` is made for this: rooms of different light behind walls of 1 cm, a shelf of thin boards, a cupboard
+// ajar, and a garden seen through an open window.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +27,7 @@ namespace {
 using namespace ods;
 
 constexpr int kWidth = 256, kBlock = 8;
-constexpr int kCachePaths = 1 << 20;  // what a draft of a useful size fills its light cache with
+constexpr int kCachePaths = 1 << 20;  // the number for a draft of a useful size
 
 void add_block(Scene& scene, vec3 low, vec3 high, int material) {
   add(scene, make_box(high - low), material, placed(0.5f * (low + high)));
@@ -93,7 +92,7 @@ Subjected subject_of(const std::string& name) {
   return result;
 }
 
-// A picture's blocks: the mean of their light, and the variance of that.
+// A picture's blocks: the mean of their light, and its variance.
 struct Blocks {
   std::vector<double> light, variance;
 };

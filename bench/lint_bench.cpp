@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods lint finds, misses and invents: faults of many strengths planted into pictures of many scenes, sizes and
-// JPEG qualities, and as many kinds of correct pictures. Prints the tables of docs/lint.md.
+// Detection rate and false positives of ods lint: faults of many strengths planted into pictures of many scenes, sizes
+// and JPEG qualities, and as many kinds of correct pictures. Prints the tables of docs/lint.md.
 // "Found": the report names that fault, with a certainty of at least 0.5.
 //
 //   lint_bench           every fault at every strength, few sizes and qualities
@@ -29,7 +29,7 @@ namespace {
 struct Wanted {
   bool full = false;
   bool verbose = false;
-  std::vector<std::string> only;  // parts of names; none: all
+  std::vector<std::string> only;  // parts of names; empty for all
   std::string pictures;
   std::string others;
 };
@@ -40,7 +40,7 @@ bool is_wanted(const Wanted& wanted, const PicturePlant& plant, double strength)
   return wanted.only.empty() || std::any_of(wanted.only.begin(), wanted.only.end(), in_name);
 }
 
-// A picture to judge: a pair of eyes, what is done to it, and how it is stored.
+// A picture to judge: a pair of eyes, its modifications, and its file format.
 struct Case {
   const Pair* pair;
   const PicturePlant* plant;

@@ -17,7 +17,7 @@ void become_vr180(Made& made) {
   made.suffix = "_180_LR";
 }
 
-// The luminance of both eyes in the form that they are going to have, but for faults.
+// The luminance of both eyes in their final form, but without faults.
 static std::vector<Image> eyes_of(const Made& made) {
   const Conversion conversion = convert(made.pair->picture, made.target);
   const PictureRows& rows = conversion.rows;
@@ -36,7 +36,7 @@ static std::vector<Image> eyes_of(const Made& made) {
   return eyes;
 }
 
-// The parallax that a quarter of the places is below, degrees: of the half that vr180 shows, or of the whole.
+// The parallax, degrees, at the first quartile of the places: of the half that vr180 shows, or of the whole.
 static double far_parallax(const Made& made) {
   static std::mutex mutex;
   static std::map<std::pair<const Pair*, std::string>, double> known;

@@ -16,15 +16,15 @@
 
 using namespace ods;
 
-// --- what is seen ----------------------------------------------------------------------------------------------------
+// --- shots ----------------------------------------------------------------------------------------------------
 
 namespace {
 
 constexpr Extent kEye{512, 256};
-constexpr size_t kKept = 160;  // pictures of a shot
+constexpr size_t kKept = 160;  // pictures per shot
 constexpr float kBallRadius = 0.22f;
 
-// A ball that swings before the viewer and bounces; its pattern shows where it is.
+// A ball that swings in front of the viewer and bounces; its pattern shows its position.
 vec3 ball_at(double seconds) {
   const double across = 1.7 * std::sin(1.3 * seconds + 0.6 * std::sin(3.1 * seconds));
   return vec3(glm::dvec3(across, -0.4 + 0.5 * std::abs(std::sin(3.7 * seconds)), -1.5 + 0.3 * std::sin(2.3 * seconds)));
@@ -104,7 +104,7 @@ Shot::Ground world_picture(World world) {
   return turning({seen_in(world, camera, kLeft, kEye), seen_in(world, camera, kRight, kEye)});
 }
 
-// --- how the camera moves --------------------------------------------------------------------------------------------
+// --- camera motions --------------------------------------------------------------------------------------------
 
 void stand(StereoCamera&, double) {}
 
@@ -201,7 +201,7 @@ std::string save(const Film& film, const std::string& stem) {
 
 namespace {
 
-// The picture is higher by so many degrees.
+// Raises the picture by this many degrees.
 Image raised(const Image& image, double degrees) {
   Image result = image;
   const double rows = degrees / 180.0 * image.height;
@@ -216,7 +216,7 @@ Image raised(const Image& image, double degrees) {
   return result;
 }
 
-// Grain as displays show it, of its own in each eye and frame.
+// Adds grain as displayed, different for each eye and frame.
 void add_grain(std::vector<Image>& eyes, double deviation, int frame) {
   std::mt19937 engine(static_cast<uint32_t>(frame));
   std::normal_distribution<float> normal(0.0f, static_cast<float>(deviation));
@@ -281,7 +281,7 @@ void add_faults_of_a_shot(std::vector<FilmPlant>& plants) {
       });
 }
 
-// The last columns are missing, and the rest is stretched.
+// Removes the last columns, and stretches the rest.
 Image cut(const Image& image, double share) {
   Image result = image;
   for (int y = 0; y < image.height; y++) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The films that lint_video_bench judges: shots in which the camera or something before it moves, faults planted into
-// them, and what correct films may be like.
+// The films that lint_video_bench judges: shots in which the camera or an object moves, faults planted into them, and
+// the variations of correct films.
 #pragma once
 #include <functional>
 #include <map>
@@ -16,10 +16,10 @@
 #include "ods/image/image.h"
 #include "ods/lint/lint.h"
 
-// What both eyes of a correct camera see of a scene, at any time.
+// The view of both eyes of a correct camera in a scene, at any time.
 class Shot {
  public:
-  // The camera's way, in the scene; its place does not change where the scene is a picture.
+  // The camera's motion in the scene; its position does not change if the scene is a picture.
   using Way = std::function<void(ods::StereoCamera& camera, double seconds)>;
   // A world by formula, or a picture of a built-in scene, that turns with the camera.
   using Ground = std::function<ods::Image(const ods::StereoCamera& camera, int eye)>;
@@ -42,18 +42,18 @@ using Shots = std::vector<std::shared_ptr<const Shot>>;
 
 Shots film_shots();
 
-// What an eye shows in a frame of a film.
+// The picture of an eye in a frame of a film.
 struct Moment {
   size_t shot = 0;
   double seconds = 0.0;
 };
 
-// A film on its way to a file.
+// A film to be saved to a file.
 struct Film {
-  Shots shots;  // one after the other, each as long
+  Shots shots;  // one after the other, of equal length
   int frames = 60;
   double fps = 30.0;
-  double speed = 1.0;  // of all that moves
+  double speed = 1.0;  // speed of all motions
   std::function<void(Moment& moment, int frame, int eye)> retime;
   std::vector<std::function<void(std::vector<ods::Image>& eyes, int frame)>> edits;
   int quality = 20;  // CRF
@@ -69,11 +69,11 @@ struct Film {
 std::string save(const Film& film, const std::string& stem);
 
 struct FilmPlant : Plant<Film> {
-  size_t shots = 1;  // of a film
-  // What the evidence of a fault of time has to say, or the shot that has to show a fault of pictures. May be empty.
+  size_t shots = 1;  // number per film
+  // The text required in the evidence of a fault of time, or the shot that must show a fault of pictures. May be empty.
   std::function<std::string(double strength)> evidence = {};
   int shot = -1;
-  int every = 20;  // one of so many frames is judged as a picture
+  int every = 20;  // one of this many frames is judged as a picture
 };
 const std::vector<FilmPlant>& film_faults();
 const std::vector<FilmPlant>& correct_films();

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Correct stereo pictures by other renderers, for lint_bench --others: a yard and a hall by POV-Ray, from slits, and by
-# Blender's Cycles, with its own stereo panorama and few samples. Pictures that are there stay.
+# Blender's Cycles, with its own stereo panorama and few samples. Existing pictures are kept.
 #
 #   bench/lint_others.sh build/release/ods FOLDER
 set -eu
@@ -13,12 +13,12 @@ cd "$2"
 
 pov_scene() {  # yard or hall
   cat <<'POV'
-#version 3.7;
+# version 3.7;
 global_settings { assumed_gamma 1 }
-#declare R = seed(7);
-#declare Stone = texture { pigment { granite scale 0.7 color_map { [0 rgb <.35,.3,.25>] [1 rgb <.8,.75,.65>] } }
+# declare R = seed(7);
+# declare Stone = texture { pigment { granite scale 0.7 color_map { [0 rgb <.35,.3,.25>] [1 rgb <.8,.75,.65>] } }
   normal { granite 0.3 scale 0.3 } finish { diffuse 0.8 ambient 0.05 specular 0.1 } }
-#declare Tiles = texture { pigment { checker rgb <.55,.5,.45> rgb <.25,.2,.2> scale 0.5 }
+# declare Tiles = texture { pigment { checker rgb <.55,.5,.45> rgb <.25,.2,.2> scale 0.5 }
   finish { diffuse 0.8 ambient 0.05 reflection 0.08 } }
 POV
   if [ "$1" = yard ]; then
@@ -28,15 +28,15 @@ sky_sphere { pigment { gradient y color_map { [0 rgb <.7,.8,.9>] [1 rgb <.15,.3,
 light_source { <40, 60, -30> rgb <1.3, 1.2, 1.0> }
 plane { y, 0 texture { pigment { bozo turbulence 0.5 scale 0.4 color_map { [0 rgb <.1,.2,.05>] [1 rgb <.3,.35,.12>] } }
   finish { diffuse 0.8 ambient 0.05 } } }
-#for (I, 1, 40)
-  #local A = 2 * pi * rand(R); #local D = 1.6 + 8 * rand(R); #local H = 0.5 + 3 * rand(R);
+# for (I, 1, 40)
+  # local A = 2 * pi * rand(R); #local D = 1.6 + 8 * rand(R); #local H = 0.5 + 3 * rand(R);
   union {
     cylinder { 0, y * H, 0.1 texture { Stone } }
     sphere { y * H, 0.3 + 0.3 * rand(R) texture { pigment { bozo scale 0.15 color_map {
       [0 rgb <.05,.2,.05>] [1 rgb <.4,.5,.1>] } } normal { bumps 0.8 scale 0.1 } finish { diffuse 0.8 ambient 0.05 } } }
     translate <D * sin(A), 0, D * cos(A)>
   }
-#end
+# end
 POV
   else
     cat <<'POV'
@@ -44,14 +44,14 @@ light_source { <1.5, 2.6, 1> rgb 0.8 fade_distance 3 fade_power 2 }
 light_source { <-1.5, 2.4, -1.5> rgb <.9,.8,.6> fade_distance 3 fade_power 2 }
 box { <-3, 0, -4>, <3.5, 3, 3.2> hollow texture { Stone } }
 box { <-3, -0.1, -4>, <3.5, 0.001, 3.2> texture { Tiles } }
-#for (I, 0, 11)
+# for (I, 0, 11)
   cylinder { <2.4 * sin(I * pi / 6 + 0.2), 0, 2.4 * cos(I * pi / 6 + 0.2)>,
     <2.4 * sin(I * pi / 6 + 0.2), 3, 2.4 * cos(I * pi / 6 + 0.2)>, 0.12 texture { Tiles scale 0.3 } }
-#end
-#for (I, 1, 20)
+# end
+# for (I, 1, 20)
   sphere { <3 * rand(R) - 1.5, 0.15, 3 * rand(R) - 1.5>, 0.15
     pigment { rgb <rand(R), rand(R), rand(R)> } finish { diffuse 0.7 ambient 0.05 reflection 0.2 specular 0.6 } }
-#end
+# end
 POV
   fi
   echo '#include "rig.povray.inc"'

@@ -24,7 +24,7 @@ constexpr int kWidth = 2048;
 struct View {
   Subject subject;
   std::string name;
-  vec3 offset{0.0f};  // from the scene's own place
+  vec3 offset{0.0f};  // from the scene's own position
   std::function<void(StereoCamera&)> camera = {};
 };
 
@@ -121,7 +121,7 @@ float at_column(const Image& image, double x, int y, int c) {
   return (1.0f - share) * value(left) + share * value(left + 1);
 }
 
-// The picture covers this many turns, stretched to its old width.
+// Makes the picture cover this many turns, stretched to its old width.
 Image covering(const Image& image, double turns) {
   Image result = image;
   for (int y = 0; y < image.height; y++) {
@@ -161,7 +161,7 @@ Image blurred(const Image& image, double sigma) {
   return both;
 }
 
-// As an editor resizes that knows of no seam: each pixel is the mean of nine places.
+// Resizes like an editor without support of seams: each pixel is the mean of nine points.
 Image resized(const Image& image, double scale) {
   Image result(static_cast<int>(image.width * scale) / 2 * 2, static_cast<int>(image.height * scale), 3);
   for (int y = 0; y < result.height; y++) {
@@ -184,7 +184,7 @@ Image sharpened(const Image& image, float amount) {
   return result;
 }
 
-// Grain as displays show it, of its own in each eye.
+// Adds grain as displayed, different for each eye.
 void add_grain(std::vector<Image>& eyes, double deviation, uint32_t seed) {
   std::mt19937 engine(seed);
   std::normal_distribution<float> normal(0.0f, static_cast<float>(deviation));
@@ -195,7 +195,7 @@ void add_grain(std::vector<Image>& eyes, double deviation, uint32_t seed) {
   }
 }
 
-// A gradient as of a clear sky, down to a horizon at this share of the height.
+// A gradient like a clear sky, down to a horizon at this fraction of the height.
 void cover_with_sky(Image& eye, double horizon) {
   const int rows = static_cast<int>(horizon * eye.height);
   for (int y = 0; y < rows; y++) {
@@ -207,7 +207,7 @@ void cover_with_sky(Image& eye, double horizon) {
   }
 }
 
-// As a camera that is rolled by so many degrees.
+// The picture of a camera that is rolled by this many degrees.
 Image tilted(const Image& image, double degrees) {
   EyeCorrection roll;
   roll.roll = static_cast<float>(degrees);
@@ -231,7 +231,7 @@ Image tilted(const Image& image, double degrees) {
   return result;
 }
 
-// The brightest pixels become white, this share of the sphere about the horizon.
+// Makes the brightest pixels white, up to this fraction of the sphere about the horizon.
 void whiten(Image& eye, double share) {
   std::vector<float> brightest;
   for (int y = 0; y < eye.height; y++) {
@@ -252,7 +252,7 @@ void reduce_bits(Image& eye, double bits) {
   for (float& light : eye.pixels) light = srgb_decode(std::round(srgb_encode(std::min(light, 1.0f)) * most) / most);
 }
 
-// The same curve and colours for both eyes.
+// Applies the same curve and colours to both eyes.
 void grade(std::vector<Image>& eyes, vec3 gain, float gamma) {
   for (Image& eye : eyes) {
     for (size_t i = 0; i < eye.pixels.size(); i++) {
@@ -373,7 +373,8 @@ void add_warnings(std::vector<PicturePlant>& plants) {
        }});
 }
 
-// What a wrong layout shows as: another one, two places instead of two eyes, or eyes of a wrong shape.
+// The faults that a wrong layout may appear as: another layout, two places instead of two eyes, or eyes of a wrong
+// aspect ratio.
 const std::vector<Fault> kWrongLayout = {Fault::kLayoutMisread, Fault::kMetadata, Fault::kMonoAsStereo,
                                          Fault::kWrongAspect};
 

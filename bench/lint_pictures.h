@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The pictures that lint_bench judges: pairs of scenes, faults planted into them, and what correct pictures may be
-// like.
+// The pictures that lint_bench judges: pairs of scenes, faults planted into them, and the variations of correct
+// pictures.
 #pragma once
 #include <functional>
 #include <optional>
@@ -13,22 +13,22 @@
 #include "ods/convert/convert.h"
 #include "ods/lint/lint.h"
 
-// Both eyes of a scene as a correct renderer makes them.
+// Both eyes of a scene, as made by a correct renderer.
 struct Pair {
   std::string name;
   ods::StoredPicture picture;
 };
 
-// 2048 pixels wide. Renders those that the folder does not hold from an earlier call.
+// Pairs 2048 pixels wide. Renders those that the folder does not contain from an earlier call.
 std::vector<Pair> scene_pairs(const std::string& folder);
 
-// A picture on its way to a file: `target` converts the pair, then `edits` change the eyes' linear light.
+// A picture to be saved to a file: `target` converts the pair, then `edits` change the eyes' linear light.
 struct Made {
   const Pair* pair = nullptr;
   ods::ConvertTarget target;
   std::vector<std::function<void(std::vector<ods::Image>& eyes)>> edits;
   ods::SaveOptions save;
-  std::string suffix;  // of the file's name: "_TB"
+  std::string suffix;  // suffix of the file's name: "_TB"
   std::string extension = ".jpg";
   ods::LintOptions lint;
   uint32_t seed = 0;
@@ -42,7 +42,7 @@ using PicturePlant = Plant<Made>;
 const std::vector<PicturePlant>& planted_faults();
 const std::vector<PicturePlant>& correct_kinds();
 
-// Makes it one of the front half, side by side.
+// Converts it to the front half, side by side.
 void become_vr180(Made& made);
-// Eyes that diverge: the right one is turned so that a quarter of the places has so much parallax outwards.
+// Eyes that diverge: the right one is turned so that a quarter of the places has this parallax outwards.
 void add_divergence(std::vector<PicturePlant>& plants);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the two benchmarks of ods lint share: faults to plant, into pictures or films, and what the report says of them.
+// Shared by the two benchmarks of ods lint: faults to plant, into pictures or films, and their findings in the report.
 #pragma once
 #include <fmt/format.h>
 
@@ -15,8 +15,8 @@
 template <class Subject>
 struct Plant {
   std::string name;
-  std::vector<ods::Fault> faults;  // any of them is right; empty: the subject is correct
-  ods::Check check;                // which finds it
+  std::vector<ods::Fault> faults;  // any of them is correct; empty if the subject is correct
+  ods::Check check;                // the check that finds it
   std::string unit;
   std::vector<double> strengths;
   std::function<void(Subject& subject, double strength)> plant = {};
@@ -28,14 +28,14 @@ struct Plant {
 
 struct Verdict {
   bool found = false;
-  bool judged = true;  // the check that would have found it was made
+  bool judged = true;  // the check was made
   int others = 0;      // faults that were not planted
   std::string text;
 
   bool is_expected(bool is_correct) const { return others == 0 && (found || is_correct); }
 };
 
-// Warnings that were not planted do not count, but for frames that are there twice.
+// Warnings that were not planted do not count, except for duplicate frames.
 inline Verdict verdict_of(const ods::LintReport& report, ods::Check check,
                           const std::function<bool(const ods::Finding& finding)>& is_planted) {
   Verdict verdict;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods lint finds, misses and invents in videos: faults planted into short films of six shots, and correct films.
-// Prints the tables of docs/lint.md. "Found": the report names that fault with a certainty of at least 0.5, with the
-// right number of frames and only in the shot that has it.
+// Detection rate and false positives of ods lint for videos: faults planted into short films of six shots, and correct
+// films. Prints the tables of docs/lint.md. "Found": the report names that fault with a certainty of at least 0.5, with
+// the right number of frames and only in the shot that has it.
 //
 //   lint_video_bench
 //   lint_video_bench --only NAME    only the rows whose names contain this
@@ -28,7 +28,7 @@ struct Wanted {
   std::string keep;
 };
 
-// Found as planted: as much of it, and where it is.
+// Returns whether the finding matches the planted fault in amount and position.
 bool is_right(const FilmPlant& plant, double strength, const Film& film, const ods::Finding& finding) {
   if (!plant.explains(finding)) return false;
   if (plant.evidence && finding.evidence.find(plant.evidence(strength)) == std::string::npos) return false;

@@ -8,7 +8,7 @@
 #include "ods/stage/light/supply.h"
 #include "ods/stage/place.h"
 
-// A file as ods render has it: with the light that it lacks.
+// A file as loaded by ods render, with the light that it lacks.
 inline ods::Scene lit_scene(const std::string& path) {
   using namespace ods;
   Scene scene = load_scene(path, {});

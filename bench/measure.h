@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What benchmarks measure: wall clock, CPU seconds for machines that have other work, memory.
+// Measurements for benchmarks: wall clock, CPU seconds for machines with other work, memory.
 #pragma once
 #include <benchmark/benchmark.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 #include <sstream>
 #include <string>
 
-// A folder that goes with the process, beside the program: temporary folders may be memory.
+// A folder beside the program, removed with the process; temporary folders may be in memory.
 class Folder {
  public:
   Folder() { path_ = mkdtemp(path_.data()); }
@@ -33,7 +33,7 @@ struct Seconds {
   double cpu = 0.0;
 };
 
-// Of this process and of those that it has run.
+// CPU seconds of this process and its finished children.
 inline double cpu_seconds() {
   const auto seconds = [](timeval t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
   double sum = 0.0;

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What merging parts of a picture takes, until its .exr is written: time over merely reading all their pixels, and
+// Cost of merging parts of a picture, until its .exr is written: time relative to merely reading all their pixels, and
 // memory. Targets: 1.5 times, and below 1000 MB for 64 parts of 4096x4096 pixels with both eyes in them.
 //
 //   merge_bench                          64 parts of 1024x1024: 0.1 GB of disk
 //   merge_bench --width 4096             64 of 4096x4096: 1.1 GB of disk, 2 GB of memory to make them
-//   merge_bench --width 4096 --parts 8   an eighth of the time; what is done once for all parts weighs eight times
+//   merge_bench --width 4096 --parts 8   an eighth of the time; work done once for all parts weighs eight times
 //
-// The sums are noise, which packs as badly as a rendering's. One file has the names of all parts, so that the disk is
-// not what is measured.
+// The sums are noise, which compresses as badly as a rendering's. All parts are the same file under different names, so
+// that the disk is not measured.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -41,7 +41,7 @@ uint64_t noise(uint64_t n) {
   return n ^ n >> 29;
 }
 
-// Sums of 16 samples: of light near 1, of its squares, of layers.
+// Sums of 16 samples: light near 1, its squares, layers.
 void fill(PictureSamples& samples, uint64_t seed) {
   for (EyeSamples& eye : samples.eyes) {
     each_plane(eye, [&]<typename Number>(const char*, std::vector<Number>& plane) {
@@ -90,7 +90,7 @@ void merge(benchmark::State& state) {
   const std::vector<std::string> parts = make_parts(folder);
   for (auto _ : state) {
     RenderOptions options = whole_picture();
-    options.statistics = false;  // nothing is denoised
+    options.statistics = false;  // no denoising
     forget_peak();
     const Seconds ours =
         seconds_of([&] { save_picture(merge_parts(parts, options), StereoCamera(), {}, folder.path("whole.exr")); });
@@ -103,7 +103,7 @@ void merge(benchmark::State& state) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  ods::return_large_blocks();  // as the command does
+  ods::return_large_blocks();  // like in the command
   benchmark::Initialize(&argc, argv);
   for (int i = 1; i + 1 < argc; i += 2) wishes.at(argv[i]) = std::max(std::atoi(argv[i + 1]), 2);
   const std::string name = fmt::format("merge/{}/{}", wishes["--width"], wishes["--parts"]);

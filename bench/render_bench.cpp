@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How fast the path tracer is, in the measures of its peers: samples per CPU second, the share of the time that is
-// Embree's, CPU seconds to a given noise, loading, threads. Seconds are CPU seconds of the whole process.
+// Speed of the path tracer, in the measures of similar renderers: samples per CPU second, Embree's share of the time,
+// CPU seconds to a given noise, loading, threads. Seconds are CPU seconds of the whole process.
 //
 // The scenes are the shared atrium and helmet, and the built-in room; box filter, 8 bounces.
 #include <benchmark/benchmark.h>
@@ -52,7 +52,7 @@ struct TracedRay {
   bool shadow;
 };
 
-// The rays of a render of both eyes, one sample for each pixel, in its order.
+// The rays of a render of both eyes, one sample per pixel, in rendering order.
 std::vector<TracedRay> record_rays(const EmbreeScene& embree, PathTracer tracer, const Camera& camera, int width) {
   std::vector<TracedRay> rays;
   const PathSettings settings{8, kLightSamplingBoth, false, 0.0f};
@@ -74,7 +74,7 @@ std::vector<TracedRay> record_rays(const EmbreeScene& embree, PathTracer tracer,
   return rays;
 }
 
-// The yardstick: the same rays traced bare, over tracing and shading them.
+// The baseline: tracing only the same rays, relative to tracing and shading them.
 void share_of_embree(benchmark::State& state, const Subject& subject) {
   const Scene scene = load(subject);
   const LightTable lights = make_lights(scene);
@@ -109,7 +109,7 @@ void share_of_embree(benchmark::State& state, const Subject& subject) {
   }
 }
 
-// What it is worth that the eyes share paths: variance times CPU time without, over that with.
+// The benefit of sharing paths between the eyes: variance times CPU time without, over that with sharing.
 void gain_of_shared_paths(benchmark::State& state, const Subject& subject) {
   const Scene scene = load(subject);
   const CpuRenderer renderer(scene);
@@ -124,7 +124,7 @@ void gain_of_shared_paths(benchmark::State& state, const Subject& subject) {
   }
 }
 
-// What it is worth to stop where it is clean: variance times CPU time over that of as many samples everywhere.
+// The benefit of stopping clean pixels: variance times CPU time over that of as many samples everywhere.
 void adaptive_over_uniform(benchmark::State& state, const Subject& subject) {
   const Scene scene = load(subject);
   const StereoCamera camera = camera_of(subject, scene);
@@ -142,7 +142,7 @@ void adaptive_over_uniform(benchmark::State& state, const Subject& subject) {
   }
 }
 
-// 256x128 for each eye. Variance falls as one over the samples.
+// 256x128 for each eye. Variance is inversely proportional to the number of samples.
 void seconds_to_equal_noise(benchmark::State& state, const Subject& subject) {
   const Scene scene = load(subject);
   const CpuRenderer renderer(scene);
@@ -183,8 +183,8 @@ void two_threads_against_one(benchmark::State& state, const Subject& subject) {
   }
 }
 
-// What a frame of a video costs beside tracing it: the scene at another time, its trees and lights, against making them
-// all as for a first frame. The built-in toys, or a scene that stands still.
+// Cost of a video's frame besides tracing: the scene at another time, its trees and lights, relative to building all of
+// them as for a first frame. The built-in toys, or a static scene.
 void frame_overhead(benchmark::State& state, const Subject& subject) {
   Scene scene = load(subject);
   play(scene.animation, "");

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How long a compressed scene of a million triangles takes to load, over the same scene without compression, and how
-// much memory, over the scene it becomes: in turn, five times, of which the median counts. Targets: at most 1.5 and 2.
-// A single primitive takes 2.9 times the scene's memory, all of it libdraco's own: corner tables of the mesh and of
-// each attribute. Primitives of a usual size are below the target.
+// Time to load a compressed scene of a million triangles, relative to the same scene without compression, and memory,
+// relative to the loaded scene: alternating, five times, of which the median counts. Targets: at most 1.5 and 2. A
+// single primitive takes 2.9 times the scene's memory, all of it libdraco's own: corner tables of the mesh and of each
+// attribute. Primitives of a usual size are below the target.
 #include <draco/compression/expert_encode.h>
 #include <malloc.h>
 
@@ -69,7 +69,7 @@ int add_floats(draco::Mesh& mesh, draco::GeometryAttribute::Type type, const std
   return id;
 }
 
-// As Blender's exporter has it by default: 14, 10 and 12 bits.
+// With the defaults of Blender's exporter: 14, 10 and 12 bits.
 std::string draco_stream(const Shape& shape) {
   draco::Mesh mesh;
   const int position = add_floats(mesh, draco::GeometryAttribute::POSITION, shape.positions, 3);
@@ -198,7 +198,7 @@ void load_draco(benchmark::State& state, uint32_t primitives) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return_large_blocks();  // as the command does
+  return_large_blocks();  // like in the command
   for (const uint32_t primitives : {1u, 16u}) {
     benchmark::RegisterBenchmark(("draco/primitives:" + std::to_string(primitives)).c_str(),
                                  [=](benchmark::State& state) { load_draco(state, primitives); })

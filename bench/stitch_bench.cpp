@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How long it takes to put a picture together of the views of a rig, over merely reading the same files on as many
-// threads: in turn, five times, of which the median counts.
+// Time to stitch a picture from the views of a rig, relative to merely reading the same files on as many threads:
+// alternating, five times, of which the median counts.
 #include <tbb/parallel_for.h>
 #include <unistd.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using namespace ods;
 
-// A pattern on a ball of 3 m, with depth or without.
+// A pattern on a sphere of radius 3 m, with or without depth.
 void make_view(const SlitRig& rig, const StereoCamera& pose, const std::string& path) {
   PictureRows rows;
   rows.eye = rig.view;
@@ -53,7 +53,7 @@ void stitch_views(benchmark::State& state, int slits, ViewDepth depth, const std
   files.names = folder.path("####." + extension);
   tbb::parallel_for(size_t{0}, rig.views.size(),
                     [&](size_t i) { make_view(rig, rig.views[i], view_path(rig, files, i)); });
-  sync();  // or the disk would still be busy with them
+  sync();  // otherwise the disk would still be busy with them
   Stitched stitched;
   const auto ours = [&] {
     StitchOptions stitching;
@@ -66,7 +66,7 @@ void stitch_views(benchmark::State& state, int slits, ViewDepth depth, const std
   };
   std::vector<std::pair<Seconds, Seconds>> rounds;
   for (auto _ : state) {
-    stitched = {};  // who stitches again begins anew
+    stitched = {};  // the next run starts again
     std::filesystem::remove(folder.path("journal"));
     forget_peak();
     const Seconds stitching = seconds_of(ours);

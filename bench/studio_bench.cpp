@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How soon the studio answers: milliseconds from each of 60 changes to its first picture while a finer one is rendered,
-// how many of them were late, and how long that finer one takes to stop. Ratios are to the longest that the studio may
-// take.
+// Latency of the studio: milliseconds from each of 60 changes to its first picture while a finer one is rendered, how
+// many of them were late, and how long that finer one takes to stop. Ratios are to the maximum latency of the studio.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -32,7 +31,7 @@ double milliseconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// From a change of the camera to the first picture that has it.
+// The time from a change of the camera to the first picture that shows it.
 double milliseconds_to_change(LiveRender& live, LiveSettings& settings) {
   settings.camera.yaw += 7.0f;
   return milliseconds_of([&] {
@@ -47,7 +46,7 @@ double milliseconds_to_change(LiveRender& live, LiveSettings& settings) {
 
 constexpr auto kNeverRest = 60s;
 
-// The studio's steps take from milliseconds to seconds: a pause of its own before each change meets several.
+// The studio's steps take from milliseconds to seconds; different pauses before the changes meet several of them.
 void pause_before(int change) {
   std::this_thread::sleep_for(500ms + (change % 12) * 170ms);
 }
@@ -74,7 +73,7 @@ Changes first_lights(Scene& scene, LiveSettings settings) {
   return changes;
 }
 
-// Until the thread has ended, with what it takes to free all that it held: an upper bound.
+// The time until the thread has ended, including freeing all of its memory: an upper bound.
 double cancel(Scene& scene, LiveSettings settings) {
   std::vector<double> times;
   for (int change = 0; change < kCancels; change++) {

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What benchmarks render, and the price of a picture: its CPU time and its noise.
+// The scenes of benchmarks, and the price of a picture: its CPU time and its noise.
 //
-// The shared scenes have no light of their own: a white sky of 1. Without them the built-in fractal stands in. Built-in
-// scenes have their own light and place.
+// The shared scenes have no light of their own and get a white sky of 1. If they are missing, the built-in fractal
+// replaces them. Built-in scenes have their own light and viewpoint.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -22,9 +22,9 @@
 
 struct Subject {
   const char* name;
-  const char* file = "";  // below shared_scenes(); empty: the built-in scene of that name
+  const char* file = "";  // below shared_scenes(); empty for the built-in scene of that name
   ods::vec3 position{0.0f};
-  double noise = 0.0;  // RMSE that the equal-noise figure aims at
+  double noise = 0.0;  // target RMSE of the equal-noise figure
 
   bool is_builtin() const { return !*file; }
   std::string path() const { return ods::shared_scenes() + "/" + file; }
@@ -57,7 +57,7 @@ inline ods::RenderOptions options_of(int width, int samples) {
   return options;
 }
 
-// How light is compared: as it is, or as a screen shows it.
+// The light values to compare: unchanged, or as displayed.
 using LightView = float (*)(float light);
 inline float linear(float light) {
   return light;
@@ -81,16 +81,17 @@ inline double difference(const ods::Picture& a, const ods::Picture& b, LightView
   return std::sqrt(sum / static_cast<double>(count));
 }
 
-// Variance falls as one over the time: their product is what counts.
+// Variance is inversely proportional to the time, so their product is the price.
 struct Price {
-  double seconds = 0.0;  // of CPU, for a picture
+  double seconds = 0.0;  // CPU time of a picture
   double variance = 0.0;
   double shown_variance = 0.0;
-  double samples = 0.0;  // of a pixel, on average
+  double samples = 0.0;  // per pixel, on average
   double product() const { return seconds * variance; }
 };
 
-// Two pictures of other seeds, made in so many seconds. They differ by twice the variance of either.
+// Computes the price from two pictures with different seeds, made in this time. They differ by twice the variance of
+// each.
 inline Price price_of(const ods::Picture& a, const ods::Picture& b, double seconds) {
   const ods::Image& one = a.eyes[0].radiance;
   const double pixels = 1.0 * one.width * one.height * static_cast<double>(a.eyes.size());

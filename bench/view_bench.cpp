@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a frame of the viewer costs, in CPU milliseconds of a Chromium whose GPU is software: while it moves, at rest,
-// and beside both the plainest shader for a lat-long picture, one bilinear look-up, in the same run. How soon a large
-// picture is seen, and is sharp, and what memory the page and its server take.
+// Cost of a frame of the viewer, in CPU milliseconds of a Chromium with a software GPU: while it moves, at rest, and
+// for comparison the simplest shader for a lat-long picture, one bilinear look-up, in the same run. Also the time until
+// a large picture is visible, and sharp, and the memory of the page and its server.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -28,7 +28,8 @@ using namespace ods;
 constexpr int kMovingFrames = 40, kStillFrames = 2;
 constexpr int kWidth = 640, kHeight = 360;
 
-// Draws frames while the look turns, and says when it begins and ends: each is read back, or drivers would put it off.
+// Draws frames while the look turns, and reports the start and the end. Each frame is read back, because drivers would
+// defer it.
 constexpr const char* kScript = R"(
 import { Panorama, compile, loadShader, raysOf } from './panorama.js';
 import { openPicture } from './picture.js';
@@ -141,7 +142,7 @@ class Frames {
     if (request.path == "bench.js") return {.type = "text/javascript", .body = kScript};
     if (request.path == "sizes")
       return {.body = fmt::format("{} {} {} {}", kWidth, kHeight, kMovingFrames, kStillFrames)};
-    const PageFile* const module = find_page_file(request.path);  // a site has them as one script
+    const PageFile* const module = find_page_file(request.path);  // sites have them as one script
     if (module) return {.type = std::string(media_type(request.path)), .body = std::string(module->data)};
     return {.type = std::string(media_type(request.path)), .file = site + request.path};
   }
@@ -166,8 +167,8 @@ void frame(benchmark::State& state, const std::string& projection, Extent eye, b
   }
 }
 
-// Seconds since the page was asked for: when something of the picture is on the canvas, and when all that the view
-// needs is.
+// Seconds from the request of the page until a part of the picture is on the canvas, and until everything in the view
+// is.
 constexpr const char* kWatch = R"(
 const now = () => (performance.now() / 1000).toFixed(3);
 const post = (path, body = '') => fetch(path, { method: 'POST', body });

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Omnistereo authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# What the library stands on. Read by the build, and by find_package(ods) where it is installed.
+# The dependencies of the library. Read by the build, and by find_package(ods) for an installed library.
 find_package(embree 4 QUIET CONFIG)
 if(NOT embree_FOUND)
   find_package(embree 3.13 REQUIRED CONFIG)

@@ -1,37 +1,37 @@
 # SPDX-FileCopyrightText: 2026 The Omnistereo authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# How everything here is compiled.
+# The flags for compiling everything here.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 find_program(CCACHE ccache)
-if(CCACHE)  # what it asks for where headers are precompiled; another clone's objects serve this one
+if(CCACHE)  # required with precompiled headers; another clone's objects serve this one
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
     CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=true ${CCACHE})
 endif()
 set(precompiled <algorithm> <filesystem> <functional> <optional> <string> <vector> <fmt/format.h> <glm/glm.hpp>)
 
-# The kernel gives the same bits with every compiler: no contraction, nothing that reorders floating point.
-# Release's -O3 rather than -O2 and no errno or traps is where its speed lies.
+# The kernel gives the same bits with every compiler: no contraction, no reordering of floating point. Its speed comes
+# from Release's -O3 instead of -O2, and no errno or traps.
 add_library(ods_flags INTERFACE)
-set(gcc12 $<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>)  # the one that CI builds with
+set(gcc12 $<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>)  # the compiler of CI
 target_compile_options(ods_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<OR:$<BOOL:${ODS_WERROR}>,$<AND:${gcc12}>>:-Werror>
   -ffp-contract=off -fno-math-errno -fno-trapping-math $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
   $<$<AND:${gcc12}>:-Wno-array-bounds -Wno-restrict
-    -Wno-stringop-overflow -Wno-stringop-overread>  # it sees ghosts in strings
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)  # of files that another includes, as unite() has them
-target_link_options(ods_flags INTERFACE -Wl,--as-needed)  # a program starts faster without libraries that it never calls
-if(ODS_SANITIZE)  # g++ 12 sees ghosts in <regex>
+    -Wno-stringop-overflow -Wno-stringop-overread>  # false positives in strings
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)  # for files included by another, as in unite()
+target_link_options(ods_flags INTERFACE -Wl,--as-needed)  # a program starts faster without unused libraries
+if(ODS_SANITIZE)  # g++ 12 has false positives in <regex>
   target_compile_options(ods_flags INTERFACE -fsanitize=${ODS_SANITIZE} -fno-sanitize-recover=all
     -fno-omit-frame-pointer $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_compile_definitions(ods_flags INTERFACE _GLIBCXX_ASSERTIONS)
   target_link_options(ods_flags INTERFACE -fsanitize=${ODS_SANITIZE})
 endif()
 
-# Up to sixteen files of a folder are compiled as one, in less than half the time. What two of them need belongs in one
-# place; a name that two tests have for different things, in `namespace ods::FILE`.
+# Up to sixteen files of a folder are compiled as one, in less than half the time. Code that two of them need belongs in
+# one place; a name that two tests use for different things, in `namespace ods::FILE`.
 function(unite target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${ODS_UNITY} UNITY_BUILD_MODE GROUP)
   foreach(source ${ARGN})

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The Omnistereo authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# manual.sh ODS FOLDER "CONTACT": what is installed beside the command: man pages and completions, which it prints itself,
-# and the changelog that Debian wants.
+# manual.sh ODS FOLDER "CONTACT": the files installed beside the command: man pages and completions, which it prints
+# itself, and the changelog that Debian requires.
 set -eu
 ods=$1
 out=$2

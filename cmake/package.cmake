@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The Omnistereo authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# The Debian package of the command, for `cpack`: ./run package makes it. Its dependencies are what the programs are
-# linked with, so it is for the release of Debian or Ubuntu that it was made on.
+# The Debian package of the command, for `cpack`: ./run package makes it. Its dependencies are the linked libraries, so
+# it is for the release of Debian or Ubuntu on which it was made.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME ods)
 set(CPACK_PACKAGE_CONTACT ${contact})

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Omnistereo authors
 # SPDX-License-Identifier: Apache-2.0
-"""What ods render has not, around a camera at (0, 0, 1.6): hair, a particle system and a volume. Writes hair.blend.
+"""Features that ods render does not have, around a camera at (0, 0, 1.6): hair, a particle system and a volume.
+Writes hair.blend.
 
     blender -b --factory-startup --python-exit-code 1 -P blender_hair.py
 
@@ -35,7 +36,7 @@ def ball(name, place, radius, *materials):
 
 
 def around(degrees, distance, height):
-    """A place; 0 degrees is ahead (+Y), 90 to the right (+X)."""
+    """A position; 0 degrees is ahead (+Y), 90 to the right (+X)."""
     turn = math.radians(degrees)
     return (distance * math.sin(turn), distance * math.cos(turn), height)
 
@@ -57,7 +58,7 @@ def add_hair(name, place, skin, strands):
 
 
 def add_fountain(place, colour):
-    """A disc that throws small balls up; they are simulated, and lie in the file as they were."""
+    """A disc that throws small balls up; they are simulated, and stored in the file."""
     grain = ball("grain", (0.0, 0.0, -5.0), 1.0, colour)
     bpy.ops.mesh.primitive_circle_add(vertices=24, radius=0.08, fill_type="NGON", location=place)
     system = add_particles(bpy.context.object, "fountain", count=400, frame_start=1, frame_end=40, lifetime=60,
@@ -68,7 +69,7 @@ def add_fountain(place, colour):
 
 
 def add_smoke(place, size):
-    """A box that light and eyes go through: clouds in its middle, nothing at its sides."""
+    """A transparent box: clouds in its middle, empty at its sides."""
     bpy.ops.mesh.primitive_cube_add(size=size, location=place)
     smoke = bpy.data.materials.new("smoke")
     smoke.use_nodes = True

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// libFuzzer on depth files: any bytes are numbers that become metres of a picture, or say why not. The first byte says
-// what the numbers mean.
+// libFuzzer on depth files: any bytes give depth of a picture in metres, or an error. The first byte selects the
+// meaning of the numbers.
 //   cmake --preset fuzz && cmake --build --preset fuzz --target fuzz_depth_reader
 //   fuzz/depth_seeds.py build/depth
 //   build/fuzz/fuzz_depth_reader -max_len=8192 build/corpus build/depth
@@ -13,9 +13,9 @@
 #include "ods/depth/picture_depth.h"
 #include "ods/files/memory_file.h"
 
-constexpr int64_t kManyPixels = 1 << 12;  // more take too long to try many
+constexpr int64_t kManyPixels = 1 << 12;  // more are too slow for many runs
 
-// Of any colours, and as large as its depth.
+// A picture of any colours, of the same size as its depth.
 static ods::StoredPicture picture_of(const ods::Image& numbers, const std::vector<uint8_t>& colors) {
   ods::StoredPicture picture;
   picture.size = {numbers.width, numbers.height};

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// libFuzzer on HEIC and AVIF: any bytes are pictures or say why not. Our own reader of their boxes comes first, then
-// libheif, which must not be led into more memory or time than a small picture takes.
+// libFuzzer on HEIC and AVIF: any bytes give a picture or an error. Our own reader of their boxes runs first, then
+// libheif, which must not use more memory or time than for a small picture.
 //   cmake --preset fuzz && cmake --build --preset fuzz --target fuzz_heif_reader
 //   fuzz/picture_seeds.sh build/release/ods build/pictures
 //   build/fuzz/fuzz_heif_reader -max_len=16384 -rss_limit_mb=1024 -timeout=20 build/corpus build/pictures/heif
@@ -15,7 +15,7 @@
 #include "ods/image/heif_items.h"
 #include "ods/picture/stored_picture.h"
 
-constexpr int kManyPixels = 1 << 16;  // decoding more takes too long to try many
+constexpr int kManyPixels = 1 << 16;  // decoding more is too slow for many runs
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const ods::MemoryFile file({reinterpret_cast<const char*>(data), size});

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // libFuzzer on the options for lenses and bars (--circle, --front-and-back). Any numbers give lenses of the picture or
-// an error that says why not. A lens maps a direction to a place in the picture or to nothing, and the converted
-// picture has no NaN.
+// an error. A lens maps a direction to a position in the picture or to none, and the converted picture has no NaN.
 //   cmake --preset fuzz && cmake --build --preset fuzz --target fuzz_lens_reader
 //   build/fuzz/fuzz_lens_reader -max_len=128 build/corpus
 #include <algorithm>

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Omnistereo authors
 # SPDX-License-Identifier: Apache-2.0
-"""Writes small glTF files that between them use every feature of the reader: make_seeds.py FOLDER"""
+"""Writes small glTF files that together use every feature of the reader: make_seeds.py FOLDER"""
 import base64, io, json, os, struct, sys, zipfile, zlib
 
 
@@ -14,7 +14,7 @@ def png():
 
 
 def buffers(document, binary, **first):
-    """The buffer with the data, and after it the one without any, if something is compressed."""
+    """The buffer with the data, followed by one without data if anything is compressed."""
     fallback = {"byteLength": 1 << 16, "extensions": {"EXT_meshopt_compression": {"fallback": True}}}
     compressed = any("extensions" in view for view in document["bufferViews"])
     document["buffers"] = [{"byteLength": len(binary), **first}] + [fallback] * compressed
@@ -189,7 +189,7 @@ def archives():
 
 
 def as_reals(value):
-    """The same with every whole number written as a real."""
+    """The document with every whole number written as a real."""
     if isinstance(value, dict):
         return {key: as_reals(member) for key, member in value.items()}
     if isinstance(value, list):
@@ -198,7 +198,7 @@ def as_reals(value):
 
 
 def odd_texts():
-    """JSON as nobody should write it: lawful, strange and broken."""
+    """Unusual JSON: valid, strange and broken."""
     asset = '"asset":{"version":"2.0"}'
     yield "extras", "{%s,\"extras\":[%s{}]}" % (asset, "0,[],{}," * 20)
     yield "nested", "{%s,\"extras\":%s%s}" % (asset, "[" * 90, "]" * 90)

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// libFuzzer on the mesh projection of videos: any bytes are meshes or say why not, and what a mesh shows of a direction
-// is a place in the picture or nothing.
+// libFuzzer on the mesh projection of videos: any bytes give meshes or an error, and a mesh maps a direction to a
+// position in the picture or to none.
 //   cmake --preset fuzz && cmake --build --preset fuzz --target fuzz_mesh_reader
 //   build/fuzz/fuzz_mesh_reader -max_len=8192 folder/of/bodies/of/mshp/boxes
 #include <cmath>

@@ -12,18 +12,18 @@
 #include "ods/picture/metadata/vr_photo.h"
 #include "ods/picture/stored_picture.h"
 
-constexpr int kManyPixels = 1 << 16;  // decoding more takes too long to try many
+constexpr int kManyPixels = 1 << 16;  // decoding more is too slow for many runs
 
 static void read_photo(const std::string& path) {
   const ods::FileInfo info = ods::read_info(path);
   if (int64_t{info.width} * info.height > kManyPixels) return;
   const ods::StoredPicture picture = ods::open_picture(path);
-  if (picture.eyes.size() != 2) return;  // it says another layout, too
+  if (picture.eyes.size() != 2) return;  // its metadata specifies another layout
   for (const ods::StoredEye& eye : picture.eyes) {
     for (const ods::LayerPixels& layer : eye.layers) {
       const std::byte* last =
           layer.first + (picture.size.height - 1) * layer.row_stride + (picture.size.width - 1) * layer.pixel_stride;
-      volatile std::byte seen = *layer.first;  // the sanitizer looks whether they are there
+      volatile std::byte seen = *layer.first;  // the sanitizer checks that they exist
       seen = *last;
       static_cast<void>(seen);
     }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// libFuzzer on the reader of pictures, and on converting them: any bytes are a picture or say why not, and what is made
-// of one has no NaN.
+// libFuzzer on the reader of pictures, and on converting them: any bytes give a picture or an error, and a converted
+// picture has no NaN.
 //   cmake --preset fuzz && cmake --build --preset fuzz --target fuzz_picture_reader
 //   build/fuzz/fuzz_picture_reader -max_len=16384 folder/of/small/pictures
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include "ods/convert/convert.h"
 #include "ods/files/memory_file.h"
 
-constexpr int kManyPixels = 1 << 16;  // converting more takes too long to try many
+constexpr int kManyPixels = 1 << 16;  // converting more is too slow for many runs
 
 static void convert_picture(const ods::StoredPicture& picture) {
   ods::ConvertTarget target;

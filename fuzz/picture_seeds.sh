@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The Omnistereo authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Small pictures as cameras write them, for the fuzzers to begin with: fuzz/picture_seeds.sh build/release/ods FOLDER
+# Small pictures as written by cameras, as seeds of the fuzzers: fuzz/picture_seeds.sh build/release/ods FOLDER
 # Needs heif-enc (libheif-examples).
 set -eu
 ods=$(realpath "$1")

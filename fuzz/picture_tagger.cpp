@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// libFuzzer on tagging pictures and on Cardboard photos: any bytes are told what they are, or why not; what was told
-// once can be told again, and be told nothing.
+// libFuzzer on tagging pictures and on Cardboard photos: any bytes are tagged or give an error; a tagged picture can be
+// tagged again, and untagged.
 //   cmake --preset fuzz && cmake --build --preset fuzz --target fuzz_picture_tagger
 //   build/fuzz/fuzz_picture_tagger -max_len=16384 folder/of/small/pictures
 #include <cstdlib>
@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   } catch (const ods::Error&) {
     return 0;
   }
-  ods::tag_picture(tagged, tagged, tag);  // throws nothing now
+  ods::tag_picture(tagged, tagged, tag);  // must not throw
   ods::read_xmp(tagged);
   ods::tag_picture(tagged, tagged, std::nullopt);
   return 0;

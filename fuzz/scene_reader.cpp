@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// libFuzzer on the glTF reader: any bytes give a Scene that keeps its promises at every time, or ods::Error.
+// libFuzzer on the glTF reader: any bytes give a Scene that satisfies its guarantees at every time, or ods::Error.
 //   cmake --preset fuzz && cmake --build --preset fuzz --target fuzz_scene_reader
 //   fuzz/make_seeds.py build/corpus
 //   build/fuzz/fuzz_scene_reader -dict=fuzz/gltf.dict -max_len=65536 build/corpus

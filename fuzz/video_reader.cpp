@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// libFuzzer on the readers of videos, and on tagging them: any bytes give a video or say why not; a video that was
-// tagged is one again, and says what it was told to.
+// libFuzzer on the readers of videos, and on tagging them: any bytes give a video or an error; a tagged video can be
+// read again and has its tag.
 //   cmake --preset fuzz && cmake --build --preset fuzz --target fuzz_video_reader
 //   build/fuzz/fuzz_video_reader -max_len=8192 folder/of/small/videos
 #include <cstdlib>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Everything that a key or a button does: one table, from which help and tooltips are made, too. A row has its id for
-// buttons, its keys as KeyboardEvent.key says them, its words and its group for people, and where it does not always
-// apply, when(viewer, player). run(player, viewer) may return, or promise, what to say in a few words.
+// The actions of keys and buttons in one table, from which help and tooltips are made, too. A row has its id for
+// buttons, its keys as in KeyboardEvent.key, its label and its group for users, and if it does not always apply,
+// when(viewer, player). run(player, viewer) may return, or promise, a short text to display.
 import { MODES, modeOf } from './modes.js';
 
 const turn = (yaw, pitch) => (player, viewer) =>
@@ -32,7 +32,7 @@ function converge(viewer, by) {
   return shift ? `Everything ${Math.abs(shift)}° ${shift > 0 ? 'farther' : 'nearer'}` : 'Depth as in the file';
 }
 
-// All around as a disc, the nadir in its middle; and back to where one looked.
+// Shows everything around as a disc, with the nadir in the middle; or returns to the previous view.
 function planet(player, viewer) {
   const { state } = viewer;
   if (!state.planet) player.before = { pitch: state.pitch, fov: state.fov };
@@ -111,7 +111,7 @@ export const ACTIONS = [
 
 export const applies = ({ when }, player) => !when || Boolean(when(player.viewer, player));
 
-// What a key does now.
+// The present action of a key.
 export const actionOf = (key, player) => ACTIONS.find((action) => action.keys.includes(key) && applies(action, player));
 
 const SHOWN = { PageDown: 'Page ↓', PageUp: 'Page ↑' };

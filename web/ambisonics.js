@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// First-order ambisonic sound (AmbiX: W Y Z X, SN3D) for two ears: eight loudspeakers at the corners of a cube, which
-// stand still, heard through the browser's own head-related filters by a listener who turns.
+// First-order ambisonic sound (AmbiX: W Y Z X, SN3D) for two ears: eight fixed loudspeakers at the corners of a cube,
+// heard through the browser's own head-related filters by a listener who turns.
 //
-// A loudspeaker in direction d plays (W + 3 g d.(X, Y, Z)) / 8, which puts a wave's energy where it comes from; g is
-// 1 / sqrt(3) (max-rE of the first order in three dimensions: Daniel, Representation de champs acoustiques, 2001).
+// A loudspeaker in direction d plays (W + 3 g d.(X, Y, Z)) / 8, which puts a wave's energy into its direction; g is 1 /
+// sqrt(3) (max-rE of the first order in three dimensions: Daniel, Representation de champs acoustiques, 2001).
 import { raysOfView } from './headset.js';
 import { raysOf } from './panorama.js';
 
@@ -32,7 +32,7 @@ export function listen(context, source) {
   };
 }
 
-// Lets a player's videos with such sound be heard so; other sound stays as it is.
+// Plays videos with ambisonic sound in this way; other sound is not changed.
 export function hearVideos({ viewer, headset }) {
   let turn = null;
   let context = null;

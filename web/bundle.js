@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The beginning of a bundle (cli/view/bundle.h), which has $files before and the modules behind it. What the modules
-// fetch comes from $files, or from the host; or, as browsers let no page from disk read a file, from the script that lies
-// beside the file as FILE.js.
+// The start of a bundle (cli/view/bundle.h), with $files before it and the modules after it. Files that the modules
+// fetch come from $files, or from the host; or, because browsers do not let a page from disk read files, from the
+// script FILE.js beside the file.
 const $base = document.currentScript.src;
 const $modules = {};
 const $given = (window.stereo360Files ??= {}); // by address: base64
 let $later;
 
-// A server has some modules in a script of their own (ods/view/bundle.h).
+// Servers put some modules into a separate script (ods/view/bundle.h).
 async function $load(name) {
   if ($modules[name]) return $modules[name];
   $later ??= new Promise((done, fail) => {
@@ -19,7 +19,7 @@ async function $load(name) {
     document.head.append(script);
   });
   await $later.catch((error) => {
-    $later = null; // the next one tries again
+    $later = null; // the next call tries again
     throw error;
   });
   return $modules[name];

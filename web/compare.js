@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Two pictures at the same look, with a line between them that moves, by turns, or as their difference. The one to the
-// right of the line is `picture.beside` (panorama.js); the studio has its own there, settings B.
+// Shows two pictures in the same view, with a movable line between them, alternating, or as their difference. The one
+// to the right of the line is `picture.beside` (panorama.js); in the studio it shows the settings B.
 import { clamp } from './geometry.js';
 import { make } from './elements.js';
 import { icon } from './icons.js';
@@ -10,12 +10,12 @@ import { modeOf } from './modes.js';
 import { openPicture } from './picture.js';
 
 const BLINK = 600; // milliseconds
-const STEP = 0.02; // of the view, by key
+const STEP = 0.02; // fraction of the view per key press
 const LEVELS = ['caution', 'warn', 'error'];
 const WAYS = [['slider', 'Slider'], ['blink', 'Blink'], ['difference', 'Difference ×4']];
 
 export class Compare {
-  // end(): somebody closes it.
+  // end(): closes the comparison.
   constructor(player, end) {
     Object.assign(this, { player, viewer: player.viewer, way: 'slider', split: 0.5, other: null, names: ['A', 'B'], timer: 0, isOther: false });
     const element = document.createElement('div');
@@ -69,14 +69,14 @@ export class Compare {
     this.viewer.redraw();
   }
 
-  // How much of the view is the left picture's.
+  // The fraction of the view that shows the left picture.
   splitNow() {
     if (this.way === 'slider') return this.split;
     if (this.way === 'difference') return this.isSecond ? 0 : 1;
     return this.isOther ? 0 : 1;
   }
 
-  // --- for the viewer, around each drawing ---
+  // --- called by the viewer around each drawing ---
 
   before(picture) {
     if (this.other) picture.beside = this.other;
@@ -107,14 +107,14 @@ export class Compare {
     context.restore();
   }
 
-  // What is on screen where it is not the viewer's own canvas.
+  // The canvas on screen if it is not the own canvas of the viewer.
   shown() {
     return this.way === 'difference' ? this.difference : null;
   }
 
   // --- the line ---
 
-  // Which of the names is to be seen.
+  // Marks which of the names is visible.
   mark(which) {
     [...this.divider.children].forEach((label, i) => label.classList.toggle('now', i === which));
   }
@@ -155,7 +155,7 @@ export class Compare {
   }
 }
 
-// Puts a picture beside what is shown, until it is closed. Whatever is chosen from then on changes the left one.
+// Puts a picture beside the present one, until it is closed. Later choices change the left one.
 class Pinned extends Compare {
   constructor(player, other, name, pin) {
     super(player, () => player.endCompare());
@@ -164,7 +164,7 @@ class Pinned extends Compare {
     this.place();
   }
 
-  // With each new picture of the whole scene, one after the other.
+  // Judges each new picture of the whole scene, one after the other.
   judgeAgain(session) {
     let isJudging = false;
     const follow = async ({ detail }) => {
@@ -191,7 +191,7 @@ class Pinned extends Compare {
     this.keepTime();
   }
 
-  // Two videos show the same moment.
+  // Keeps two videos at the same time.
   keepTime() {
     const [ours, theirs] = [this.viewer.picture?.video, this.other?.video];
     if (!ours || !theirs) return;
@@ -204,7 +204,7 @@ class Pinned extends Compare {
 
 const nameOf = ({ view }, item, choice) => [view.items[item]?.name, ...Object.values(choice).filter((value) => value !== undefined)].join(', ');
 
-// pin: { item, choice }, an item of view.json and how it is opened; what is shown now, without one.
+// pin: { item, choice }, an item of view.json and how it is opened; the present picture if missing.
 export async function startCompare(player, pin) {
   const { viewer } = player;
   const { item, choice } = pin ?? viewer;
@@ -212,8 +212,8 @@ export async function startCompare(player, pin) {
   return new Pinned(player, other, nameOf(viewer, item, choice), { item, choice });
 }
 
-// What `ods comfort` says of what is shown, and the picture of it: cli/view/comfort_layer.h; of the studio's scene
-// cli/view/comfort_answers.h.
+// The verdict of `ods comfort` on the present picture, and its overlay: cli/view/comfort_layer.h; for the studio's
+// scene cli/view/comfort_answers.h.
 async function judge({ about, base, scene, panorama, view }) {
   const at = new URL(scene ? 'studio/' : (about.image ?? about.left), base);
   const answer = await fetch(new URL(scene ? 'comfort' : 'comfort.json', at));
@@ -225,7 +225,7 @@ async function judge({ about, base, scene, panorama, view }) {
   return { ...verdict, other: await openPicture(panorama, view, item, { base }) };
 }
 
-// The colours' meanings instead of the difference, which would say nothing; and the way to the worst place.
+// Explains the colours instead of offering the difference, which would be meaningless; and links to the worst place.
 function explain({ element, player, viewer }, { worst, text }) {
   const difference = element.querySelector('[data-way="difference"]');
   if (worst) {
@@ -241,14 +241,14 @@ function explain({ element, player, viewer }, { worst, text }) {
   difference.remove();
 }
 
-// Puts what strains the eyes over the picture. The line begins at the left edge, and takes it away. In the studio it
-// follows what is changed.
+// Shows over the picture where it strains the eyes. The line starts at the left edge; moving it hides the overlay. In
+// the studio the overlay follows changes.
 export async function showComfort(player) {
   const { viewer, studio } = player;
   const { item } = viewer;
   const verdict = await judge(viewer);
   const { text, level, other } = verdict;
-  if (viewer.compare || viewer.item !== item) return other.free(); // meanwhile somebody has done something else
+  if (viewer.compare || viewer.item !== item) return other.free(); // it was changed meanwhile
   const compare = new Pinned(player, other, `Comfort: ${level}`, null);
   explain(compare, verdict);
   compare.moveTo(0);

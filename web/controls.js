@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The bar, the settings and the help: what they show follows the viewer, what they are told goes to it.
+// The bar, the settings and the help: they follow the viewer and control it.
 import { ACTIONS, applies, keysOf } from './actions.js';
 import { make } from './elements.js';
 import { hasOtherLayouts } from './form.js';
@@ -10,7 +10,7 @@ import { MODES } from './modes.js';
 import { widest } from './viewer.js';
 
 const GAP = 8; // pixels
-// What the buttons of a headset do (headset.js).
+// The functions of a headset's buttons (headset.js).
 const BUTTONS = [
   ['Look down', 'the menu’s handle: point at it and press, or look at it until its ring is full'],
   ['Hold the grip', 'the menu: files, seek bar, exposure, recentre and the rest; a press beside it closes it'],
@@ -88,13 +88,13 @@ export class Controls {
     on('speed', 'change', (select) => video() && (video().playbackRate = Number(select.value)));
     find('device').addEventListener('change', () => this.device());
     find('settings').addEventListener('submit', (event) => event.preventDefault());
-    find('settings').addEventListener('beforetoggle', () => this.update()); // the studio's picture comes without a word
+    find('settings').addEventListener('beforetoggle', () => this.update()); // the picture of the studio has no event
     for (const id of ['settings', 'why']) find(id).addEventListener('toggle', () => this.placeSettings());
     addEventListener('pointerdown', () => (this.byPointer = true), true);
     addEventListener('keydown', () => (this.byPointer = false), true);
   }
 
-  // Above the right end of the bar, wherever that is, or below it; over it where there is no room for everything.
+  // Above the right end of the bar, or below it; over it if there is not enough space for everything.
   placeSettings() {
     const [settings, bar] = [this.find('settings'), this.find('bar').getBoundingClientRect()];
     if (!settings.matches(':popover-open')) return;
@@ -103,13 +103,13 @@ export class Controls {
     style.left = `${Math.max(Math.min(bar.right, innerWidth - GAP) - settings.offsetWidth, GAP)}px`;
     const isOver = settings.scrollHeight > room - 2 * GAP;
     style.maxHeight = `${(isOver ? innerHeight : room) - 2 * GAP}px`;
-    style.minHeight = isOver ? `${Math.min(innerHeight - bar.top, innerHeight - 2 * GAP)}px` : ''; // all of it
+    style.minHeight = isOver ? `${Math.min(innerHeight - bar.top, innerHeight - 2 * GAP)}px` : ''; // its full height
     const isAbove = isOver || bar.top >= room;
-    style.bottom = isAbove ? `${isOver ? GAP : innerHeight - bar.top + GAP}px` : 'auto'; // it grows with what is in it
+    style.bottom = isAbove ? `${isOver ? GAP : innerHeight - bar.top + GAP}px` : 'auto'; // it grows with its content
     style.top = isAbove ? 'auto' : `${bar.bottom + GAP}px`;
   }
 
-  // After a click the keys are the picture's again; who works by keyboard stays where he is.
+  // After a click the picture gets the keyboard focus again; keyboard users keep theirs.
   giveBack({ target }) {
     if (this.byPointer && !target.closest('#settings, dialog, #studio')) this.find('picture').focus({ preventScroll: true });
   }
@@ -136,7 +136,7 @@ export class Controls {
     else bar.removeAttribute('value');
   }
 
-  // What does not change while an item is open.
+  // Sets the texts that do not change while an item is open.
   describe() {
     const { find, viewer, player } = this;
     const { view, about, choice, picture, item } = viewer;
@@ -216,7 +216,7 @@ export class Controls {
     find('time').replaceChildren(`${clock(at / fps)} / ${clock(frames / fps)}`, make('span', {}, video.paused ? `  frame ${at}` : ''));
   }
 
-  // What applies now: what is done most where one is comes first.
+  // Lists the actions that apply now, with the most common ones first.
   fillHelp() {
     const { viewer, find } = this;
     const rows = ACTIONS.filter((action) => action.label && applies(action, this.player));
@@ -226,7 +226,7 @@ export class Controls {
     const list = (pairs) => make('dl', {}, ...pairs.map(([what, ...does]) => make('div', {}, make('dt', {}, what), make('dd', {}, ...does))));
     const keys = (action) => keysOf(action).flatMap((text) => [make('kbd', {}, text), ' ']);
     const section = (title, pairs, className = '') => make('section', { className }, make('h2', {}, title), list(pairs));
-    // Who has no keyboard, as on a phone, need not read of keys.
+    // Keys are left out on touch devices without a keyboard.
     find('keys').replaceChildren(...(isTouch() ? [] : groups.map((group) =>
       section(group, rows.filter((row) => row.group === group).map((action) => [titled(action.label), ...keys(action)])))));
     if (navigator.xr) find('keys').append(section('In the headset', BUTTONS.filter(([what]) => Boolean(viewer.scene) || !/studio/.test(what)), 'words'));

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A file's form: where its eyes are, and with which camera.
+// The format of a file: the layout of its eyes, and their camera.
 const named = (rows, name) => rows.find((row) => row.name === name);
 
-// What the page assumes of an item: the file's own form, or what the user chose instead.
+// The format of an item that the page uses: the file's own, or the one that the user chose.
 export function formOf(view, item, { layout, projection } = {}) {
   const rows = named(view.layouts, layout) ?? named(view.layouts, item.light_layout ?? item.layout);
   const own = item.camera ?? named(view.projections, item.projection)?.camera;
@@ -14,12 +14,13 @@ export function formOf(view, item, { layout, projection } = {}) {
   };
 }
 
-// Whether both eyes share a file, of which another layout can be tried: by the page, or by the server that divides it.
+// Returns whether both eyes share a file, for which other layouts can be tried: by the page, or by a server that
+// divides it.
 export function hasOtherLayouts(view, item) {
   return Boolean(item.image) || ((view.live || item.light) && item.kind === 'picture' && !['separate', 'multiview'].includes(item.layout));
 }
 
-// Whether the right edge of a picture continues at its left one. A lat-long or a cylinder's span is in radians.
+// Returns whether the right edge of a picture continues at its left one. A lat-long or a cylinder's span is in radians.
 export function isRound({ projection }) {
   return projection.kind < 2 && projection.span[0] > 2 * Math.PI - 1e-4;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The numbers of the grid of degrees: yaw along the horizon, pitch along the meridian that is next to the middle of the
+// The numbers of the grid of degrees: yaw along the horizon, pitch along the meridian closest to the middle of the
 // view. Loaded when the grid is first shown.
 import { partsOf, placeOf } from './places.js';
 
@@ -10,7 +10,7 @@ const WIDE = 100; // degrees: from this field of view on, every third line has a
 const from = (low, high, step) => Array.from({ length: (high - low) / step + 1 }, (_, i) => low + i * step);
 const signed = (angle) => `${angle > 0 ? '+' : ''}${angle}°`.replace('-', '−');
 
-// The lines to number: their directions and words.
+// The numbered lines: their directions and labels.
 function lines({ yaw, fov }) {
   const every = fov < WIDE ? 10 : 30;
   const meridian = every * Math.round(yaw / every);
@@ -22,7 +22,7 @@ function lines({ yaw, fov }) {
 export function numberGrid(viewer) {
   const layer = document.createElement('div');
   layer.id = 'numbers';
-  layer.ariaHidden = true; // the bar says where one looks
+  layer.ariaHidden = true; // the bar shows the direction of the view
   viewer.canvas.after(layer);
   const place = () => {
     layer.hidden = !viewer.state.grid || Boolean(viewer.session);

@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The controls of the headset's panel, and how they are painted. A control has its box in pixels, a text or an icon, and
-// either run() or, as a slider, its part of the way 0..1 and drag(part, isLast).
+// The controls of the headset's panel, and their drawing. A control has its box in pixels, a text or an icon, and
+// either run() or, for a slider, its position 0..1 and drag(part, isLast).
 import { clamp } from './geometry.js';
 import { WORN } from './modes.js';
 
 export const WIDE = 1024; // pixels
-export const TEXT = 46; // pixels: the height of the letters' line
+export const TEXT = 46; // pixels: line height
 const PAD = 24;
 const GAP = 12;
 const HIGH = 84;
 const LISTED = 3; // files at a time
-const STEPS = 400; // of a slider
+const STEPS = 400; // number of steps of a slider
 
 const ICONS = {
   play: 'M8 5.5v13l10.5-6.5z', pause: 'M8 5.5h3v13H8zM14 5.5h3v13h-3z', previous: 'm14.5 6-6 6 6 6', next: 'm9.5 6 6 6-6 6',
@@ -24,7 +24,7 @@ const clock = (seconds) => `${Math.floor(seconds / 60)}:${String(Math.floor(seco
 const signed = (value) => (value > 0 ? '+' : value < 0 ? '−' : '') + Math.abs(value).toFixed(1);
 const stepped = (part) => Math.round(clamp(part, 0, 1) * STEPS) / STEPS;
 
-// Boxes for the cells of rows; a cell is as wide as its share of the row, 1 unless it says.
+// Boxes for the cells of rows; a cell's width is its share of the row, by default 1.
 function lay(rows) {
   let y = PAD;
   const controls = rows.flatMap((row) => {
@@ -42,7 +42,7 @@ function lay(rows) {
   return { high: y - GAP + PAD, controls };
 }
 
-// Files, and in the studio its scene, which can be shown.
+// Files, and in the studio its scene, which can be displayed.
 function entriesOf({ viewer }) {
   const { studio } = viewer.steering ?? {};
   const { exposure, tone } = viewer.choice;
@@ -50,7 +50,7 @@ function entriesOf({ viewer }) {
   return studio ? [{ name: studio.scene.name, on: Boolean(viewer.scene), run: () => studio.showScene() }, ...files] : files;
 }
 
-// The list where there is more than one; panel.first is the first of those that are seen.
+// The list of files, if there is more than one; panel.first is the first visible one.
 function listRows(panel, entries) {
   if (entries.length < 2) return [];
   const last = Math.max(entries.length - LISTED, 0);
@@ -85,7 +85,7 @@ function exposureRow({ viewer }) {
   ]];
 }
 
-// The studio's numbers: where the merge starts and ends.
+// The studio's numbers: start and end of the merge.
 function mergeRows({ viewer }) {
   if (!viewer.scene) return [];
   return viewer.steering.numbers().map(({ id, text, value, least, most, set }) => [

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The panel in the headset, and what points at it: the rays of controllers and hands, the look of those who pinch what
-// they look at, and where nothing else points, the head, which chooses by staying. While the panel is away, a handle low
-// in front opens it. Neither is fixed to the head: the panel stands in the room until the wearer has turned away from it.
+// The panel in the headset, and its pointers: the rays of controllers and hands, the gaze while pinching, and without
+// any other pointer, the head, which selects by dwelling. While the panel is hidden, a handle low in front opens it.
+// Neither is fixed to the head: the panel stays in the room until the wearer has turned away from it.
 import { clamp, radians } from './geometry.js';
 import { TEXT, WIDE, controlsOf, paint } from './headset-controls.js';
 import { Sheets, facing, headingOf, meet, plus, poseOf, sheetAhead, thread } from './headset-room.js';
@@ -11,17 +11,17 @@ import { directionAt } from './places.js';
 
 export const DISTANCE = 1.2; // metres: a headset focuses at about 1.3, so eyes that converge on the panel see it sharply
 const PIXEL = 0.8 / WIDE; // metres
-const BELOW = radians(20); // of the panel's middle: over the ground, which is farther away there
-const HANDLE_BELOW = radians(50); // out of sight of those who look ahead
+const BELOW = radians(20); // pitch of the middle of the panel, downwards: over the ground, which is farther away there
+const HANDLE_BELOW = radians(50); // out of sight when looking ahead
 const HANDLE = [300, 104]; // pixels
-const LOW = radians(-28); // of a head that looks for the handle
+const LOW = radians(-28); // pitch of a head that looks for the handle
 const LOST = radians(45); // from the panel, or
-const LEFT = 0.5; // metres from where it was opened
-const PATIENCE = 1000; // milliseconds until the panel comes after
-const DWELL = 1200; // milliseconds that a look stays to choose
-const DIM = [0, 0, 0, 0.65]; // the picture behind: a nearer thing that the panel covers must not compete with it
+const LEFT = 0.5; // metres from the position where it was opened
+const PATIENCE = 1000; // milliseconds until the panel follows
+const DWELL = 1200; // milliseconds of dwelling for a selection
+const DIM = [0, 0, 0, 0.65]; // the picture behind: closer objects covered by the panel must not compete with it
 const ACCENT = [1, 0.71, 0.28];
-const MARK = 2; // metres: of what the desk points at, whose distance nobody knows
+const MARK = 2; // metres: for the mark of the desk, whose distance is unknown
 
 export class HeadsetPanel {
   constructor(headset) {
@@ -54,14 +54,14 @@ export class HeadsetPanel {
     for (const texture of [this.face, this.label]) this.gl.deleteTexture(texture);
   }
 
-  // An image; null until it has come.
+  // An image; null until it is loaded.
   thumbnail(address) {
     if (!address) return null;
     const { thumbnails, headset: { viewer } } = this;
     if (!thumbnails.has(address)) {
       thumbnails.set(address, null);
       fetch(new URL(address, viewer.base)).then((answer) => answer.blob()).then(createImageBitmap)
-        .then((image) => thumbnails.set(address, image)).catch(() => {}); // the name does without
+        .then((image) => thumbnails.set(address, image)).catch(() => {}); // the name is enough without it
     }
     return thumbnails.get(address);
   }
@@ -82,14 +82,14 @@ export class HeadsetPanel {
     else if (this.head) this.open();
   }
 
-  // --- where it is ---
+  // --- position ---
 
   place() {
     const [below, size] = this.isOpen ? [BELOW, [WIDE, this.canvas.height]] : [HANDLE_BELOW, HANDLE];
     this.sheet = sheetAhead(this.from, this.heading, below, DISTANCE, size.map((pixels) => pixels * PIXEL));
   }
 
-  // The handle is ahead as long as nobody looks for it; the panel comes after those who have left it behind.
+  // The handle stays ahead until the wearer looks for it; the panel follows wearers who have turned or moved away.
   follow(now, seconds) {
     const { head } = this;
     if (!this.isOpen) {
@@ -110,7 +110,7 @@ export class HeadsetPanel {
     this.place();
   }
 
-  // --- what points at it ---
+  // --- pointers ---
 
   pointer(source, { transform }) {
     const { at, back } = poseOf(transform);
@@ -131,7 +131,7 @@ export class HeadsetPanel {
     return this.content?.controls.find((control) => (control.run || control.drag) && isIn(control)) ?? null;
   }
 
-  // A head chooses by staying where no hand points, and nobody has pinched what they look at: they would be chosen for.
+  // Dwell selection works only if no hand points and nothing was pinched; otherwise it would select unasked.
   point(frame, pose, seconds) {
     const { session, space } = this.headset;
     const sources = [...session.inputSources].filter(({ targetRayMode }) => targetRayMode !== 'screen');
@@ -149,7 +149,7 @@ export class HeadsetPanel {
     }
   }
 
-  // Once per look, or again and again where that makes sense.
+  // Acts once per dwelling, or repeatedly where that makes sense.
   stay(gaze, seconds) {
     const { control } = gaze;
     if (control?.id !== this.dwell.id) this.dwell = { id: control?.id, for: 0, isDone: false };
@@ -168,7 +168,7 @@ export class HeadsetPanel {
     control.drag(clamp((this.pixel(hit)[0] - left - 16) / (width - 32), 0, 1), isLast);
   }
 
-  // A source's press. False where it means something else.
+  // Handles a source's press. Returns false if it has another meaning.
   press(source, pose) {
     if (!pose) return false;
     const { hit, control } = this.pointer(source, pose);
@@ -178,7 +178,7 @@ export class HeadsetPanel {
     return true;
   }
 
-  // isDone: the source was let go, and not taken away. Its pose may be gone with it: then its last one counts.
+  // isDone: the source was released, not cancelled. Its pose may be missing by then; the last one is used.
   release(source, pose, isDone) {
     const held = this.held.get(source);
     this.held.delete(source);
@@ -188,7 +188,7 @@ export class HeadsetPanel {
     else if (isDone && held.run && (control?.id === held.id || source.targetRayMode === 'transient-pointer')) held.run();
   }
 
-  // --- what is seen ---
+  // --- drawing ---
 
   update(frame, pose, now) {
     const seconds = Math.min((now - (this.last ?? now)) / 1000, 0.1);
@@ -211,7 +211,7 @@ export class HeadsetPanel {
     this.place();
   }
 
-  // What there is to draw for an eye, over the picture.
+  // The objects to draw for an eye, over the picture.
   things({ eye, index }) {
     const things = [];
     if (this.isOpen) things.push({ color: DIM }, { ...this.sheet, face: this.face });

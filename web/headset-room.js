@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Flat things in the room around the wearer, drawn over the picture. Each eye sees them from where it is, so they are as
-// far away as they are. Metres; a sheet has its middle `at` and its half axes u (right) and v (up).
+// Flat objects in the room around the wearer, drawn over the picture. Each eye sees them from its own position, so they
+// appear at their distances. Metres; a sheet has its centre `at` and its half axes u (right) and v (up).
 import { dot } from './geometry.js';
 
 export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -13,13 +13,13 @@ export function poseOf({ position: { x, y, z }, matrix: m }) {
   return { at: [x, y, z], right: [...m.slice(0, 3)], up: [...m.slice(4, 7)], back: [...m.slice(8, 11)] };
 }
 
-// Which way a head is turned, to the right of -Z; of one that looks straight down, where its crown points.
+// The heading of a head, to the right of -Z; if it looks straight down, the heading of its crown.
 export function headingOf({ up, back }) {
   const ahead = Math.abs(back[1]) > 0.95 ? up.map((x) => x * Math.sign(back[1])) : back.map((x) => -x);
   return Math.atan2(ahead[0], -ahead[2]);
 }
 
-// A sheet that faces `from`, at a distance, by the angle `below` lower. Radians.
+// A sheet that faces `from`, at a distance, lower by the angle `below`. Radians.
 export function sheetAhead(from, heading, below, distance, [width, height]) {
   const [s, c, sb, cb] = [Math.sin(heading), Math.cos(heading), Math.sin(below), Math.cos(below)];
   const [right, ahead] = [[c, 0, s], [s * cb, -sb, -c * cb]];
@@ -33,13 +33,13 @@ export function facing(at, eye, radius) {
   return { at, u: scaled(right, radius), v: scaled(cross(toward, right), radius) };
 }
 
-// A thread between two places, as broad for the eye as it can be.
+// A thread between two points, turned so that the eye sees its full width.
 export function thread(a, b, eye, width) {
   const along = plus(b, a, -1);
   return { at: plus(a, along, 0.5), u: along.map((x) => x / 2), v: scaled(cross(along, plus(eye, a, -1)), width / 2) };
 }
 
-// Where a ray meets the plane of a sheet: at, and x and y in half axes. Null behind the ray's begin.
+// The intersection of a ray with the plane of a sheet: at, and x and y in half axes. Null behind the ray's origin.
 export function meet({ at, u, v }, { from, along }) {
   const normal = cross(u, v);
   const way = dot(plus(at, from, -1), normal) / dot(along, normal);
@@ -63,8 +63,8 @@ void main() {
 const FRAGMENT = `#version 300 es
 precision highp float;
 uniform sampler2D face;
-uniform vec4 color;   // its alpha multiplied into it; of a face, what it is multiplied by
-uniform vec4 kind;    // has a face; is round; from this radius on; so much of the turn
+uniform vec4 color;   // premultiplied by its alpha; multiplies the face, if there is one
+uniform vec4 kind;    // 1 with a face; 1 if round; inner radius; fraction of the turn
 in vec2 place;
 out vec4 result;
 void main() {
@@ -76,7 +76,7 @@ void main() {
   if (kind.y > 0.0) result *= smoothstep(kind.z - soft, kind.z, radius) * (1.0 - smoothstep(1.0 - soft, 1.0, radius)) * step(turn, kind.w);
 }`;
 
-// The inverse of a matrix that is given and returned by its columns.
+// The inverse of a matrix, both given by columns.
 function inverse(m) {
   const [a, b, c] = [m.slice(0, 3), m.slice(3, 6), m.slice(6, 9)];
   const rows = [cross(b, c), cross(c, a), cross(a, b)].map((row) => row.map((x) => x / dot(a, cross(b, c))));
@@ -98,7 +98,7 @@ export class Sheets {
     this.where = (name) => gl.getUniformLocation(this.program, name);
   }
 
-  // A texture with what a canvas shows.
+  // Fills a texture with a canvas.
   fill(texture, canvas) {
     const { gl } = this;
     gl.activeTexture(gl.TEXTURE0);
@@ -111,9 +111,9 @@ export class Sheets {
     for (const way of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, way, gl.CLAMP_TO_EDGE);
   }
 
-  // things: sheets, each with a color [r, g, b, alpha] and, if it has them, a face (texture) and a ring [inner radius, part
-  // of the turn]; one without a place covers the view. rays: of the view, in the room (panorama.js). eye: where it is.
-  // box: in the target.
+  // things: sheets, each with a color [r, g, b, alpha] and optionally a face (texture) and a ring [inner radius,
+  // fraction of the turn]; a sheet without a position covers the view. rays: the view's, in the room (panorama.js).
+  // eye: its position. box: in the target.
   draw(things, { rays, eye, box, target }) {
     const { gl } = this;
     gl.bindFramebuffer(gl.FRAMEBUFFER, target);

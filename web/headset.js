@@ -2,19 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The picture in a headset, by WebXR. Only the orientation of each eye's view counts: every direction shows exactly the
-// line of sight that the picture has there, wherever the head is. The panel (headset-panel.js) comes with the session. The
-// page's canvas shows what the left eye sees.
+// picture's line of sight, at any position of the head. The panel (headset-panel.js) comes with the session. The page's
+// canvas shows what the left eye sees.
 import { clamp, degrees } from './geometry.js';
 import { wornEye } from './modes.js';
 import { raysOf } from './panorama.js';
 import { Pace } from './pace.js';
 
-const RATE = 90; // frames per second, where the headset offers it
-const FOVEATION = 0.5; // how much coarser the edge of the view may be, 0..1: the middle is drawn pixel by pixel
+const RATE = 90; // frames per second, if the headset supports it
+const FOVEATION = 0.5; // reduction of resolution at the edge of the view, 0..1; the middle is drawn at full resolution
 const HOLD = 800; // milliseconds until a trigger or a pinch counts as held
-const STICK = 0.7; // of its way
+const STICK = 0.7; // fraction of the range of a stick
 const MIRROR = 100; // milliseconds between pictures for the page
-const MARKED = 4000; // milliseconds that a mark of the desk stays
+const MARKED = 4000; // milliseconds that a mark of the desk remains
 
 // Directions turned to the right about the vertical axis.
 function turned([x, y, z], angle) {
@@ -30,7 +30,7 @@ export function raysOfView({ transform, projectionMatrix: p }, turn) {
   return [...column(1 / p[0], 0, 0), ...column(0, 1 / p[5], 0), ...column(p[8] / p[0], p[9] / p[5], -1)];
 }
 
-// Where a head looks in the picture: yaw, pitch, roll in degrees.
+// The direction of a head in the picture: yaw, pitch, roll in degrees.
 export function lookOf({ matrix: m }, turn) {
   const [yaw, pitch] = [Math.atan2(-m[8], m[10]), Math.asin(clamp(-m[9], -1, 1))];
   const [s, c] = [Math.sin(yaw), Math.cos(yaw)];
@@ -42,12 +42,12 @@ export function lookOf({ matrix: m }, turn) {
 const indexOf = ({ eye }) => (eye === 'right' ? 1 : 0);
 
 export class Headset {
-  // wants.layers: layers where the browser has them and the picture's form allows.
+  // wants.layers: use layers if the browser supports them and the picture's format allows it.
   constructor(viewer, wants = {}) {
     Object.assign(this, { viewer, wants, session: null, turn: 0, pose: null, layers: null, panel: null, marker: null });
   }
 
-  // What somebody at the desk points at: { yaw, pitch, eye }, or null.
+  // Sets the point that the desk marks: { yaw, pitch, eye }, or null.
   mark(marker) {
     Object.assign(this, { marker, marked: performance.now() });
   }
@@ -104,7 +104,7 @@ export class Headset {
     this.panel?.update(frame, this.pose, now);
     const { picture, panorama } = viewer;
     const look = lookOf(this.pose.transform, this.turn);
-    if (viewer.scene) viewer.steering?.head(look); // the studio's
+    if (viewer.scene) viewer.steering?.head(look); // set by the studio
     if (!(now - this.looked < MIRROR)) this.lookAt(now, look);
     picture?.refresh?.();
     if (picture && !viewer.scene && this.layers?.show(frame, viewer, this.turn)) {
@@ -127,7 +127,7 @@ export class Headset {
     picture?.pager?.follow(parts, now);
   }
 
-  // The page looks where the head does.
+  // Turns the page's view to the direction of the head.
   lookAt(now, look) {
     this.looked = now;
     this.viewer.set(look);
@@ -149,7 +149,7 @@ export class Headset {
     this.panel?.draw({ rays: raysOfView(view, 0), eye: [x, y, z], index: indexOf(view), box, target });
   }
 
-  // The page shows what the left eye sees, if anybody sees the page: then browsers give it frames of its own. An emulated
+  // Shows the left eye's view on the page, if the page is visible: then browsers give it frames of its own. An emulated
   // headset draws into the page's canvas itself.
   mirror() {
     const { session } = this;
@@ -173,14 +173,14 @@ export class Headset {
     }
   }
 
-  // Turns the picture so that its middle is where the head points.
+  // Turns the picture so that its middle is in the direction of the head.
   recentre() {
     if (!this.pose) return;
     const m = this.pose.transform.matrix;
     this.turn = -Math.atan2(-m[8], m[10]);
   }
 
-  // What ends by `select` was let go; else it was taken away, as by the system's own gestures.
+  // A press that ends with `select` was released; otherwise it was cancelled, for example by the system's own gestures.
   listenToHands() {
     const { session } = this;
     const on = (event, run) => session.addEventListener(event, run);
@@ -212,7 +212,7 @@ export class Headset {
     else this.viewer.go(1);
   }
 
-  // Buttons and sticks have no events: what is newly pressed acts once.
+  // Buttons and sticks have no events; a new press acts once.
   listen() {
     const { viewer } = this;
     for (const [source, since] of this.gripped) {
@@ -223,7 +223,7 @@ export class Headset {
       if (picture?.video) picture.seek(picture.video.currentTime + 10 * by);
       else viewer.go(by);
     };
-    const stick = [0, 0]; // of both hands
+    const stick = [0, 0]; // sum of both hands
     for (const source of this.session.inputSources) {
       const { buttons, axes, mapping } = source.gamepad ?? {};
       if (mapping !== 'xr-standard') continue;

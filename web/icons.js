@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The icons, one family: 24 units wide, lines of 1.6 with round ends. Two shapes of one icon are those of a switch.
+// The icons, in one style: 24 units wide, lines of 1.6 with round ends. Two shapes in one icon are the states of a
+// switch.
 const line = (d, more = '') => `<path class="line${more}" d="${d}"/>`;
 const ON = ' when-on';
 const OFF = ' when-off';

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The picture as a WebXR layer, which the headset's compositor samples by itself: a cube for cubes where the browser has
-// such, else equirect. The specification never says which half of a stereo-top-bottom layer is the left eye's, and browsers
-// differ; so each eye is asked for by name, and drawn into what the browser answers.
+// The picture as a WebXR layer, which the headset's compositor samples by itself: a cube for cubes if the browser
+// supports that, else equirect. The specification does not define which half of a stereo-top-bottom layer is the left
+// eye's, and browsers differ; so each eye is requested by name, and drawn into the region that the browser returns.
 import { wornEye } from './modes.js';
 
 const LARGEST = 4096; // pixels of a layer around the horizon
-const CUBES = [5, 6, 7, 8]; // of the kernel's projections
+const CUBES = [5, 6, 7, 8]; // numbers of the kernel's projections
 const AROUND = [1, 0, 0, 0, 1, 0, 0, 0, -1];
-// The rays (panorama.js) of a cube's faces, as GL looks them up (OpenGL ES 3.0, table 3.19): +X, -X, +Y, -Y, +Z, -Z.
+// The rays (panorama.js) of a cube's faces in the order of GL (OpenGL ES 3.0, table 3.19): +X, -X, +Y, -Y, +Z, -Z.
 const FACES = [
   [0, 0, -1, 0, -1, 0, 1, 0, 0], [0, 0, 1, 0, -1, 0, -1, 0, 0], [1, 0, 0, 0, 0, 1, 0, 1, 0],
   [1, 0, 0, 0, 0, -1, 0, -1, 0], [1, 0, 0, 0, -1, 0, 0, 0, 1], [-1, 0, 0, 0, -1, 0, 0, 0, -1],
@@ -22,7 +22,7 @@ export function hasLayers(session) {
 
 export class EyeLayers {
   constructor(session, gl, space) {
-    this.base = session.renderState.baseLayer; // for pictures that get no layer
+    this.base = session.renderState.baseLayer; // for pictures without a layer
     Object.assign(this, { session, gl, space, layer: null, above: null, shown: null, target: gl.createFramebuffer() });
     this.binding = new XRWebGLBinding(session, gl);
   }
@@ -60,13 +60,13 @@ export class EyeLayers {
     this.session.updateRenderState(this.layer ? { layers } : { baseLayer: this.base });
   }
 
-  // What arrange() asked for comes with the next frame.
+  // Layers requested by arrange() are active from the next frame on.
   has(layer) {
     return layer && this.session.renderState.layers?.includes(layer);
   }
 
-  // Draws the eyes where something changed. Returns false where the shader must draw: there is no layer, or the browser
-  // keeps the layer for itself.
+  // Draws the eyes that changed. Returns false if the shader must draw, because there is no layer, or the browser does
+  // not allow drawing into it.
   show(frame, { panorama, picture, state }, turn) {
     const { gl } = this;
     if (this.picture !== picture) {
@@ -96,7 +96,7 @@ export class EyeLayers {
     return true;
   }
 
-  // What stands in the room, in a layer above the picture's. draw(view, box, target); null: nothing does.
+  // Draws the objects in the room into a layer above the picture's. draw(view, box, target); null if there are none.
   drawAbove(draw, { views }) {
     const { gl } = this;
     if (draw) this.above ??= this.binding.createProjectionLayer({ colorFormat: gl.RGBA8, depthFormat: 0 });

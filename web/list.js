@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// All items, with their thumbnails, to choose one. Loaded when somebody asks for it. Returns what opens and closes it.
+// The list of all items with their thumbnails, for choosing one. Loaded on first use. Returns functions that open and
+// close it.
 import { make } from './elements.js';
 import { icon } from './icons.js';
 
@@ -10,7 +11,7 @@ export function makeList({ element, viewer }) {
   element.append(list);
   const cell = ({ name, kind, thumbnail }, i) => {
     const picture = make('img', { src: thumbnail ? new URL(thumbnail, viewer.base).href : '', alt: '', loading: 'lazy', decoding: 'async' });
-    picture.addEventListener('error', () => picture.removeAttribute('src')); // an empty place is better than a broken sign
+    picture.addEventListener('error', () => picture.removeAttribute('src')); // an empty frame beats a broken image
     const button = make('button', { type: 'button', title: name, 'aria-current': String(i === viewer.item) }, picture, make('span', {}, name));
     if (kind === 'video') button.insertAdjacentHTML('beforeend', icon('play'));
     button.addEventListener('click', () => {
@@ -22,7 +23,7 @@ export function makeList({ element, viewer }) {
   list.addEventListener('keydown', (event) => {
     const by = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
     if (!by) return;
-    event.preventDefault(); // they do not turn the picture meanwhile
+    event.preventDefault(); // these keys must not turn the picture meanwhile
     const cells = [...list.children];
     cells[cells.indexOf(event.target.closest('button')) + by]?.focus();
   });

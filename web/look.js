@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Mouse, touch, wheel and the device's own orientation turn the viewer's look.
+// Turns the viewer's look by mouse, touch, wheel and the device's own orientation.
 import { clamp, degrees, dot, radians } from './geometry.js';
 import { fovOf, halfWidth } from './panorama.js';
 
-// Dragging takes the picture along: what is in the middle of the view follows the pointer exactly.
-// hasWheel(): whether the wheel is the picture's now, and not the page's around it.
+// Dragging moves the picture: the point grabbed follows the pointer exactly at the middle of the view. hasWheel():
+// whether the wheel belongs to the picture, and not to the page around it.
 export function followPointer(viewer, element = viewer.canvas, hasWheel = () => true) {
   const held = new Map();
   const spread = () => {
@@ -63,7 +63,7 @@ export function lookOfDevice(alpha, beta, gamma, screenTurn) {
 
 export const hasDevice = () => 'DeviceOrientationEvent' in window && matchMedia('(pointer: coarse)').matches;
 
-// Returns a function that ends it; null where the user refuses. The look starts where it is.
+// Returns a function that ends it; null if the user refuses. The look starts from the present one.
 export async function followDevice(viewer) {
   const ask = window.DeviceOrientationEvent?.requestPermission;
   if (ask && (await ask.call(DeviceOrientationEvent).catch(() => 'denied')) !== 'granted') return null;

@@ -10,13 +10,13 @@ import { readState, writeState } from './state.js';
 const GREETED = 'omnistereo-greeted';
 const find = (id) => document.getElementById(id);
 
-// The address of what is shown now.
+// The address of the present view.
 function addressOf({ viewer, wanted }) {
   const { picture, item, state, choice } = viewer;
   return writeState({ item, frame: picture?.video?.paused ? picture.frame() : 0, layers: wanted.layers, look: state, choice, beside: viewer.compare?.pin });
 }
 
-// Keeps the address up to date, and follows it where somebody changes it.
+// Keeps the address up to date, and follows it when the user changes it.
 function watchAddress(player) {
   const { viewer } = player;
   let written = location.hash;
@@ -41,8 +41,8 @@ function watchAddress(player) {
   });
 }
 
-// Says when the server has ended, and goes on when the next one is there, which has the same address; the studio does so
-// itself. Begins to share where somebody wears a headset.
+// Reports when the server has ended, and continues when the next one has started at the same address; the studio
+// handles this itself. Starts sharing when a headset is worn.
 function watchServer(player) {
   let lost = false;
   setInterval(async () => {
@@ -55,13 +55,13 @@ function watchServer(player) {
   }, 2000);
 }
 
-// To whom is here for the first time, until he has moved the picture.
+// Greets first-time visitors, until they have moved the picture.
 function greet(player) {
   const hint = find('hint');
   try {
     if (localStorage.getItem(GREETED)) return;
   } catch {
-    return; // the browser keeps nothing for us, and would greet every time
+    return; // the browser does not store anything, so the greeting would appear every time
   }
   const touches = matchMedia('(pointer: coarse)').matches;
   hint.textContent = touches ? 'Drag to look around, pinch to zoom' : 'Drag to look around, wheel to zoom, ? for all keys';

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What lies over the picture, in the page and in <stereo-360>. Buttons of actions get their names and tooltips from the
-// table of actions.js.
+// The elements over the picture, in the page and in <stereo-360>. Buttons of actions get their names and tooltips from
+// the table of actions.js.
 import { icon } from './icons.js';
 
 const button = (action, more = '') => `<button type="button" data-action="${action}"${more}>${icon(action)}</button>`;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The curve of the pole merges, for the studio to draw: pixel x has the fraction that remains at x - 90 degrees of
-// elevation, in red, and what 8 bits lose of it in green.
+// The curve of the pole merges, for the studio: pixel x has the remaining fraction at x - 90 degrees of elevation, in
+// red, and the part lost by 8 bits in green.
 precision highp float;
 precision highp int;
 #define inline

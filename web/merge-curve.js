@@ -1,22 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The merge as a curve: how much of the eye distance is left from straight down to straight up. Its ends can be dragged.
-// The formula is the kernel's, run on the GPU by merge-curve.frag.
+// The merge as a curve: the remaining fraction of the eye distance from straight down to straight up. Its ends can be
+// dragged. The formula is the kernel's, run on the GPU by merge-curve.frag.
 import { clamp, radians } from './geometry.js';
 import { compile } from './panorama.js';
 
 const COUNT = 181;
-const SIZE = [280, 92]; // of the drawing
-const BOX = [8, 272, 10, 82]; // of the curve in it: left, right, top, bottom
+const SIZE = [280, 92]; // width and height of the drawing
+const BOX = [8, 272, 10, 82]; // box of the curve in it: left, right, top, bottom
 const ENDS = [['top', 'start'], ['top', 'end'], ['bottom', 'start'], ['bottom', 'end']];
-const REACH = 24; // of a handle, for fingers
+const REACH = 24; // distance at which a finger grabs a handle
 const SVG = 'http://www.w3.org/2000/svg';
 
 const xOf = (elevation) => BOX[0] + ((elevation + 90) / 180) * (BOX[1] - BOX[0]);
 const yOf = (left) => BOX[3] - left * (BOX[3] - BOX[2]);
 
-// Fractions for -90 .. 90 degrees, of two merges of a sidecar.
+// Fractions for -90 .. 90 degrees, for two merges of a sidecar.
 class Formula {
   // kinds: the kernel's number of each merge.
   constructor(text, kinds) {
@@ -52,7 +52,8 @@ function shape(tag, attributes, parent) {
 }
 
 export class MergeCurve {
-  // onDrag(which, end, elevation, gesture): which is top or bottom, end is start or end; the gesture is null at last.
+  // onDrag(which, end, elevation, gesture): which is top or bottom, end is start or end; the gesture is null at the
+  // end.
   constructor(kinds, onDrag) {
     this.onDrag = onDrag;
     this.element = document.createElement('figure');
@@ -81,7 +82,7 @@ export class MergeCurve {
     }).catch((error) => console.warn(error.message));
   }
 
-  // Fingers need not hit a handle: the nearest one is meant.
+  // Fingers need not hit a handle; the nearest one is dragged.
   drag() {
     const { svg } = this;
     let held = null;
@@ -111,7 +112,7 @@ export class MergeCurve {
     }
   }
 
-  // merges: { top, bottom } of a sidecar; other: the same of the other side, or null.
+  // merges: { top, bottom } of a sidecar; other: those of the other side, or null.
   draw(merges, other) {
     this.last = [merges, other];
     if (!this.formula) return;
@@ -130,7 +131,7 @@ export class MergeCurve {
     }
   }
 
-  // shares: what the depth allows (--merge auto), from the zenith down.
+  // shares: the fractions that the depth allows (--merge auto), from the zenith down.
   drawAuto(shares) {
     const at = (i) => 90 - ((i + 0.5) * 180) / shares.length;
     this.auto.setAttribute('points', shares.map((left, i) => `${xOf(at(i)).toFixed(1)},${yOf(left).toFixed(1)}`).join(' '));

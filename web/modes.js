@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How two eyes share a headset, or a flat screen: the parts of the screen (x, y, width, height as fractions, from the lower
-// left) and what each shows.
+// The ways in which two eyes share a headset, or a flat screen: the parts of the screen (x, y, width, height as
+// fractions, from the lower left) and the eye in each.
 const WHOLE = [0, 0, 1, 1];
 const LEFT_HALF = [0, 0, 0.5, 1];
 const RIGHT_HALF = [0.5, 0, 0.5, 1];
@@ -28,11 +28,11 @@ export const MODES = [
 
 export const modeOf = (name) => MODES.find((mode) => mode.name === name) ?? MODES[0];
 
-// How they share a headset: each eye has its own, or both have one.
+// The ways in which they share a headset: each eye has its own picture, or both have the same.
 export const WORN = [{ name: 'stereo', label: 'Both eyes' }, { name: 'left', label: 'Left eye' }, { name: 'right', label: 'Right eye' }];
 export const wornEye = ({ worn }, eye) => (worn === 'left' ? 0 : worn === 'right' ? 1 : eye);
 
-// In whole pixels of a canvas.
+// Converts a box to whole pixels of a canvas.
 export function boxOf([x, y, width, height], canvas) {
   const [left, low] = [Math.round(x * canvas.width), Math.round(y * canvas.height)];
   return [left, low, Math.round((x + width) * canvas.width) - left, Math.round((y + height) * canvas.height) - low];

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What somebody says of a picture: its caption, and hotspots, each a button where a direction is, with a card of text.
-// view.json has them as { caption, hotspots: [{ yaw, pitch, title, text }] } (docs/view.md). They are text, never HTML.
+// An author's notes on a picture: its caption, and hotspots, each a button in a direction, with a card of text. In
+// view.json: { caption, hotspots: [{ yaw, pitch, title, text }] } (docs/view.md). They are text, never HTML.
 import { make } from './elements.js';
 import { clamp } from './geometry.js';
 import { partsOf, placeOf } from './places.js';

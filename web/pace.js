@@ -1,24 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How finely a view that moves is drawn, by what its frames take: steps down where they are late, and up again where
-// there is time. A step down that does not help is taken back: then it is not the GPU that is slow.
+// Adapts the resolution of a moving view to the duration of its frames: lower if they are late, and higher again if
+// there is time. A reduction that does not help is undone, because then the GPU is not the bottleneck.
 const LEVELS = [{ scale: 1 }, { scale: 1, cheap: true }, { scale: 0.7, cheap: true }, { scale: 0.5, cheap: true }];
-const COUNT = 4; // frames that are judged together
-const PATIENCE = 2000; // milliseconds from a step down to the next try; twice as long each time
+const COUNT = 4; // frames that are evaluated together
+const PATIENCE = 2000; // milliseconds from a reduction to the next attempt; doubled each time
 
 export class Pace {
-  // period: milliseconds of a frame that is in time.
+  // period: the target duration of a frame, milliseconds.
   constructor(period = 1000 / 60) {
     Object.assign(this, { period, level: 0, times: [], before: 0, until: 0, wait: PATIENCE, stuck: 0 });
   }
 
-  // scale: of the canvas; cheap: as panorama.js.
+  // scale: of the canvas; cheap: as in panorama.js.
   get how() {
     return LEVELS[this.level];
   }
 
-  // A frame's milliseconds.
+  // Records the duration of a frame, milliseconds.
   took(time, now = performance.now()) {
     this.times.push(time);
     if (this.times.length < COUNT) return;

@@ -1,23 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// An eye's picture that is too large for the GPU: a coarse picture of everything, and as many tiles as there is room for,
-// those that a view needs. Loaded with the first such picture.
+// An eye's picture that is too large for the GPU: a coarse picture of everything, and as many of the tiles needed by
+// the view as fit. Loaded with the first such picture.
 import { compile } from './panorama.js';
 import { BORDER, EyeTexture, paintTile } from './tiles.js';
 
 const TILE = 1024; // texels, without the border
-const COARSE = 2048; // texels of the coarse picture around the horizon, at most
+const COARSE = 2048; // maximum texels of the coarse picture around the horizon
 export const BUDGET = 120e6; // bytes of an eye's tiles
-const ASKED = [96, 54]; // pixels of a view that are asked which tiles they need
-const PAUSE = 100; // milliseconds between questions
+const ASKED = [96, 54]; // pixels of a reduced view for finding the needed tiles
+const PAUSE = 100; // milliseconds between searches
 
 // Means of step x step texels, in linear light: rendering into an sRGB texture encodes.
 const SHRINK = `#version 300 es
 precision highp float;
 precision highp int;
 uniform sampler2D tile;
-uniform ivec2 origin;  // of the tile, in pixels of the target
+uniform ivec2 origin;  // origin of the tile, in pixels of the target
 uniform int step;
 uniform ivec4 inside;  // texels of the tile that are used: its edges are repeated outwards
 in vec2 screen;
@@ -69,7 +69,7 @@ export class PagedEye {
     return texture;
   }
 
-  // Tells the shader which tile is where.
+  // Updates the shader's table of tiles.
   tell() {
     const { gl } = this;
     gl.activeTexture(gl.TEXTURE0);
@@ -79,7 +79,7 @@ export class PagedEye {
     gl.pixelStorei(gl.UNPACK_ALIGNMENT, 4);
   }
 
-  // What a preview shows stands in until the tiles have come.
+  // Shows a preview until the tiles have been loaded.
   async begin(preview, [x, y, width, height]) {
     const small = await createImageBitmap(preview, x, y, width, height, {
       resizeWidth: this.coarse.size[0], resizeHeight: this.coarse.size[1], resizeQuality: 'medium',
@@ -88,7 +88,7 @@ export class PagedEye {
     small.close();
   }
 
-  // Renders the tile in `scratch` into a layer: `at` is where the tile's first texel comes to lie, in target pixels.
+  // Renders the tile in `scratch` into a layer: `at` is the position of the tile's first texel, in target pixels.
   shrink(texture, layer, level, [x, y, width, height], at, step, inside) {
     const { gl } = this;
     const uniform = (name) => gl.getUniformLocation(this.program, name);
@@ -103,7 +103,7 @@ export class PagedEye {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
-  // Brings a cell's tile: into the slot, and, the first time, into the coarse picture.
+  // Loads a cell's tile into the slot, and, the first time, into the coarse picture.
   load(cell, slot) {
     const { gl, canvas, layer: [side], tile: [tile], down } = this;
     const [column, row] = [cell % this.columns, Math.floor(cell / this.columns)];
@@ -122,7 +122,7 @@ export class PagedEye {
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
   }
 
-  // The tile's own texels; at the edges of the picture also beyond, and where it goes around, at its other end.
+  // The tile's own texels; at the edges of the picture also beyond, and if it wraps around, at its other end.
   intoCoarse(column, row) {
     const { size, tile: [tile], down, coarse, columns, rows, wraps } = this;
     const part = 2 ** down;
@@ -139,7 +139,8 @@ export class PagedEye {
     }
   }
 
-  // cells: that a view needs, the most important first. Loads up to `count` that are missing; returns whether any was.
+  // cells: needed by a view, the most important first. Loads up to `count` missing ones; returns whether there were
+  // any.
   bring(cells, count = 1) {
     const now = ++this.time;
     const there = cells.slice(0, this.slots.length);
@@ -157,7 +158,7 @@ export class PagedEye {
     return missing.length > 0;
   }
 
-  // One more tile of the coarse picture; false: it is complete.
+  // Adds another tile to the coarse picture. Returns false if it is complete.
   refine() {
     const cell = Array.from(this.cells.keys()).find((each) => !this.done.has(each));
     if (cell === undefined) return false;
@@ -180,7 +181,7 @@ export class PagedEye {
   }
 }
 
-// Brings the tiles that views need, while they are looked at.
+// Loads the tiles that views need, while they are visible.
 export class Pager {
   constructor(panorama, picture) {
     const { gl } = panorama;
@@ -195,7 +196,7 @@ export class Pager {
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
   }
 
-  // The cells of an eye that a part of the view needs, those in its middle first.
+  // The cells of an eye that a part of the view needs, starting in its middle.
   ask(options, side) {
     const { panorama, picture } = this;
     const { gl } = panorama;
@@ -231,12 +232,12 @@ export class Pager {
     return eyes.map((eye, i) => eye.bring(wanted[i], count)).some(Boolean);
   }
 
-  // Makes more of the coarse picture; returns whether it was incomplete.
+  // Extends the coarse picture; returns whether it was incomplete.
   refine() {
     return [...new Set(this.picture.eyes)].map((eye) => eye.refine()).some(Boolean);
   }
 
-  // While the view moves: now and then.
+  // Called while the view moves; acts at intervals.
   follow(parts, now) {
     if (now - this.last < PAUSE) return;
     this.last = now;

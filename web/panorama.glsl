@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The viewer's shaders. Where a picture has a line of sight is the kernel's to say: the build runs the C preprocessor
-// over this file and adds the line "#version 300 es"; lines that begin with % are directives for the browser. panorama.js
-// defines what a program is for: a GPU that is software runs every branch that is not constant.
+// The viewer's shaders. The kernel's headers map a line of sight to a pixel: the build runs the C preprocessor over
+// this file and adds the line "#version 300 es"; lines that begin with % are directives for the browser. panorama.js
+// defines the purpose of each program with macros, because software GPUs execute every branch that is not constant.
 //
 // The filter is that of ods/convert/texel_filter.h: a pixel that covers a texel or less is interpolated by the
-// Catmull-Rom cubic, clamped to the range of its texels. A pixel that covers s texels averages with the variance
-// (s^2 - 1) / 6; here mip levels, which are boxes, supply the variance of the narrow axis, and points along the wide one
-// supply the rest. While the view moves, the GPU filters instead: the line of sight is the same.
+// Catmull-Rom cubic, clamped to the range of its texels. A pixel that covers s texels averages with the variance (s^2 -
+// 1) / 6; here mip levels, which are boxes, supply the variance of the narrow axis, and points along the wide one
+// supply the rest. While the view moves, the GPU filters instead, with the same line of sight.
 precision highp float;
 precision highp int;
 precision highp sampler2DArray;
@@ -21,9 +21,9 @@ precision highp sampler2DArray;
 uniform Camera camera;
 uniform sampler2D merge_texels;
 uniform sampler2D head_tilt_texels;
-uniform ivec2 sides;  // which of the camera's eyes are shown
+uniform ivec2 sides;  // the camera's eyes that are shown
 uniform mat3 rays;    // a pixel at (x, y), both -1..1, looks along rays * (x, y, 1) in the picture's frame
-uniform vec2 shift;   // cosine and sine: the left eye's picture turns so far to the left, the right eye's to the right
+uniform vec2 shift;   // cosine and sine of the turn: the left eye's picture to the left, the right eye's to the right
 
 float camera_map_texel(Camera a_camera, int which, int i) {
   int width = which == kMapOfMerge ? a_camera.merge_map.width : a_camera.head_tilt_map.width;
@@ -31,17 +31,17 @@ float camera_map_texel(Camera a_camera, int which, int i) {
   return which == kMapOfMerge ? texelFetch(merge_texels, at, 0).x : texelFetch(head_tilt_texels, at, 0).x;
 }
 
-// Where an eye's picture has what the view shows along a direction.
+// The direction in an eye's picture that the view shows in a direction.
 vec3 shifted(int which, vec3 direction) {
   float side = sides[which] == kRight ? -shift.y : shift.y;
   return vec3(shift.x * direction.x - side * direction.z, direction.y, side * direction.x + shift.x * direction.z);
 }
 
 %ifdef ODS_VERTEX
-// A corner of the view. Labels (ods/kernel/camera/line.h) are as long as the corner's direction: then they are linear
-// across the view, and pixels between corners have exactly theirs. Only toed-in eyes need more than one triangle: a mesh,
-// whose error is at most an eighth of the squared side of a cell times the label's second derivative.
-uniform int cells;  // of the mesh, each way; 0: one triangle
+// A corner of the view. Labels (ods/kernel/camera/line.h) are as long as the corner's direction, so they are linear
+// across the view, and exact for pixels between corners. Only toed-in eyes need more than one triangle: a mesh, whose
+// error is at most an eighth of the squared side of a cell times the label's second derivative.
+uniform int cells;  // cells of the mesh, each way; 0 for one triangle
 out vec2 screen;
 out vec3 label_0;
 out vec3 label_1;
@@ -60,41 +60,41 @@ void main() {
 }
 
 %else
-const int kKind = ODS_KIND;       // of the picture's projection
+const int kKind = ODS_KIND;       // number of the picture's projection
 const bool kBoth = ODS_BOTH;      // an anaglyph or a difference is shown, not the eye at 0
 const bool kMoves = ODS_MOVES;    // the view moves
-const bool kOver = ODS_OVER;      // the picture is a finer window of one that is drawn already
+const bool kOver = ODS_OVER;      // the picture is a finer window over one that is already drawn
 const bool kAround = ODS_AROUND;  // the view is a lat-long picture of the whole sphere
 const bool kPlanet = ODS_PLANET;  // the view is stereographic, a little planet
 const bool kGrid = ODS_GRID;
-const bool kCheap = ODS_CHEAP;    // for kMoves: the same filter each way
+const bool kCheap = ODS_CHEAP;    // for kMoves: the same filter in each direction
 const bool kLight = ODS_LIGHT;    // the texels are scene-linear, and developed here
-const bool kPaged = ODS_PAGED;    // only some tiles are there; a coarse picture stands in for the others
-const bool kAsk = ODS_ASK;        // which tiles are needed is shown instead
+const bool kPaged = ODS_PAGED;    // only some tiles are loaded; a coarse picture replaces the others
+const bool kAsk = ODS_ASK;        // shows the needed tiles instead of the picture
 const float kBorder = 16.0;  // texels around a tile
-const int kLastLevel = 5;    // of the mip levels
+const int kLastLevel = 5;    // the coarsest mip level
 
 // An eye's picture, cut into tiles that are the layers of a texture.
 struct Eye {
   vec2 size;  // texels
-  vec2 tile;  // of a tile without its border
+  vec2 tile;  // size of a tile without its border
   int columns;
-  int down;  // for kPaged: the coarse picture is 2^down times smaller
+  int down;  // for kPaged: the coarse picture is reduced by 2^down
 };
 
-uniform Projection below;  // for kOver: of that picture
+uniform Projection below;  // for kOver: of the picture below
 uniform Eye eyes[2];
 uniform sampler2DArray tiles_0;
 uniform sampler2DArray tiles_1;
 uniform sampler2DArray coarse_0;
 uniform sampler2DArray coarse_1;
-uniform highp isampler2D slots_0;  // the layer of each tile; below 0: it is not there
+uniform highp isampler2D slots_0;  // the layer of each tile; negative if it is not loaded
 uniform highp isampler2D slots_1;
 uniform vec2 viewport;    // pixels
-uniform float ask_scale;  // for kAsk: the view's own pixels over those that are asked for
+uniform float ask_scale;  // for kAsk: the view's own pixels over those of the search
 uniform bool difference;  // instead of an anaglyph
 uniform float exposure;   // for kLight: a factor,
-uniform bool neutral;     // and the tone curve, else linear
+uniform bool neutral;     // and whether the tone curve is neutral, else linear
 in vec2 screen;
 in vec3 label_0;
 in vec3 label_1;
@@ -107,7 +107,7 @@ vec3 direction_at(vec2 at) {
   return aside + rays[2] * (1.0 - 0.25 * dot(aside, aside));
 }
 
-// --- where ----------------------------------------------------------------------------------------------------------
+// --- positions ------------------------------------------------------------------------------------------------------
 
 struct Place {
   vec2 at;    // texels from the left and top edge of the eye's picture
@@ -137,7 +137,7 @@ Place place_under(int which, vec3 label) {
   place.at = point.uv * size;
   place.low = vec2(-1e6);
   place.high = vec2(1e6);
-  // Rounding may put a place on the picture's edge just outside.
+  // Rounding may move a position on the picture's edge slightly outside.
   vec2 off = abs(point.uv - 0.5);
   place.seen = point.seen || (!has_image_circle(kKind) && max(off.x, off.y) < 0.50001);
   if (is_cube(kKind)) {
@@ -152,8 +152,8 @@ Place place_under(int which, vec3 label) {
   return place;
 }
 
-// How the place moves with a step of the direction, in texels. A step that leaves the face is taken backwards.
-// (Drivers inline every call and compile for seconds: whatever is large is called from few places, in loops.)
+// The movement of the position with a step of the direction, in texels. A step that leaves the face is taken backwards.
+// (Drivers inline every call and compile for seconds, so large functions are called from few places, in loops.)
 vec2 movement(int which, vec3 direction, vec3 step_by, Place from) {
   const float kPart = 0.25;
   vec2 size = eyes[which].size;
@@ -171,13 +171,13 @@ vec2 movement(int which, vec3 direction, vec3 step_by, Place from) {
 
 // --- texels ---------------------------------------------------------------------------------------------------------
 
-// A place in a layer, in texels of the level 0.
+// A position in a layer, in texels of level 0.
 struct Spot {
   vec2 at;
   vec2 low;
   vec2 high;
   int layer;
-  int down;  // for a layer of the coarse picture: its levels are so many fewer
+  int down;  // for a layer of the coarse picture, which has this many levels less
 };
 
 vec2 layer_size(int which) {
@@ -195,7 +195,7 @@ int slot_of(int which, ivec2 cell) {
   return texelFetch(slots_1, cell, 0).x;
 }
 
-// Whether the coarse picture has all that a pixel over this many squared texels needs.
+// Returns whether the coarse picture is sufficient for a pixel over this many squared texels.
 bool is_coarse(int which, float square) {
   return 2.0 * square - 1.0 >= exp2(2.0 * float(eyes[which].down));
 }
@@ -206,7 +206,7 @@ vec2 cell_of(int which, vec2 at) {
   return min(floor(at / tile), vec2(float(eyes[which].columns - 1), ceil(size.y / tile.y) - 1.0));
 }
 
-// square: of the texels that the pixel covers.
+// square: of the pixel's width in texels.
 Spot spot_at(int which, Place place, vec2 offset, float square) {
   vec2 size = eyes[which].size;
   vec2 at = clamp(place.at + offset, place.low + 0.5, place.high - 0.5);
@@ -272,7 +272,7 @@ vec3 bicubic(int which, Spot spot, int level) {
   return clamp(sum, least, most);
 }
 
-// The level's box has the variance (4^level - 1) / 12, the pixel wants (square - 1) / 6: two levels are mixed.
+// The level's box has the variance (4^level - 1) / 12, the pixel needs (square - 1) / 6: two levels are mixed.
 vec3 averaged(int which, Spot spot, float square) {
   float boxes = 2.0 * square - 1.0;
   int level = clamp(int(floor(0.5 * log2(boxes))), 0, kLastLevel - 1 + (kPaged ? spot.down : 0));
@@ -287,9 +287,9 @@ vec3 averaged(int which, Spot spot, float square) {
   return sum;
 }
 
-// dx, dy: how far the place moves from pixel to pixel, in texels.
+// dx, dy: movement of the position from pixel to pixel, in texels.
 vec3 filtered(int which, Place place, vec2 dx, vec2 dy) {
-  // The squared half axes of the ellipse that a round pixel becomes.
+  // The squared half axes of the ellipse onto which a round pixel is mapped.
   float xx = dx.x * dx.x + dy.x * dy.x;
   float yy = dx.y * dx.y + dy.y * dy.y;
   float xy = dx.x * dx.y + dy.x * dy.y;
@@ -299,7 +299,7 @@ vec3 filtered(int which, Place place, vec2 dx, vec2 dy) {
   float square = max(max(middle - spread, 1.0), large / 400.0);
   float rest = large - square;
   int count = 1 + int(ceil(2.0 * sqrt(rest / square) - 0.1));
-  // A tent of points, as make_tent() in ods/convert/texel_filter.cpp.
+  // A tent of points, like make_tent() in ods/convert/texel_filter.cpp.
   vec2 axis = xx >= yy ? vec2(middle + spread - yy, xy) : vec2(xy, middle + spread - xx);
   axis = count > 1 ? normalize(axis) : vec2(0.0);
   float n = float(count);
@@ -318,16 +318,16 @@ vec3 filtered(int which, Place place, vec2 dx, vec2 dy) {
 
 // --- light ----------------------------------------------------------------------------------------------------------
 
-const float kNothing = 0.0103;  // a neutral dark grey, where the picture has nothing
+const float kNothing = 0.0103;  // a neutral dark grey, where the picture is empty
 
-// How much a picture covers what is below it: a window fades at its edges, and adds nothing where the picture below ends.
+// The opacity over the picture below: a window fades at its edges, and adds nothing where the picture below ends.
 float cover_of(int which, Place place) {
   if (!kOver) return 1.0;
   vec2 inside = min(place.at, eyes[which].size - place.at);
   return place_of(below, place.label).seen ? clamp(min(inside.x, inside.y) / 12.0, 0.0, 1.0) : 0.0;
 }
 
-// As ods/image/tone.cpp.
+// Like ods/image/tone.cpp.
 vec3 developed(vec3 light) {
   if (!kLight) return light;
   const float kStart = 0.76;
@@ -353,8 +353,8 @@ vec4 light_of(int which, vec3 direction, vec3 dx, vec3 dy) {
 
 // --- while the view moves -------------------------------------------------------------------------------------------
 
-// How the place moves to the next pixel, from what neighbours found; label_move: how the label does. Where the edges of
-// the picture or of a cube's faces lie between them, the distance means nothing.
+// How the position moves to the next pixel, from the positions of adjacent pixels; label_move: how the label moves.
+// Where the edges of the picture or of a cube's faces are between them, the difference is meaningless.
 vec2 moved(vec2 move, vec3 label, vec3 label_move, vec2 size) {
   if (wraps()) move.x -= size.x * floor(move.x / size.x + 0.5);
   if (is_cube(kKind)) {
@@ -364,16 +364,16 @@ vec2 moved(vec2 move, vec3 label, vec3 label_move, vec2 size) {
   return move;
 }
 
-// dx, dy: how far the place moves from pixel to pixel, as parts of a layer; square: of the texels that the pixel covers.
+// dx, dy: movement of the position from pixel to pixel, in fractions of a layer; square: of the pixel's width in texels
 vec3 sampled(sampler2DArray tiles, vec3 at, vec2 dx, vec2 dy, float square) {
   if (!kCheap) return textureGrad(tiles, at, dx, dy).rgb;
   return textureLod(tiles, at, 0.5 * log2(max(square, 1.0))).rgb;
 }
 
-// As place_under() for a cube. A GPU that is software runs every branch: so no cell is looked up but by a constant.
+// The cube version of place_under(). Indices are constants, because software GPUs execute every branch.
 struct Cell {
   vec2 corner;  // in cells
-  vec2 aside;   // of the label, along the face's edges
+  vec2 aside;   // components of the label along the face's edges
   float ahead;
 };
 
@@ -403,7 +403,7 @@ Place quick_cube_place(int which, vec3 label) {
   return place;
 }
 
-// As light_of(), with the GPU's filter.
+// Like light_of(), with the GPU's filter.
 vec4 quick_light_of(int which, vec3 label) {
   Place place;
   if (is_cube(kKind)) place = quick_cube_place(which, label);
@@ -417,7 +417,7 @@ vec4 quick_light_of(int which, vec3 label) {
   float square = max(min(dot(dx, dx), dot(dy, dy)), large / 9.0);
   int count = 1;
   if (kKind == kLatLong) {
-    // However the view is turned, a pixel covers a part of a row, ever longer towards a pole: then it is some points of it.
+    // Towards a pole a pixel covers an increasingly long part of a row: then it is the mean of several points.
     float row = length(vec2(dx.x, dy.x));
     float high = length(vec2(dx.y, dy.y));
     count = int(clamp(ceil(0.4 * row / max(high, 1.0)), 1.0, 16.0));
@@ -461,7 +461,7 @@ vec3 dubois(vec3 left, vec3 right) {
          mat3(-0.011, 0.377, -0.026, -0.032, 0.761, -0.093, -0.007, 0.009, 1.234) * right;
 }
 
-// How strongly a line at a multiple of `every` degrees covers the pixel, whose size is in degrees.
+// The coverage of the pixel by a line at a multiple of `every` degrees. The pixel size is in degrees.
 float line_at(float angle, float every, float stretch, float pixel) {
   float off = abs(angle - every * floor(angle / every + 0.5)) * stretch;
   return clamp(1.2 - off / pixel, 0.0, 1.0);

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Draws stereo panoramas with WebGL 2. panorama.glsl finds the texels with the formulas of the renderer itself; this
-// file makes a program of it for each projection, sets its uniforms and knows no formula.
+// file makes a program of it for each projection, sets its uniforms and contains no formulas.
 import { radians } from './geometry.js';
 
-const TOE_IN = 1; // of the kernel's convergences: the only one whose lines of sight are not linear across the view
-const CELLS = 16; // of the mesh for those, each way
+const TOE_IN = 1; // number of the kernel's convergence whose lines of sight are not linear across the view
+const CELLS = 16; // cells of the mesh for it, each way
 const VERTICES = `#version 300 es
 out vec2 screen;
 void main() {
@@ -14,14 +14,14 @@ void main() {
   gl_Position = vec4(screen, 0.0, 1.0);
 }`;
 
-// The text of the shaders, which lies beside this module.
+// The text of the shaders, which are beside this module.
 export async function loadShader(base = import.meta.url) {
   const answer = await fetch(new URL('panorama.glsl', base));
   if (!answer.ok) throw new Error(`panorama.glsl did not load (${answer.status}). Reload the page.`);
   return answer.text();
 }
 
-// Starts compiling; some browsers do so in the background until finish() asks.
+// Starts compiling; some browsers do so in the background until finish() is called.
 function begin(gl, fragment, vertices) {
   const program = gl.createProgram();
   const shaders = [[gl.VERTEX_SHADER, vertices], [gl.FRAGMENT_SHADER, fragment]].map(([kind, text]) => {
@@ -44,16 +44,17 @@ function finish(gl, { program, shaders }) {
   return program;
 }
 
-// Half of a view's width where what is straight ahead has the scale 1, and the angle of view of one.
+// Half of a view's width, in units of the scale straight ahead, and the angle of view for a half width.
 export const halfWidth = (fov, planet) => (planet ? 2 * Math.tan((fov * Math.PI) / 720) : Math.tan((fov * Math.PI) / 360));
 export const fovOf = (wide, planet) => (planet ? 4 * Math.atan(wide / 2) : 2 * Math.atan(wide)) * (180 / Math.PI);
-// Of the stereographic view (panorama.glsl); 0: none.
+// The bend of the stereographic view (panorama.glsl); 0 for other views.
 export const bendOf = ({ planet }) => (planet ? 0.25 : 0);
 
 export const compile = (gl, fragment) => finish(gl, begin(gl, fragment, VERTICES));
 
-// The columns of a matrix that turns a place on the screen (-1..1) into a direction. yaw to the right, pitch up, roll
-// clockwise, in degrees; fov: the horizontal angle of view; aspect: width over height. planet: the view is stereographic.
+// The columns of a matrix that converts a position on the screen (-1..1) to a direction. yaw to the right, pitch up,
+// roll clockwise, in degrees; fov: the horizontal angle of view; aspect: width over height. planet: the view is
+// stereographic.
 export function raysOf({ yaw = 0, pitch = 0, roll = 0, fov = 90, planet = false }, aspect) {
   const [y, p, r] = [yaw, pitch, roll].map(radians);
   const [sy, cy, sp, cp, sr, cr] = [Math.sin(y), Math.cos(y), Math.sin(p), Math.cos(p), Math.sin(r), Math.cos(r)];
@@ -66,7 +67,7 @@ export function raysOf({ yaw = 0, pitch = 0, roll = 0, fov = 90, planet = false 
 }
 
 export class Panorama {
-  // canvas: where to draw. Throws an Error that says what to try where WebGL 2 is missing.
+  // canvas: where to draw. Throws an Error with advice if there is no WebGL 2.
   constructor(canvas, shader) {
     const gl = canvas.getContext('webgl2', { alpha: false, antialias: false, depth: false, preserveDrawingBuffer: true });
     if (!gl) throw new Error('This browser has no WebGL 2. Switch on hardware acceleration, or use a newer browser.');
@@ -76,7 +77,7 @@ export class Panorama {
     this.start();
   }
 
-  // Also after a lost context, which takes everything with it.
+  // Also called after the context was lost with all its objects.
   start() {
     const { gl } = this;
     this.background = gl.getExtension('KHR_parallel_shader_compile');
@@ -102,7 +103,7 @@ export class Panorama {
     for (const unit of [0, 1]) gl.bindSampler(unit, cheap ? this.cheap : null);
   }
 
-  // The program for a picture and options of drawOne(), compiled when it is first asked for.
+  // The program for a picture and options of drawOne(), compiled on first use.
   programFor({ camera, below, light = false, pager }, { show = 'eye', moves = false, all = false, planet = false, grid = false, cheap = false, ask = false }) {
     const { gl } = this;
     const about = {
@@ -118,7 +119,7 @@ export class Panorama {
     return this.programs.get(key);
   }
 
-  // Whether drawing would not wait for a compiler.
+  // Returns whether drawing would not wait for a compiler.
   isReady(picture, options) {
     const each = this.programFor(picture, options);
     return Boolean(each.uniforms) || !this.background ||
@@ -151,8 +152,8 @@ export class Panorama {
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
   }
 
-  // Sets every uniform to the value of its name in nested objects and arrays. What view.json leaves out stays 0: drivers
-  // may keep uniforms that no pixel needs.
+  // Sets every uniform to the value of its name in nested objects and arrays. Values missing in view.json stay 0:
+  // drivers may keep uniforms that no pixel needs.
   set(uniforms, values) {
     const { gl } = this;
     const setters = {
@@ -168,8 +169,8 @@ export class Panorama {
     }
   }
 
-  // Draws a view of a picture (picture.js) as drawOne() does, and what belongs to it: `over`, a finer window, and
-  // `beside`, another picture to the right of the fraction `split` of the box.
+  // Draws a view of a picture (picture.js) like drawOne(), and the pictures that belong to it: `over`, a finer window,
+  // and `beside`, another picture to the right of the fraction `split` of the box.
   draw(picture, options) {
     this.drawOne(picture, options);
     if (picture.over) this.drawOne(picture.over, options);
@@ -181,11 +182,11 @@ export class Panorama {
   }
 
   // Draws a view of a picture: `show` is eye, anaglyph or difference; `eye` is 0 for left, 1 for right.
-  // rays: as raysOf(). box: x, y, width, height in pixels of the target, from its lower left corner. swap: exchanges
+  // rays: from raysOf(). box: x, y, width, height in pixels of the target, from its lower left corner. swap: exchanges
   // the eyes. moves: quickly, with the GPU's filter; cheap: with less of it. target: a framebuffer, or null for the
-  // canvas. clip: a part of the box, for all that is drawn. all: the whole sphere as a lat-long picture instead; planet: a
-  // stereographic view. shift: radians by which the left eye's picture turns to the left, and the right eye's to the right.
-  // ask: which tiles are needed instead, for a view that is askScale times as wide.
+  // canvas. clip: the part of the box to draw. all: the whole sphere as a lat-long picture instead; planet: a
+  // stereographic view. shift: radians by which the left eye's picture turns to the left, and the right eye's to the
+  // right. ask: draws the needed tiles instead, for a view that is askScale times as wide.
   drawOne(picture, options) {
     const { rays, box, clip = box, show = 'eye', eye = 0, swap = false, moves = false, cheap = false, target = null, all = false, planet = false, shift = 0, askScale = 1 } = options;
     const { gl } = this;
@@ -221,7 +222,7 @@ export class Panorama {
     gl.disable(gl.BLEND);
   }
 
-  // pages.js. Bound to their own units.
+  // Binds the textures of pages.js to their own units.
   bindPages(eyes) {
     const { gl } = this;
     eyes.forEach((each, i) => {
@@ -232,7 +233,7 @@ export class Panorama {
     });
   }
 
-  // Waits until the GPU has drawn all; returns the milliseconds.
+  // Waits until the GPU has finished drawing; returns the milliseconds.
   async finished(nextFrame) {
     const { gl } = this;
     const since = performance.now();

@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Loads an item of view.json. A picture, for panorama.js, is
-//   { eyes: [left, right] as EyeTexture, camera, mono, changed, free() }   and a video's also what video.js adds, a large
-// one's `pager`, one of light `light` and develop(). It calls changed() when there is something new to draw.
+//   { eyes: [left, right] as EyeTexture, camera, mono, changed, free() }
+// and the members that video.js adds for a video, `pager` for a large picture, `light` and develop() for one of light.
+// It calls changed() when there is something new to draw.
 import { cropOf, formOf, hasOtherLayouts, isRound, same } from './form.js';
 import { EyeTexture, FrameCutter } from './tiles.js';
 
 const LARGE = 40e6; // texels of both eyes: with mip levels, 213 MB
 
-// Reads a file and reports how much of it has come, 0..1.
+// Reads a file and reports the fraction loaded, 0..1.
 async function download(url, name, signal, progress) {
   const answer = await fetch(url, { signal }).catch((error) => {
     if (error.name === 'AbortError') throw error;
@@ -41,14 +42,14 @@ async function decode(blob, name, colorSpaceConversion = 'default') {
   }
 }
 
-// The addresses of an item's eyes, where the server divides its file as another layout has it.
+// The addresses of an item's eyes, if the server divides its file according to another layout.
 function eyeFiles({ left, right }, layout) {
   const named = (eye) => left.replace(/[^/]*$/, `${eye}.jpg`);
   if (!layout) return [left, right];
   return layout === 'mono' ? [named('mono'), named('mono')] : [named('left'), named('right')];
 }
 
-// Of the source that `crops` divide: both eyes' textures, or what pages.js makes of them where they are too large.
+// Both eyes' textures from the source that `crops` divide, or the eyes of pages.js if they are too large.
 async function eyesOf(panorama, form, { sources, crops, mono, name, preview, paging, signal }) {
   const { gl } = panorama;
   const wraps = isRound(form.camera);
@@ -82,7 +83,7 @@ async function eyesOf(panorama, form, { sources, crops, mono, name, preview, pag
   return picture;
 }
 
-// A small copy, for the time until the picture has come; null where there is none.
+// A small copy that is shown until the picture is loaded; null if there is none.
 async function openPreview(panorama, item, form, url, signal, early) {
   const answer = await fetch(url(item.preview), { signal });
   if (!answer.ok) return null;
@@ -116,7 +117,8 @@ async function openImage(panorama, item, form, layout, url, { signal, progress, 
   }
 }
 
-// Scene-linear light: halves, in a picture that browsers read (FrameCutter). The last one is kept, for other layouts.
+// Scene-linear light: halves, in a picture format that browsers read (FrameCutter). The last one is kept, for other
+// layouts.
 async function openLight(panorama, item, form, url, choice, { signal, progress }) {
   const { gl } = panorama;
   const address = url(item.light).href;
@@ -136,7 +138,7 @@ async function openLight(panorama, item, form, url, choice, { signal, progress }
   cutter.free();
   return {
     eyes, camera: form.camera, mono, light: true, changed: null,
-    // What exposure and tone curve are chosen: the shader does the rest.
+    // Sets exposure and tone curve, which the shader applies.
     develop({ exposure = item.exposure, tone = item.tone }) {
       Object.assign(this, { stops: exposure, tone });
       return this;
@@ -146,8 +148,8 @@ async function openLight(panorama, item, form, url, choice, { signal, progress }
 }
 
 // base: the address that the item's addresses are relative to. choice: { layout, projection, exposure, tone }, all
-// optional. early(picture): takes a preview of the picture. paging: of pages.js, else as the picture's size needs it.
-// Throws an Error with one line for the user, or an AbortError if `signal` says stop.
+// optional. early(picture): receives a preview of the picture. paging: whether to use pages.js, by default depending on
+// the picture's size. Throws an Error with one line for the user, or an AbortError if `signal` is aborted.
 export async function openPicture(panorama, view, item, { base, choice = {}, ...how } = {}) {
   const form = formOf(view, item, choice);
   const url = (path, query = {}) => {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where on the page a direction is, and which direction a place of the page shows. Places are CSS pixels from the
-// canvas's upper left corner, directions have yaw and pitch in degrees.
+// Converts between positions on the page and directions. Positions are CSS pixels from the canvas's upper left corner,
+// directions have yaw and pitch in degrees.
 import { degrees, dot } from './geometry.js';
 import { boxOf, modeOf } from './modes.js';
 import { bendOf, raysOf } from './panorama.js';
@@ -18,7 +18,7 @@ export function partsOf({ canvas, state }) {
   });
 }
 
-// The direction at a place, and the eye that sees it; null outside.
+// The direction at a position, and the eye that sees it; null outside.
 export function directionAt(viewer, x, y) {
   const part = partsOf(viewer).find(({ box }) => x >= box[0] && x < box[0] + box[2] && y >= box[1] && y < box[1] + box[3]);
   if (!part) return null;
@@ -30,7 +30,7 @@ export function directionAt(viewer, x, y) {
   return { yaw: degrees(Math.atan2(d[0], -d[2])), pitch: degrees(Math.asin(d[1] / Math.hypot(...d))), eye: part.eye ? 'right' : 'left' };
 }
 
-// Where a part of the view shows a direction; null where it does not.
+// The position of a direction in a part of the view; null if it is outside.
 export function placeOf({ state }, { yaw, pitch }, { box: [left, top, width, height] }) {
   const axes = columns(raysOf(state, width / height));
   const d = raysOf({ yaw, pitch }, 1).slice(6, 9);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A viewer with everything over its picture: bar, settings, help, keys. The page and <stereo-360> are one of these each.
+// A viewer with all elements over its picture: bar, settings, help, keys. The page and <stereo-360> each have one.
 import { ACTIONS, actionOf, applies } from './actions.js';
 import { Controls } from './controls.js';
 import { clamp } from './geometry.js';
@@ -22,9 +22,9 @@ const EXTRAS = {
 const hasHeadset = async () => Boolean(await navigator.xr?.isSessionSupported('immersive-vr').catch(() => false));
 
 export class Player {
-  // element: holds the canvas #picture and gets the rest. root: its document or shadow root. keys: what hears keys.
-  // isPage: the whole page is for the picture, so the wheel is, too. nameOf(item): what to call it, if anything; isSingle():
-  // whether there are other items for people to choose.
+  // element: contains the canvas #picture and receives the rest. root: its document or shadow root. keys: the element
+  // that receives keys. isPage: the page has no other content, so the wheel belongs to the picture, too. nameOf(item):
+  // its name for users, if any; isSingle(): whether there are no other items to choose.
   constructor(element, root, { view, shader, base, wanted = {}, keys = element, isPage = false, nameOf = ({ name }) => name, isSingle = () => false }) {
     Object.assign(this, { element, root, wanted, isPage, keys, nameOf, isSingle });
     element.insertAdjacentHTML('beforeend', MARKUP);
@@ -40,7 +40,7 @@ export class Player {
     watchTips(root);
     hasHeadset().then((has) => {
       root.querySelector('#tools [data-action="headset"]').hidden = !has;
-      if (has) this.loadHeadset().catch(() => {}); // the click that enters it need not wait
+      if (has) this.loadHeadset().catch(() => {}); // prepares for entering by a click without waiting
     });
   }
 
@@ -48,7 +48,7 @@ export class Player {
     return this.root.getElementById(id);
   }
 
-  // The first field of view.
+  // The initial field of view.
   fov() {
     return this.element.clientWidth < this.element.clientHeight ? 60 : 90;
   }
@@ -84,7 +84,7 @@ export class Player {
   }
 
   async enterHeadset() {
-    if (this.viewer.state.planet) this.act('planet'); // which is for flat screens
+    if (this.viewer.state.planet) this.act('planet'); // planet is for flat screens
     try {
       await (await this.loadHeadset()).toggle();
     } catch (error) {
@@ -123,10 +123,10 @@ export class Player {
   help() {
     this.controls.fillHelp();
     this.find('help').showModal();
-    this.find('help').focus(); // not its button, whose tooltip nobody asked for
+    this.find('help').focus(); // not its button, whose tooltip would appear
   }
 
-  // Slowly to the right, until somebody takes hold of the picture.
+  // Turns slowly to the right, until the user grabs the picture.
   turn(is = !this.turning) {
     if (is === Boolean(this.turning)) return;
     this.turning = is ? performance.now() : 0;
@@ -159,7 +159,7 @@ export class Player {
     this.viewer.canvas.addEventListener('pointerdown', () => this.turn(false));
   }
 
-  // The bar fades while nobody moves, unless something of it is in use or a drag is held still.
+  // The bar fades without movement, unless a part of it is in use or a drag is held still.
   watchIdle() {
     const { element } = this;
     let timer;
@@ -176,7 +176,7 @@ export class Player {
     wake();
   }
 
-  // What most visitors never need is loaded when it is.
+  // Features that most visitors do not need are loaded on first use.
   watchExtras() {
     const { viewer } = this;
     const extra = (name, is, begin) => {
@@ -196,7 +196,7 @@ export class Player {
 
   // --- two pictures at once (compare.js) ---
 
-  // pin: what to put beside; null: what is shown now.
+  // pin: the picture to put beside; null for the present one.
   async compare(pin) {
     if (this.viewer.compare) return this.endCompare();
     const { startCompare } = await import('./compare.js');

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The page's state in its address, so that a link shows exactly what its sender saw:
+// The page's state in its address, so that a link shows exactly its sender's view:
 //   #item=0&yaw=30&pitch=-20&fov=90&mode=left&shift=0.5&swap=1&grid=1&planet=1&layout=..&projection=..&exposure=..&tone=..
 //    &frame=12&layers=1
-// eye=left and eye=right are other words for mode=. What is compared with it: beside=1&beside-layout=..
+// eye=left and eye=right are aliases of mode=. A picture compared with it: beside=1&beside-layout=..
 const NUMBERS = ['yaw', 'pitch', 'fov', 'shift'];
 const SWITCHES = ['swap', 'grid', 'planet'];
 const CHOICES = ['layout', 'projection', 'tone', 'exposure'];

@@ -23,13 +23,13 @@ const STYLE = `
 #again { display: block; margin: 10px auto 0; background: var(--touch); padding: 0 16px; }
 .waiting :is(#bar, #title), .bare :is(#bar, #title) { display: none; }`;
 const VIDEO = /\.(mp4|m4v|mov|webm|mkv)$/i;
-const NEAR = '300px'; // of the window: then it loads
+const NEAR = '300px'; // distance from the window at which it loads
 const FILE = ['src', 'item', 'layout', 'projection', 'fps'];
 const LOOK = ['mode', 'yaw', 'pitch', 'fov'];
 const BASE = import.meta.url;
 const calm = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
 
-let parts; // the style and the shader, once for all elements
+let parts; // the style and the shader, shared by all elements
 const loadParts = () => (parts ??= Promise.all([fetch(new URL('player.css', BASE)).then((answer) => answer.text()), loadShader(BASE)]));
 
 class Stereo360 extends HTMLElement {
@@ -90,7 +90,7 @@ class Stereo360 extends HTMLElement {
     this.showPoster();
   }
 
-  // What the page names, else what the exporter has made of an item.
+  // Shows the poster that the page specifies, else the exporter's own for an item.
   showPoster(item) {
     const poster = this.shadowRoot.getElementById('poster');
     const src = this.getAttribute('poster') ?? item?.poster;
@@ -98,7 +98,7 @@ class Stereo360 extends HTMLElement {
     if (src) poster.src = src;
   }
 
-  // It is in view, or nearly.
+  // Called when it is in view, or nearly.
   approach() {
     this.watcher?.disconnect();
     if (this.started) return;
@@ -129,7 +129,7 @@ class Stereo360 extends HTMLElement {
     await this.show();
   }
 
-  // Until a visitor asks for it.
+  // Waits until a visitor clicks.
   async clicked() {
     const button = Object.assign(document.createElement('button'), { id: 'reveal', ariaLabel: 'Show the panorama' });
     button.innerHTML = '<svg viewBox="0 0 24 24"><path d="M8 5.5v13l10.5-6.5z"/></svg>';
@@ -155,7 +155,7 @@ class Stereo360 extends HTMLElement {
     this.played = playing;
   }
 
-  // The item that `item` or `src` names. view.json knows more of its own files than attributes do.
+  // The item that `item` or `src` specifies. view.json has more data of its own files than attributes do.
   findItem() {
     const { items } = this.player.viewer.view;
     const src = this.getAttribute('src');
@@ -186,7 +186,7 @@ class Stereo360 extends HTMLElement {
     await viewer.open(item, choice);
   }
 
-  // Visitors are told what they can do; who wrote the page finds the reason in the console and in the event.
+  // Visitors see a hint; the page's author finds the reason in the console and in the event.
   fail(reason) {
     console.warn(`stereo-360: ${reason}`);
     let message = this.shadowRoot.getElementById('message');
@@ -247,13 +247,13 @@ class Stereo360 extends HTMLElement {
     return this.viewer?.screenshot();
   }
 
-  // After a click or a key only: browsers want it.
+  // Only after a click or a key, as browsers require.
   enterHeadset() {
     return this.player?.enterHeadset();
   }
 }
 
-// Where one looks is a property that follows; the others are their attributes.
+// The look consists of properties that follow it; the others reflect their attributes.
 for (const name of LOOK) {
   Object.defineProperty(Stereo360.prototype, name, {
     get() { return this.viewer?.state[name] ?? this.look()[name]; },

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the studio's panel shows: groups of rows. A row has the path of its value in the settings, its label, and either
-// options or a unit, a step (of the shown number, which is the value times `scale`) and a range for dragging, where the
-// server names none; and `when`, for values that do not always apply.
+// The content of the studio's panel: groups of rows. A row has the path of its value in the settings, its label, and
+// either options or a unit, a step (of the displayed number, which is the value times `scale`) and a range for
+// dragging, if the server specifies none; and `when`, for values that do not always apply.
 import { valueAt } from './studio-session.js';
 
 const camera = (path) => `sidecar.${path}`;
@@ -11,7 +11,7 @@ const degrees = (radians) => Math.round((radians * 180e6) / Math.PI) / 1e6;
 const titled = (name) => name.charAt(0).toUpperCase() + name.slice(1).replace('-', ' ');
 const options = (names, words = {}) => names.map((name) => [name, words[name] ?? titled(name)]);
 
-// The numbers that a projection has where the settings do not say them.
+// The numbers of a projection that are missing in the settings.
 function standardOf(view, { name }) {
   const { projection } = view.projections.find((each) => each.name === name)?.camera ?? view.projections[0].camera;
   const [x, y] = projection.center;
@@ -23,7 +23,7 @@ function standardOf(view, { name }) {
   };
 }
 
-const UP = [0, 1, 0]; // of a camera that is level
+const UP = [0, 1, 0]; // the axis of a level camera
 
 export function readValue(view, settings, path) {
   if (path === camera('axis')) return settings.sidecar.axis ? 'own' : 'camera';
@@ -91,7 +91,8 @@ export function groupsOf(view) {
   ];
 }
 
-// What a row's shown number may be: the server's range of the camera's number at this place in a sidecar, if it is one.
+// The limits of a row's displayed number: the server's range of the camera's number at this place in a sidecar, if it
+// is one.
 export function limitsOf(ranges, { path, range, scale = 1 }) {
   const place = path.replace(/^sidecar\./, '').replace(/\.\d$/, '');
   return ranges?.[place]?.map((value) => value * scale) ?? range;

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The studio in the headset: the stick moves where the merge starts and ends, the trigger swaps A and B, and a line of
-// text in view says so. headset.js calls it.
+// The studio in the headset: the stick moves the start and the end of the merge, the trigger swaps A and B, and a line
+// of text in view reports it. Called by headset.js.
 import { clamp, dot, wrapDegrees } from './geometry.js';
 import { EyeTexture } from './tiles.js';
 
-const DEAD = 0.25; // of the stick's way
+const DEAD = 0.25; // fraction of the range of the stick
 const SPEED = 30; // degrees per second, with the stick fully out
 const SHOWN = 2500; // milliseconds
 const TEXT = [512, 96]; // pixels
@@ -21,7 +21,7 @@ export class VrSteering {
     Object.assign(this, { studio, last: 0, gesture: null, label: null, until: 0, values: null });
   }
 
-  // The stick of a controller, right and down positive. Changes are one step to undo until the stick is let go.
+  // The stick of a controller, right and down positive. Changes are one undo step until the stick is released.
   stick(x = 0, y = 0) {
     const now = performance.now();
     const time = Math.min((now - this.last) / 1000, 0.1);
@@ -51,7 +51,7 @@ export class VrSteering {
     session.edit({ 'sidecar.merge_top': merged(top), ...(linked && { 'sidecar.merge_bottom': merged(bottom) }) }, gesture, dragging);
   }
 
-  // For the panel: where the merge starts and ends. set(value, isLast).
+  // Start and end of the merge, for the panel. set(value, isLast).
   numbers() {
     const { start, end } = this.studio.session.settings.sidecar.merge_top;
     const set = (values) => (value, isLast) => {
@@ -82,7 +82,7 @@ export class VrSteering {
     this.say(`Settings ${this.side}`);
   }
 
-  // Where the head looks, for what is refined first.
+  // The direction of the head, which is refined first.
   head({ yaw, pitch }) {
     this.studio.headLook = { yaw: wrapDegrees(yaw), pitch, fov: 100, aspect: 1 };
     this.studio.watchLook();
@@ -119,7 +119,7 @@ export class VrSteering {
     return { eyes: [texture, texture], camera: window, below: window.projection, mono: true };
   }
 
-  // Draws the text where it is due. rays: of the view in the room; pose: the head's.
+  // Draws the text if it is due. rays: the view's in the room; pose: the head's.
   draw(panorama, rays, pose, options) {
     if (!this.label || performance.now() > this.until) return;
     const head = axes(pose.transform.matrix);

@@ -26,7 +26,7 @@ async function pictureOf(gl, { width, height, eyes: count, camera }, pixels) {
   return { eyes: count === 1 ? [eyes[0], eyes[0]] : eyes, camera, mono: count === 1, free };
 }
 
-// Whether a frame shows less than one of the same settings.
+// Returns whether a frame is worse than another one of the same settings.
 function isWorse(meta, than) {
   if (meta.part === 'patch' && JSON.stringify(meta.camera) !== JSON.stringify(than.camera)) return false;
   return meta.width < than.width || (meta.width === than.width && meta.samples < than.samples);
@@ -54,19 +54,19 @@ export class Live {
     this.sides.set(side, next);
   }
 
-  // Where the same settings have a new number, what is there stays until there is something better.
+  // If the same settings have a new number, the existing pictures are kept until a better one arrives.
   renumber(side) {
     const { base, patch } = this.sides.get(side) ?? {};
     for (const part of [base, patch]) if (part?.settings === side.sent) part.meta.revision = side.revision;
   }
 
-  // No number that is known will come again.
+  // Known numbers will not be used again.
   expire() {
     for (const { base, patch } of this.sides.values()) for (const part of [base, patch]) if (part) part.meta.revision = -1;
   }
 
-  // A picture of a side for the viewer, which does not own it; null if there is none yet. beside: another side's, that
-  // is drawn to the right of the fraction `split` of the view.
+  // A picture of a side for the viewer, which does not own it; null if there is none yet. beside: another side, whose
+  // picture is drawn to the right of the fraction `split` of the view.
   picture(side, beside = null, split = 1) {
     const { base, patch } = this.sides.get(side) ?? {};
     if (!base) return null;
@@ -80,7 +80,7 @@ export class Live {
     this.sides.delete(side);
   }
 
-  // The GPU has forgotten everything.
+  // Called when the GPU has lost all textures.
   forget() {
     this.sides.clear();
   }

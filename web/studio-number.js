@@ -20,15 +20,15 @@ function row(spec, field, reset) {
   return { label, back };
 }
 
-// As short as the step allows: 65, 1.25.
+// The number, as short as the step allows: 65, 1.25.
 export function textOf(value, step) {
   const digits = clamp(Math.ceil(-Math.log10(step) - 1e-9), 0, 6);
   const fine = Number(value.toFixed(digits)) === Number(value.toPrecision(7)) ? digits : digits + 2;
   return String(Number(value.toFixed(fine)));
 }
 
-// spec: { label, unit, step, scale (shown = value * scale), of the shown number its range [low, high] for dragging and its
-// limits for typing }.
+// spec: { label, unit, step, scale (shown = value * scale), and for the displayed number its range [low, high] for
+// dragging and its limits for typing }.
 // change(value, gesture, dragging) and reset() are called; update(value, standard) shows a value.
 export function numberRow(spec, change, reset) {
   const { scale = 1, step, limits: [low, high] } = spec;
@@ -95,7 +95,7 @@ export function numberRow(spec, change, reset) {
   };
 }
 
-// spec: { label, options: [[value, text], ...], names: of values that are none of these }
+// spec: { label, options: [[value, text], ...], names: of values that are not options }
 export function choiceRow(spec, change, reset) {
   const field = make('select');
   const { label, back } = row(spec, field, reset);

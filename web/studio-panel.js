@@ -9,20 +9,20 @@ import { groupsOf, limitsOf, readValue } from './studio-fields.js';
 import { choiceRow, numberRow } from './studio-number.js';
 import { ask } from './studio-session.js';
 
-const REST = 400; // milliseconds without a new picture of everything
+const REST = 400; // milliseconds without a new picture of the whole sphere
 const LENGTHS = { longitude: 2, latitude: 2, sensor: 2, polynomial: 5, axis: 3 };
-const LIST = /^(?<list>.*\.(?<name>longitude|latitude|sensor|polynomial|axis))\.(?<i>\d)$/; // settings may lack it
+const LIST = /^(?<list>.*\.(?<name>longitude|latitude|sensor|polynomial|axis))\.(?<i>\d)$/; // these may be missing
 const LINK = /^sidecar\.merge_(top|bottom)\./;
 const numbersOfProjection = ['longitude', 'latitude', 'fov', 'aspect', 'pan', 'tilt', 'sensor', 'polynomial'];
 
 export class Panel {
   // element: where to build it. view: view.json.
   constructor(element, view, session) {
-    Object.assign(this, { element, view, session, rows: [], names: {} }); // names: what people call a value
+    Object.assign(this, { element, view, session, rows: [], names: {} }); // names of values for users
     const { merge_top: top, merge_bottom: bottom } = session.settings.sidecar;
     this.linked = JSON.stringify(top) === JSON.stringify(bottom);
     element.replaceChildren(...groupsOf(view).map((group) => this.group(group)));
-    // Beside the panel, which may be hidden.
+    // Placed beside the panel, which may be hidden.
     this.said = make('span', {});
     const close = make('button', { type: 'button', className: 'small', 'data-tip': 'Close', 'aria-label': 'Close', innerHTML: icon('close') });
     close.addEventListener('click', () => this.complain(''));
@@ -74,7 +74,8 @@ export class Panel {
     return control.element;
   }
 
-  // Of a row: the settings that the server started with; for numbers of another projection, that projection's.
+  // The default of a row: the settings that the server started with; for numbers of another projection, that
+  // projection's.
   standard({ path }) {
     const { settings } = this.view.studio;
     const now = this.session.settings;
@@ -126,8 +127,8 @@ export class Panel {
     this.curve.draw({ top, bottom }, other && { top: other.merge_top, bottom: other.merge_bottom });
   }
 
-  // The curve that the depth of the picture allows, beside the hand-made one. Judging takes the renderer's time, so not
-  // while something changes.
+  // The curve that the depth of the picture allows, beside the hand-made one. Computing it takes time from the
+  // renderer, so not during changes.
   async followDepth() {
     if (this.isAsking) return;
     this.isAsking = true;
@@ -136,14 +137,14 @@ export class Panel {
     this.isAsking = false;
   }
 
-  // Says what went wrong, until it is closed or said otherwise; '': nothing did.
+  // Displays an error until it is closed or replaced; '' for none.
   complain(text) {
     this.said.textContent = text;
     this.fault.hidden = !text;
     this.isOfSettings = false;
   }
 
-  // Says what the server refuses, and marks the rows that are to blame.
+  // Displays the server's rejection, and marks the rows that cause it.
   refuse(text, paths = []) {
     const marked = this.rows.filter(({ spec }) => paths.some((path) => path === spec.path || path.startsWith(`${spec.path}.`)));
     for (const { control } of this.rows) {

@@ -1,22 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A click on the picture says what is there: its distance, its disparity and where each eye's picture has it.
+// A click on the picture shows data of its point: its distance, its disparity and its position in each eye's picture.
 import { clamp } from './geometry.js';
 import { icon } from './icons.js';
 import { directionAt, partsOf, placeOf } from './places.js';
 import { make } from './elements.js';
 import { ask } from './studio-session.js';
 
-const NEAR = 5; // pixels that a click may move
-const LONG = 500; // milliseconds that it may take
-const AWAY = 16; // pixels of the card from its place
+const NEAR = 5; // maximum movement of a click, pixels
+const LONG = 500; // maximum duration of a click, milliseconds
+const AWAY = 16; // pixels between the card and its point
 const EDGE = 8;
-const BAR = 64; // pixels that the bar below takes
+const BAR = 64; // pixels covered by the bar below
 
 const distance = (metres) => (metres < 1 ? `${(metres * 100).toFixed(1)} cm` : `${metres.toFixed(metres < 100 ? 2 : 0)} m`);
 
-// Returns what picks the middle.
+// Returns a function that picks the middle.
 export function pickWithClicks(studio) {
   const { viewer } = studio.page;
   const { canvas } = viewer;
@@ -35,7 +35,7 @@ export function pickWithClicks(studio) {
     if (!place) return;
     const put = (element, x, y) => Object.assign(element.style, { left: `${x}px`, top: `${y}px` });
     put(mark, ...place);
-    // Beside the place, on the side that has room, and never beyond the picture's edge.
+    // Beside the point, on the side with enough space, and never beyond the picture's edge.
     const [wide, high] = [card.offsetWidth, card.offsetHeight];
     const beside = (at, size, whole) => clamp(at + size + AWAY > whole ? at - size - AWAY : at + AWAY, EDGE, Math.max(whole - size - EDGE, EDGE));
     put(card, beside(place[0], wide, canvas.clientWidth), beside(place[1], high, canvas.clientHeight - BAR));
@@ -99,7 +99,7 @@ export function pickWithClicks(studio) {
   viewer.addEventListener('change', follow);
   viewer.addEventListener('open', follow);
   studio.session.addEventListener('edit', follow);
-  // By keyboard: what is in the middle of the view (of the left one); then the card's buttons are next.
+  // By keyboard: picks the middle of the view (of the left one) and focuses the card's buttons.
   return async () => {
     if (where) return hide();
     const { box: [left, top, width, height] } = partsOf(viewer)[0];

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The foot of the studio's panel: the command that makes this picture, rendering it, and keeping the camera.
+// The foot of the studio's panel: the command that makes this picture, rendering it, and saving the camera.
 import { copyText } from './copy.js';
 import { icon } from './icons.js';
 import { make } from './elements.js';
@@ -91,7 +91,7 @@ export class RenderFoot {
     if (!this.named) this.suggest();
   }
 
-  // The first name that no file has, as far as is known.
+  // The first unused name, among the known files.
   suggest() {
     let count = 1;
     while (this.taken.has(this.studio.fileName(count))) count++;
@@ -147,7 +147,7 @@ export class RenderFoot {
     this.taken.add(name);
     if (!this.named) return this.suggest();
     if (name !== this.name.value.trim()) return;
-    // The words that players understand stay at the end.
+    // The suffix that players understand is kept at the end.
     const known = this.studio.session.side.end;
     const end = known && name.endsWith(known) ? known : /\.\w+$/.exec(name)?.[0] ?? '';
     const stem = name.slice(0, name.length - end.length);
@@ -157,7 +157,7 @@ export class RenderFoot {
     this.tell();
   }
 
-  // Follows the job that runs, if one does; also after a reload of the page.
+  // Follows a running job, also after a reload of the page.
   async watch() {
     if (this.watching) return;
     this.watching = true;

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The studio's talk with the server: settings go out, frames come in. Two sides, A and B, each with settings of its own
-// and a history; the server renders the active one, or the other for a while (refine). Events: `edit` (the settings, the
-// history or the active side), `accepted` (detail: its side), `refused` (detail: { text, paths }), `status` (detail: what
-// a frame or the server says of itself; isOthers: another tab has changed what is rendered), `lost` and `found` (the
-// server).
+// The studio's connection to the server: it sends settings and receives frames. Two sides, A and B, each with its own
+// settings and history; the server renders the active one, or the other for a while (refine). Events: `edit` (the
+// settings, the history or the active side), `accepted` (detail: its side), `refused` (detail: { text, paths }),
+// `status` (detail: the data of a frame or the server; isOthers: another tab has changed the settings), `lost` and
+// `found` (the server).
 const PAUSE = 30; // milliseconds between two messages
-const PATIENCE = 400; // milliseconds that a drag waits for a picture of what it sent, so that one appears at all
+const PATIENCE = 400; // milliseconds that a drag waits for a picture of its last message, so that one appears at all
 const HISTORY = 200;
 
 export const ENDED = 'ods view has ended. Start it again, and this page goes on by itself.';
@@ -33,8 +33,8 @@ function changes(a, b, at = '') {
   return [...new Set([...Object.keys(a), ...Object.keys(b)])].flatMap((key) => changes(a[key], b[key], at ? `${at}.${key}` : key));
 }
 
-// Sends JSON, or a file as it is. Throws an Error with the server's line of text; its `refused` says that the server
-// understood, and will not.
+// Sends JSON, or a file unchanged. Throws an Error with the server's line of text; its `refused` is set if the server
+// understood the request but rejects it.
 export async function ask(path, body) {
   const options = body === undefined ? {} : { method: 'POST', body: body instanceof Blob ? body : JSON.stringify(body) };
   const answer = await fetch(`studio/${path}`, options).catch(() => {
@@ -46,16 +46,16 @@ export async function ask(path, body) {
 }
 
 export class Session extends EventTarget {
-  // look(): { yaw, pitch, fov, aspect } of the view. onFrame(meta, pixels, side): shows it, may be async.
+  // look(): { yaw, pitch, fov, aspect } of the view. onFrame(meta, pixels, side): displays it, may be async.
   constructor(settings, look, onFrame) {
     super();
     Object.assign(this, { look, onFrame, revision: 0, number: 0, alive: true, wanted: false, eager: true, sentAt: 0, shown: 0, epoch: 0 });
     this.sides = [{ settings: copy(settings), past: [], future: [] }];
     this.active = 0;
-    this.target = 0; // the side that is rendered
+    this.target = 0; // index of the rendered side
   }
 
-  // Whether somebody sees the page.
+  // Returns whether the page is visible.
   isSeen() {
     return true;
   }
@@ -77,8 +77,8 @@ export class Session extends EventTarget {
     this.dispatchEvent(new CustomEvent(name, { detail }));
   }
 
-  // Changes values by their paths; undefined removes one. Edits with the same gesture (not null) are one step to undo;
-  // `dragging` says that more will follow at once.
+  // Changes values by their paths; undefined removes one. Edits with the same gesture (not null) are one undo step;
+  // `dragging` announces further edits at once.
   edit(values, gesture = null, dragging = false) {
     const { side } = this;
     const next = copy(side.settings);
@@ -112,7 +112,7 @@ export class Session extends EventTarget {
     return true;
   }
 
-  // The other side; at first a copy of this one.
+  // Switches to the other side, which starts as a copy of this one.
   swap(to = 1 - this.active) {
     if (to === this.active) return;
     this.sides[to] ??= { settings: copy(this.settings), past: [], future: [] };
@@ -122,12 +122,12 @@ export class Session extends EventTarget {
     this.send(true);
   }
 
-  // Has another side than the active one rendered, until something changes.
+  // Has the other side rendered, until something changes.
   refine(side) {
     this.send(true, side);
   }
 
-  // Waits until the server renders the active side as it is now. Throws what it refuses.
+  // Waits until the server renders the present settings of the active side. Throws its rejection.
   async settle(patience = 5000) {
     const { side } = this;
     if (this.target !== this.active || this.isOthers) this.send(true);
@@ -136,7 +136,7 @@ export class Session extends EventTarget {
     if (side.sent !== side.settings) throw new Error(this.fault || ENDED);
   }
 
-  // Settings that the server made, as after a drop.
+  // Replaces the settings by those of the server, as after a drop.
   replace(settings) {
     this.side.past.push(this.settings);
     this.side.future = [];
@@ -188,13 +188,13 @@ export class Session extends EventTarget {
     this.say('lost');
   }
 
-  // Asks for the latest frames again.
+  // Requests the latest frames again.
   fromStart() {
     Object.assign(this, { number: 0, missed: false });
     this.request?.abort();
   }
 
-  // The server counts anew: it has opened the scene again, or has been started again.
+  // The numbers of the server start again: it has opened the scene again, or was restarted.
   restart() {
     Object.assign(this, { epoch: this.epoch + 1, revision: 0, shown: 0 });
     this.fromStart();
@@ -212,7 +212,7 @@ export class Session extends EventTarget {
   async receive() {
     for (;;) {
       try {
-        while (!this.isSeen()) await sleep(300); // the server rests while nobody asks
+        while (!this.isSeen()) await sleep(300); // the server pauses without requests
         const { epoch } = this;
         this.request = new AbortController();
         const answer = await fetch(`studio/frame?after=${this.number}`, { signal: this.request.signal });
@@ -236,12 +236,12 @@ export class Session extends EventTarget {
     const length = new DataView(buffer).getUint32(0, true);
     const meta = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
     this.number = meta.number;
-    await this.answer?.catch(() => {}); // it may say that this frame is old
+    await this.answer?.catch(() => {}); // it may report that this frame is outdated
     if (epoch !== this.epoch) return;
     const side = this.sides[this.target];
     if (meta.revision !== side.revision) {
       const isAhead = meta.revision > this.revision;
-      this.missed ||= isAhead; // the server was faster than its answer
+      this.missed ||= isAhead; // the frame arrived before the answer with its number
       if (isAhead && !this.sending) {
         this.isOthers = true;
         this.say('status', { isOthers: true });

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The studio: the viewer shows a scene that the server renders while one looks, and a panel beside it changes every
-// option. Two settings, A and B, can be compared. main.js starts it where view.json has `studio`.
+// The studio: the viewer shows a scene that the server renders live, and a panel beside it changes every option. Two
+// settings, A and B, can be compared. main.js starts it if view.json has `studio`.
 import { ACTIONS } from './actions.js';
 import { nameButtons } from './controls.js';
 import { icon } from './icons.js';
@@ -15,11 +15,11 @@ import { pickWithClicks } from './studio-pick.js';
 import { RenderFoot } from './studio-render.js';
 import { ENDED, Session, ask, sleep } from './studio-session.js';
 
-const LOOK_PAUSE = 100; // milliseconds between messages of where one looks
+const LOOK_PAUSE = 100; // milliseconds between messages about the look
 const SIDES = ['A', 'B'];
-const TURN = 2000; // milliseconds of a side's first turn in a comparison
+const TURN = 2000; // milliseconds of the first turn of a side in a comparison
 
-// What a frame is, and what comes after it. A part is the whole picture or, finer, what is in view.
+// Describes a frame and the next one. A part is the whole picture or, finer, the view.
 export function progressOf({ part, width, height, samples, seconds, next }) {
   const what = (each) => (each.part === 'patch' ? 'view' : 'picture');
   const now = `${what({ part })} ${width} × ${height}, ${samples} ${samples === 1 ? 'sample' : 'samples'} per pixel, ${seconds.toFixed(1)} s`;
@@ -130,14 +130,14 @@ class Studio {
     else if (frame.samples) this.status.textContent = name + progressOf(frame);
   }
 
-  // --- what is shown ---
+  // --- display ---
 
   async take(meta, pixels, side) {
     await this.live.take(meta, pixels, side);
     this.refresh();
   }
 
-  // Puts what is on the GPU before the viewer.
+  // Displays the present pictures on the GPU.
   refresh() {
     const { viewer } = this.page;
     if (!viewer.scene) return;
@@ -165,7 +165,7 @@ class Studio {
     viewer.say('open');
   }
 
-  // A picture that has been rendered.
+  // Shows a finished rendering.
   async showItem(item) {
     const { viewer } = this.page;
     if (this.comparing) this.compare();
@@ -174,16 +174,16 @@ class Studio {
     viewer.open(item);
   }
 
-  // A name that says what the picture is; count: which of its kind.
+  // A name that describes the picture; count: the number of the file of its kind.
   fileName(count) {
     const { view } = this.page.viewer;
     const stem = view.studio.scene.replace(/^.*[\\/]/, '').replace(/\.[^.]*$/, '');
     return `${stem}${count > 1 ? `_${count}` : ''}${this.session.side.end ?? '.png'}`;
   }
 
-  // --- where one looks ---
+  // --- the look ---
 
-  // How many views stand side by side.
+  // The number of views side by side.
   halves() {
     return modeOf(this.page.viewer.state.mode).parts(0).length;
   }
@@ -208,7 +208,7 @@ class Studio {
 
   // --- A and B ---
 
-  // Makes a side the active one, and says so.
+  // Makes a side the active one, and reports it.
   choose(i) {
     const { session } = this;
     const isNew = !session.sides[i];
@@ -226,15 +226,15 @@ class Studio {
     const { Compare } = await import('./compare.js');
     if (this.comparing) return ''; // the key was pressed twice
     const isNew = !this.session.sides[1];
-    this.page.viewer.compare?.end(); // comfort
+    this.page.viewer.compare?.end(); // the overlay of comfort
     this.comparing = new Compare(this.page, async () => this.page.toast(await this.compare()));
     if (isNew) this.session.swap(1);
     this.update();
     return `A left, B right${isNew ? ': B is a copy of A, change it' : ''}`;
   }
 
-  // While both sides are seen, each is rendered in turn, until it is as good as it gets; turns grow, as a side begins
-  // anew each time.
+  // While both sides are visible, each is rendered in turn, until it is finished; turns get longer, because a side
+  // starts again each time.
   takeTurns(done, side) {
     const { session } = this;
     const [a, b] = session.sides;

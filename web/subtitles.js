@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Subtitles of a video: the text of a WebVTT file, which view.json has as video.subtitles. The browser reads it; what is
-// due is shown as text above the bar. Returns what switches them.
+// Subtitles of a video: the text of a WebVTT file, given as video.subtitles in view.json. The browser reads it; the
+// current text is shown above the bar. Returns a function that switches them.
 export function showSubtitles({ viewer, root }) {
   const line = document.createElement('p');
   line.id = 'subtitles';

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// An eye's picture as a texture: the layers of an array, each a tile with a border of what the world has next to it. So
-// pictures may be larger than the GPU's largest texture, and no filter meets a seam.
+// An eye's picture as a texture: the layers of an array, each a tile with a border of the adjacent parts of the world.
+// So pictures may be larger than the GPU's largest texture, and filters do not meet a seam.
 import { compile } from './panorama.js';
 
-export const BORDER = 16; // texels, as in panorama.glsl: two of the filter at the smallest mip level that is used close by
-const LEVELS = 6; // of mip maps
+export const BORDER = 16; // texels, as in panorama.glsl: two filter widths at the smallest mip level used close by
+const LEVELS = 6; // number of mip map levels
 const STEP = 1 << (LEVELS - 1); // layers are a multiple of this, so that every level has whole texels
-const LARGEST = 4096 + 2 * STEP; // of a layer: larger ones gain nothing, and some browsers fail to fill them
+const LARGEST = 4096 + 2 * STEP; // side of a layer: larger ones have no benefit, and some browsers fail to fill them
 
 // Copies an eye of a video's frame into a layer. Rendering into an sRGB texture encodes, so it decodes first. A frame of
 // light has the high bytes of its halves in its left half, and the low ones in its right half.
@@ -17,7 +17,7 @@ precision highp float;
 precision highp int;
 uniform sampler2D frame;
 uniform ivec4 crop;    // the eye's part of the frame: x, y, width, height
-uniform ivec2 origin;  // of the layer, in the eye's picture
+uniform ivec2 origin;  // position of the layer in the eye's picture
 uniform bool wraps;
 uniform bool light;
 in vec2 screen;
@@ -38,8 +38,8 @@ void main() {
 
 const upTo = (size, step) => Math.ceil(size / step) * step;
 
-// Draws what a tile of an eye shows, then repeats the edges outwards where the picture ends. The eye begins in the source
-// at x, y, the tile in the eye at left, top.
+// Draws a tile of an eye, then repeats the edges outwards where the picture ends. The eye begins in the source at x, y,
+// the tile in the eye at left, top.
 export function paintTile({ layer, size: [whole, high], wraps }, context, source, x, y, left, top) {
   const [width, height] = layer;
   const first = wraps ? Math.floor(left / whole) : 0;
@@ -97,8 +97,8 @@ export class EyeTexture {
     this.gl.bindTexture(this.gl.TEXTURE_2D_ARRAY, this.texture);
   }
 
-  // source: an ImageBitmap; x, y: where the eye's picture begins in it. Gives way between tiles, so that the page stays
-  // alive.
+  // source: an ImageBitmap; x, y: where the eye's picture begins in it. Yields between tiles, so that the page stays
+  // responsive.
   async fill(source, x, y) {
     const { gl } = this;
     const [width, height] = this.layer;

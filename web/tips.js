@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tooltips: data-tip says what a control does, data-key the key that does it, too. One for the whole root, above
-// everything, so that nothing cuts it off. It appears when a mouse rests or the keyboard arrives, and goes with Escape.
+// Tooltips: data-tip describes a control, data-key is its key. One tooltip for the whole root, above everything, so
+// that it is never clipped. It appears when a mouse rests or the keyboard focus arrives, and disappears with Escape.
 import { clamp } from './geometry.js';
 
 const REST = 500; // milliseconds
@@ -10,7 +10,7 @@ const GAP = 8; // pixels
 
 export function watchTips(root) {
   const tip = document.createElement('div');
-  Object.assign(tip, { id: 'tip', popover: 'manual', ariaHidden: true }); // the control's own name says the same
+  Object.assign(tip, { id: 'tip', popover: 'manual', ariaHidden: true }); // the control has the same name
   (root.body ?? root).append(tip);
   let owner = null;
   let timer;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A video as a picture whose eyes change. The browser decodes; times that are asked for are the middles of frames, so
-// that rounding cannot show a neighbour.
+// A video as a picture whose eyes change. The browser decodes; requested times are the middles of frames, so that
+// rounding cannot show an adjacent frame.
 import { cropOf, isRound, same } from './form.js';
 import { clamp } from './geometry.js';
 import { EyeTexture, FrameCutter } from './tiles.js';
@@ -24,7 +24,7 @@ function whenLoaded(video, name, signal) {
   });
 }
 
-// From disk, browsers show videos but give no page their pixels, unless the page has the bytes (bundle.js).
+// From disk, browsers show videos but do not give pages their pixels, unless the page has the bytes (bundle.js).
 async function fromDisk(url, name) {
   const answer = await fetch(url);
   if (!answer.ok) throw new Error(`${name} did not load: ${await answer.text()}`);
@@ -58,10 +58,10 @@ export async function openVideo(gl, item, form, url, signal) {
   const frames = item.video?.frames || Math.round(video.duration * fps);
   let mediaTime = 0;
   let isNew = true;
-  let wanted = 0; // the frame of a step that is still under way
+  let wanted = 0; // the frame of a step in progress
   const heard = new AbortController();
 
-  // The browser says when it has another frame; after a seek and at the end, what it has follows from the time.
+  // The browser reports new frames; after a seek and at the end, the frame follows from the time.
   const arrive = (time) => {
     mediaTime = time;
     isNew = true;
@@ -71,12 +71,12 @@ export async function openVideo(gl, item, form, url, signal) {
     arrive(about.mediaTime);
     listen();
   });
-  // After a seek, browsers say so before the frame is there to be copied: it is copied once more.
+  // After a seek, browsers report it before the frame can be copied, so it is copied once more.
   video.addEventListener('seeked', () => setTimeout(() => arrive(mediaTime), SETTLE), { signal: heard.signal });
   for (const event of ['seeked', 'ended', ...(video.requestVideoFrameCallback ? [] : ['timeupdate'])]) {
     video.addEventListener(event, () => arrive(Math.floor(video.currentTime * fps + 0.01) / fps), { signal: heard.signal });
   }
-  // Only while it plays: a video that rests on its last frame and loops is sent to its first one.
+  // Only while it plays: a paused video that loops would jump from its last frame to its first one.
   for (const event of ['play', 'pause']) {
     video.addEventListener(event, () => picture.loop(picture.loops), { signal: heard.signal });
   }
@@ -86,9 +86,9 @@ export async function openVideo(gl, item, form, url, signal) {
 
   const picture = {
     eyes, camera: form.camera, mono, video, fps, frames, loops: true,
-    changed: null, // called when there is something new to draw or to say
+    changed: null, // called when there is something new to draw or to report
     frame: () => Math.min(Math.floor(mediaTime * fps + 0.5), frames - 1),
-    // Before it is drawn: puts a new frame into the textures.
+    // Before drawing: copies a new frame into the textures.
     refresh() {
       if (!isNew || video.readyState < 2) return;
       isNew = false;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A canvas that shows an item of view.json: what is open, where the viewer looks, what is drawn and when. Knows no
-// controls. Events: `change` (the state, or the video's), `loading` (detail: 0..1, null at the end), `open`, `failed`
-// (detail: one line for people).
+// A canvas that shows an item of view.json, with the open picture, the look, and the drawing. It contains no controls.
+// Events: `change` (the state, or the video's), `loading` (detail: 0..1, null at the end), `open`, `failed` (detail:
+// one line for users).
 import { clamp, radians, wrapDegrees } from './geometry.js';
 import { boxOf, modeOf } from './modes.js';
 import { Pace } from './pace.js';
@@ -11,7 +11,7 @@ import { Panorama, raysOf } from './panorama.js';
 import { openPicture } from './picture.js';
 
 const REST = 150; // milliseconds without movement until the view is drawn exactly
-const KEEP = 64e6; // texels: a smaller picture stays on screen until the next one is there
+const KEEP = 64e6; // texels: a smaller picture stays on screen until the next one is loaded
 
 // The widest field of view.
 export const widest = ({ planet }) => (planet ? 330 : 150);
@@ -23,12 +23,12 @@ export class Viewer extends EventTarget {
     Object.assign(this, { canvas, view, base, picture: null, item: -1, session: null });
     this.state = { yaw: 0, pitch: 0, roll: 0, fov: 90, mode: 'left', swap: false, grid: false, planet: false, shift: 0 };
     this.compare = null; // compare.js
-    this.scene = null; // of the studio: what is live instead of an item
-    this.choice = {}; // layout, projection, exposure, tone, where they are not the item's own
+    this.scene = null; // the studio's live scene, shown instead of an item
+    this.choice = {}; // layout, projection, exposure, tone, if they differ from the item
     this.panorama = new Panorama(canvas, shader);
     this.pace = new Pace();
     this.waiting = false;
-    this.settling = null; // a mark of the exact drawing that is under way
+    this.settling = null; // a token of the exact drawing in progress
     this.watch();
   }
 
@@ -56,7 +56,7 @@ export class Viewer extends EventTarget {
     else this.fit();
   }
 
-  // An emulated headset draws into the canvas, whose size is then not ours to change. Returns whether it has changed.
+  // An emulated headset draws into the canvas, whose size must then not change. Returns whether it has changed.
   fit(part = 1) {
     const { canvas } = this;
     if (this.session) return false;
@@ -90,7 +90,7 @@ export class Viewer extends EventTarget {
     });
   }
 
-  // Quickly; and exactly, as soon as nothing moves.
+  // Draws quickly, and exactly as soon as nothing moves.
   draw(now) {
     if (this.session) return;
     this.settling = null;
@@ -102,7 +102,7 @@ export class Viewer extends EventTarget {
     if (this.picture) this.rest = setTimeout(() => this.settle(), REST);
   }
 
-  // rows: a strip of the canvas, from its lower edge: [first, count]; all without.
+  // rows: a strip of the canvas, from its lower edge: [first, count]; all if missing.
   paint(now, how, rows) {
     const { panorama, picture, canvas } = this;
     if (!rows) panorama.clear();
@@ -115,12 +115,12 @@ export class Viewer extends EventTarget {
     this.compare?.after(now, how, rows);
   }
 
-  // What is open, and what is compared with it.
+  // The open picture, and the one compared with it.
   pictures() {
     return [this.picture, this.picture?.beside].filter(Boolean);
   }
 
-  // What panorama.draw() is told of each part of the view; all are as high as the canvas.
+  // The options of panorama.draw() for each part of the view; all are as high as the canvas.
   parts(now) {
     const { canvas, state } = this;
     const shift = radians(state.shift) / 2; // for each eye
@@ -130,7 +130,7 @@ export class Viewer extends EventTarget {
     }).filter(({ box }) => box[2] > 0 && box[3] > 0);
   }
 
-  // Draws exactly, strip by strip: a slow GPU is never busy for long, and who moves meanwhile need not wait for the rest.
+  // Draws exactly, strip by strip: a slow GPU is never busy for long, and movements need not wait for the rest.
   async settle() {
     const { panorama, canvas } = this;
     const mark = (this.settling = {});
@@ -163,7 +163,7 @@ export class Viewer extends EventTarget {
     return this.scene ?? this.view.items[this.item];
   }
 
-  // Opens an item by its index; a load that is under way is abandoned. Does not throw: says `open` or `failed`.
+  // Opens an item by its index; a load in progress is aborted. Does not throw: fires `open` or `failed`.
   async open(item, choice = {}) {
     this.loading?.abort();
     const loading = (this.loading = new AbortController());
@@ -203,14 +203,14 @@ export class Viewer extends EventTarget {
     this.picture = null;
   }
 
-  // The next or a former item, around.
+  // Goes to the next or a previous item, with wrap-around.
   go(by) {
     const count = this.view.items.length;
     if (count > 1) this.open((this.item + by + count) % count, { exposure: this.choice.exposure, tone: this.choice.tone });
   }
 
-  // A change of layout, projection, exposure or tone: loads the picture anew, where it is in the video. Light is developed
-  // here.
+  // Changes layout, projection, exposure or tone: loads the picture again, at the present time of a video. Light is
+  // developed here.
   async choose(changes) {
     if (this.picture?.light && !('layout' in changes) && !('projection' in changes)) {
       this.choice = { ...this.choice, ...changes };
@@ -223,7 +223,7 @@ export class Viewer extends EventTarget {
     if (at) this.picture?.seek?.(at);
   }
 
-  // Of light: in stops, from what it is now.
+  // For light: changes the exposure by stops from its present value.
   expose(by) {
     if (!this.about?.live) return false;
     const now = this.choice.exposure ?? this.about.exposure ?? 0;
@@ -231,7 +231,7 @@ export class Viewer extends EventTarget {
     return true;
   }
 
-  // What is on the canvas, as a PNG.
+  // The canvas as a PNG.
   async screenshot() {
     this.fit();
     this.paint(performance.now(), {});

@@ -92,9 +92,6 @@ class OmnistereoRun(bpy.types.Operator):
             return {"CANCELLED"}
         folder, path = write_scene()
         words = words_of(self.kind, context.scene.omnistereo, path)
-        if self.kind == "render" and context.scene.frame_current > context.scene.frame_start:
-            fps = context.scene.render.fps / context.scene.render.fps_base
-            words += ["--time", str((context.scene.frame_current - context.scene.frame_start) / fps)]
         running = job.Job(words, folder)
         if self.kind == "view":
             return {"FINISHED"}

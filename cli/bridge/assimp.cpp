@@ -9,13 +9,17 @@
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <span>
+#include <sstream>
 #include <vector>
 
+#include "cli/bridge/blender.h"
 #include "cli/bridge/scene_cache.h"
 #include "cli/console/programs.h"
 #include "ods/base/error.h"
+#include "ods/base/quote.h"
 #include "ods/base/text.h"
 #include "ods/files/atomic_file.h"
 #include "ods/files/read_file.h"
@@ -76,12 +80,14 @@ void write_glb(const std::string& path, Glb glb) {
                             number(glb.binary.size()) + number(kBinary) + glb.binary);
 }
 
-// The file that a scene means: its path with slashes of either kind, else the file of that name beside the scene,
-// whatever its case. Empty: none.
+// Returns the file that a scene refers to: its path from the scene's folder, with slashes of either kind, else the file
+// of that name beside the scene, in any letter case; empty if there is none. An absolute path is never followed, as in
+// glTF: the scene may be untrusted.
 std::string find_picture(const fs::path& folder, std::string path) {
   std::ranges::replace(path, '\\', '/');
   std::error_code error;
-  if (fs::is_regular_file(folder / path, error)) return (folder / path).lexically_normal().native();
+  if (!path.starts_with('/') && fs::is_regular_file(folder / path, error))
+    return (folder / path).lexically_normal().native();
   const std::string wanted = ods::small_letters(fs::path(path).filename().native());
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     if (ods::small_letters(entry.path().filename().native()) != wanted || !entry.is_regular_file(error)) continue;
@@ -94,10 +100,10 @@ bool is_picture(const std::string& bytes) {
   return ods::format_of_bytes(std::as_bytes(std::span(bytes))).has_value();
 }
 
-// The bytes that lie in the file itself; empty if its numbers are wrong.
+// Returns the bytes inside the file itself; empty if its numbers are wrong.
 std::string bytes_of_view(const Glb& glb, const json& image) {
-  const json view =
-      glb.content.value(json::json_pointer(fmt::format("/bufferViews/{}", image["bufferView"].dump())), json::object());
+  const json view = glb.content.value(
+      json::json_pointer(fmt::format("/bufferViews/{}", ods::json_document(image["bufferView"]))), json::object());
   const size_t offset = view.value("byteOffset", size_t{0}), length = view.value("byteLength", size_t{0});
   return offset <= glb.binary.size() ? glb.binary.substr(offset, length) : "";
 }
@@ -111,7 +117,8 @@ void add_picture(Glb& glb, json& image, const std::string& bytes) {
   glb.content["buffers"][0]["byteLength"] = glb.binary.size();
 }
 
-// Removes the textures that show one of these images. What such a picture makes glow would otherwise glow all over.
+// Removes the textures that show one of these images. Otherwise a surface with such an emissive picture would glow all
+// over.
 void remove_textures(json& node, const json& textures, const std::set<size_t>& images) {
   if (!node.is_structured()) return;
   std::vector<std::string> keys;
@@ -127,7 +134,18 @@ void remove_textures(json& node, const json& textures, const std::set<size_t>& i
   }
 }
 
-// Puts the pictures into the file: Assimp leaves their paths as they stand in the scene, from whose folder they count.
+// Assimp prints its errors on stdout: "ERROR: Failed to load file: WHY".
+std::string said_by_assimp(const std::optional<ProgramResult>& result) {
+  if (!result) return "";
+  std::string words = result->last_words;
+  std::istringstream lines(result->out);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("ERROR") || words.empty()) words = ods::one_line(line);
+  }
+  return words.empty() ? "" : fmt::format("; it said: {}", words);
+}
+
+// Puts the pictures into the file: Assimp leaves their paths as in the scene, relative to its folder.
 json take_pictures(Glb& glb, const std::string& scene) {
   const fs::path folder = fs::absolute(scene).parent_path();
   json answer = {{"omnistereo_bridge", 1}, {"warnings", json::array()}, {"reads", json::array()}};
@@ -164,16 +182,21 @@ bool has_assimp() {
   return has_program("assimp");
 }
 
-void run_assimp(const std::string& scene, const std::string& folder) {
+void run_assimp(const std::string& scene, const std::string& folder, float seconds) {
   const std::string made = folder + "/scene.glb";
-  const auto result = run_program({"assimp", "export", fs::absolute(scene).native(), made, "-fglb2"});
+  const Program assimp = {
+      .words = {"assimp", "export", fs::absolute(scene).native(), made, "-fglb2"}, .limit = seconds, .folder = folder};
+  const auto result = run_program(assimp);
   const std::string fault = fmt::format("'{}': Assimp cannot read it", scene);
-  if (!result || result->code != 0 || !fs::exists(made)) throw ods::Error(ods::ErrorKind::kInput, fault);
+  if (result && !result->in_time) fail_in_time("Assimp", scene, seconds);
+  if (!result || result->code != 0 || !fs::exists(made)) {
+    throw ods::Error(ods::ErrorKind::kInput, fault + said_by_assimp(result));
+  }
   try {
     Glb glb = read_glb(made);
     const json answer = take_pictures(glb, scene);
     write_glb(made, std::move(glb));
-    ods::write_file(folder + "/bridge.json", answer.dump());
+    ods::write_file(folder + "/bridge.json", ods::json_document(answer));
   } catch (const json::exception& error) {
     throw ods::Error(ods::ErrorKind::kInput, fmt::format("{}: {}", fault, error.what()));
   }

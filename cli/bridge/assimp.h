@@ -9,5 +9,5 @@
 bool has_assimp();
 
 // Leaves scene.glb, pictures included, and bridge.json in the folder. A picture that is missing or cannot be read is a
-// warning there. Throws Error(kInput): Assimp cannot read the scene.
-void run_assimp(const std::string& scene, const std::string& folder);
+// warning there. Throws Error(kInput): Assimp cannot read the scene, or takes longer than these seconds.
+void run_assimp(const std::string& scene, const std::string& folder, float seconds);

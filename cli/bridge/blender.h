@@ -7,19 +7,23 @@
 
 struct BlenderOptions {
   std::string program;   // --blender; empty: as PATH finds it
+  std::string scene;     // --scene: which of a file's scenes, by name or number; empty: the active one
   int bake = 0;          // --bake: pixels of the pictures that are made of computed materials; 0: none
-  float seconds = 1800;  // --blender-limit
+  float seconds = 1800;  // --blender-limit, of each program
 };
 
-// What of this decides what comes out: which Blender, which exporter, which options.
+// Describes the inputs of a conversion besides the file: the Blender, the exporter and the options.
 std::string describe(const BlenderOptions& options);
 
-// The program to start; empty: there is none. Throws Error(kInput) if --blender names none.
+// Throws Error(kInput): the program has not converted the scene within its limit.
+[[noreturn]] void fail_in_time(const char* program, const std::string& scene, float seconds);
+
+// The program to start; empty: there is none. Throws Error(kInput) if --blender does not name a program.
 std::string find_blender(const BlenderOptions& options);
 
-// Leaves scene.glb, bridge.json and perhaps world.exr in the folder. Throws Error(kInput): Blender says why, fails,
-// ends early or takes too long.
+// Leaves scene.glb, bridge.json and perhaps world.exr in the folder. Throws Error(kInput) if Blender reports an error,
+// fails, ends early or takes too long.
 void run_blender(const BlenderOptions& options, const std::string& scene, const std::string& folder);
 
-// Installs and enables our add-on in the user's Blender. Throws likewise.
+// Installs and enables our add-on in the user's Blender. Throws as run_blender() does.
 void install_add_on(const BlenderOptions& options);

@@ -14,6 +14,7 @@
 #include "cli/bridge/scene_cache.h"
 #include "cli/console/console.h"
 #include "ods/base/error.h"
+#include "ods/base/quote.h"
 #include "ods/base/text.h"
 #include "ods/files/claim.h"
 #include "ods/files/private_folder.h"
@@ -26,7 +27,7 @@ namespace {
 struct ForeignFormat {
   std::string_view extension;
   bool blender;  // reads it
-  bool assimp;   // likewise
+  bool assimp;   // Assimp converts it
 };
 
 constexpr ForeignFormat kFormats[] = {
@@ -48,7 +49,7 @@ const ForeignFormat* format_of(const std::string& path) {
   throw ods::Error(ods::ErrorKind::kInput, fmt::format("'{}' {}", path, why));
 }
 
-// A gzip or zstd stream, or Blender's own words.
+// The magic bytes of a gzip or zstd stream, or of Blender.
 void check_blend(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   char start[8] = {};
@@ -66,7 +67,15 @@ ForeignScene read_result(const std::string& folder) {
   if (!found.is_object()) fail(folder, "is damaged; remove it");
   if (found.contains("environment") && found["environment"].is_string()) {
     scene.environment = found["environment"];
-    if (scene.environment.ends_with(".exr")) scene.environment = folder + "/" + scene.environment;
+    if (scene.environment.ends_with(".exr")) scene.environment = folder + "/world.exr";
+  }
+  scene.background = found.value("background", "");
+  if (scene.background.ends_with(".exr")) scene.background = folder + "/" + scene.background;
+  scene.shutter = found.value("shutter", 0.0f);
+  scene.unit = found.value("unit", 1.0f);
+  if (found.contains("frames")) {
+    const json& frames = found["frames"];
+    scene.frames = {frames.value("first", 0), frames.value("count", 0), frames.value("saved", 0)};
   }
   if (found.contains("fps") && found["fps"].is_number()) scene.fps = found["fps"];
   for (const json& warning : found.value("warnings", json::array())) {
@@ -74,7 +83,7 @@ ForeignScene read_result(const std::string& folder) {
   }
   if (found.contains("camera")) {
     std::vector<std::string> ignored;
-    scene.camera = ods::read_sidecar(found["camera"].dump(), "the scene's camera", ignored);
+    scene.camera = ods::read_sidecar(ods::json_document(found["camera"]), "the scene's camera", ignored);
     scene.has_stereo = found["camera"].contains("merge_top");
   }
   return scene;
@@ -86,7 +95,7 @@ ForeignScene read_result(const std::string& folder) {
   fail(path, "needs Blender or Assimp's command to be read: install one (blender, assimp-utils), or --blender PATH");
 }
 
-// Assimp converts what it reads where there is no Blender, or where Blender cannot read the file.
+// Assimp converts the formats that it reads if Blender is missing, or cannot read the file.
 void convert(const std::string& path, const ForeignFormat& format, const BlenderOptions& options,
              const std::string& kept) {
   const ods::PrivateFolder folder(cache_folder() + "/.new-");
@@ -108,7 +117,7 @@ void convert(const std::string& path, const ForeignFormat& format, const Blender
     }
   }
   note(fmt::format("Assimp converts '{}': no lights, cameras, node materials or world", path));
-  run_assimp(path, folder.path());
+  run_assimp(path, folder.path(), options.seconds);
   keep_scene(folder.path(), kept);
 }
 

@@ -9,12 +9,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
+#include "cli/console/print.h"
 #include "cli/options/camera_source.h"
+#include "ods/base/quote.h"
 #include "ods/camera/layout.h"
 
 using ods::Camera, ods::Sidecar, ods::vec2, ods::vec3;
@@ -23,8 +25,8 @@ namespace {
 
 constexpr const char* kProjectExamples =
     "  ods project 0,1.5,-2 1,0,-3 --width 4096 --position 0,1.6,0\n"
-    "  ods project --from picture.camera.json --json < points.txt\n"
-    "  ods project --from picture.camera.json --from-pixel left,2048.5,1024.5,3.2";
+    "  ods project --camera-file picture.camera.json --json < points.txt\n"
+    "  ods project --camera-file picture.camera.json --from-pixel left,2048.5,1024.5,3.2";
 
 // Pixels are counted from the left and top edge of the eye's own picture: the middle of the first is 0.5.
 struct Found {
@@ -50,7 +52,7 @@ void print_text(vec3 point, const std::vector<Found>& all) {
     const std::string where = f.seen ? fmt::format("pixel {:.3f} {:.3f}  uv {:.7f} {:.7f}  depth {:.6g}", f.pixel.x,
                                                    f.pixel.y, f.uv.x, f.uv.y, f.depth)
                                      : "not seen: no ray of this eye meets it, or it is outside the picture";
-    fmt::print("{:.6g},{:.6g},{:.6g}  {:5}  {}\n", point.x, point.y, point.z, ods::eye_name(f.eye), where);
+    put_out(fmt::format("{:.6g},{:.6g},{:.6g}  {:5}  {}\n", point.x, point.y, point.z, ods::eye_name(f.eye), where));
   }
 }
 
@@ -86,28 +88,37 @@ void print_point_of(const std::string& word, const Sidecar& file, const Camera& 
   }
   const vec3 p = ray.origin + n[2] * ray.direction;
   if (json) {
-    std::puts(nlohmann::ordered_json({{"point", {p.x, p.y, p.z}}}).dump().c_str());
+    put_out(ods::json_document({{"point", {p.x, p.y, p.z}}}) + "\n");
   } else {
-    fmt::print("{:.7g},{:.7g},{:.7g}\n", p.x, p.y, p.z);
+    put_out(fmt::format("{:.7g},{:.7g},{:.7g}\n", p.x, p.y, p.z));
   }
 }
 
-void project(int argc, char** argv) {
+struct ProjectJob {
   CameraSource source;
-  std::vector<std::string> words;
-  std::string pixel;
+  std::vector<std::string> points;  // X,Y,Z each; none: lines of stdin
+  std::string pixel;                // EYE,X,Y,DEPTH, to be unprojected; empty: none
   bool json = false;
-  Options options(
-      "project",
+};
+
+ProjectJob parse_project(Options& options) {
+  ProjectJob job;
+  options.describe(
       "Projects world points into each eye's picture. It reads no scene, so it does not know what hides them.",
       kProjectExamples);
-  options.arguments("X,Y,Z...", words, "points, in metres; without any, reads lines from stdin");
-  options.text("--from-pixel", "EYE,X,Y,DEPTH", pixel, "unproject: the point at that depth along the pixel's ray");
-  options.flag("--json", json, "print JSON, one object per line");
-  add_camera_source(options, source);
+  options.arguments("X,Y,Z...", job.points, "points, in metres; without any, reads lines from stdin");
+  options.text("--from-pixel", "EYE,X,Y,DEPTH", job.pixel, "unproject: the point at that depth along the pixel's ray");
+  options.flag("--json", job.json, "print JSON, one object per line");
+  add_camera_source(options, job.source);
   options.group("Console");
   add_console_options(options);
-  if (!options.parse(argc, argv)) return;
+  options.parse();
+  return job;
+}
+
+void project(const ProjectJob& job) {
+  const auto& [given, points, pixel, json] = job;
+  CameraSource source = given;
   const Sidecar file = read_camera_source(source);
   const Camera camera = make_camera(file.camera);
   const auto print = [&](std::string word) {
@@ -116,14 +127,14 @@ void project(int argc, char** argv) {
     const vec3 point = parse_point("a point", word);
     const std::vector<Found> all = find(file, camera, point);
     if (json) {
-      std::puts(to_json(point, all).dump().c_str());
+      put_out(ods::json_document(to_json(point, all)) + "\n");
     } else {
       print_text(point, all);
     }
   };
   if (!pixel.empty()) print_point_of(pixel, file, camera, json);
-  for (const std::string& word : words) print(word);
-  if (!words.empty() || !pixel.empty()) return;
+  for (const std::string& word : points) print(word);
+  if (!points.empty() || !pixel.empty()) return;
   if (isatty(STDIN_FILENO)) throw UsageError("which points? ods project X,Y,Z, or lines of X,Y,Z on stdin");
   for (std::string line; std::getline(std::cin, line);) {
     if (!line.empty()) print(line);
@@ -132,6 +143,5 @@ void project(int argc, char** argv) {
 
 }  // namespace
 
-int ods_project(int argc, char** argv) {
-  return run_command([=] { project(argc, argv); });
-}
+extern const Command kProject =
+    make_command<parse_project, project>("project", "project world points into each eye's picture");

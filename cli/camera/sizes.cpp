@@ -6,10 +6,11 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
+#include "cli/console/print.h"
 #include "cli/options/picture_options.h"
 #include "ods/camera/codec_level.h"
 
@@ -22,7 +23,7 @@ constexpr const char* kSizesExamples =
     "  ods sizes tb-high-6480                     everything about one\n"
     "  ods render room -o room.png --size tb-minimum-3600";
 
-constexpr int kStillFps = 30;  // what levels of sizes are told for whose sources name no rate
+constexpr int kStillFps = 30;  // the rate for the levels of sizes whose sources do not give one
 
 std::string_view layout_word(const NamedSize& size) {
   return size.layout ? ods::layout_name(*size.layout) : "one eye";
@@ -44,22 +45,22 @@ std::string_view short_source(const NamedSize& size) {
 
 void print_table(std::span<const NamedSize> sizes) {
   constexpr const char* kRow = "{:<19} {:<11} {:<12} {:<11} {:>3} {:>5} {:>4} {:>4} {:>4} {:<4} {}\n";
-  fmt::print(kRow, "name", "one eye", "layout", "file", "fps", "H.264", "HEVC", "AV1", "VP9", "AA", "source");
+  put_out(fmt::format(kRow, "name", "one eye", "layout", "file", "fps", "H.264", "HEVC", "AV1", "VP9", "AA", "source"));
   for (const NamedSize& size : sizes) {
     const bool threshold = size.antialias.starts_with("on, threshold ");
-    fmt::print(kRow, size.name, pixels(size.eye), layout_word(size), pixels(file_size(size)),
-               size.fps ? fmt::format("{}", size.fps) : "", level(size, ods::Codec::kH264),
-               level(size, ods::Codec::kHevc), level(size, ods::Codec::kAv1), level(size, ods::Codec::kVp9),
-               threshold ? size.antialias.substr(14) : size.antialias, short_source(size));
+    put_out(fmt::format(kRow, size.name, pixels(size.eye), layout_word(size), pixels(file_size(size)),
+                        size.fps ? fmt::format("{}", size.fps) : "", level(size, ods::Codec::kH264),
+                        level(size, ods::Codec::kHevc), level(size, ods::Codec::kAv1), level(size, ods::Codec::kVp9),
+                        threshold ? size.antialias.substr(14) : size.antialias, short_source(size)));
   }
-  fmt::print(
+  put_out(fmt::format(
       "\nH.264, HEVC, AV1, VP9: the smallest level that holds the file as a video, at {} pictures a second where fps\n"
       "is empty; without one, players may refuse it. AA: the source's antialiasing, off or POV-Ray's threshold.\n",
-      kStillFps);
+      kStillFps));
 }
 
 void print_one(const NamedSize& size) {
-  auto row = [](std::string_view name, std::string_view value) { fmt::print("{:<14} {}\n", name, value); };
+  auto row = [](std::string_view name, std::string_view value) { put_out(fmt::format("{:<14} {}\n", name, value)); };
   row("name", size.name);
   row("called", size.title);
   row("one eye", pixels(size.eye));
@@ -94,25 +95,32 @@ nlohmann::ordered_json to_json(const NamedSize& size) {
 void print_json(std::span<const NamedSize> sizes) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const NamedSize& size : sizes) json.push_back(to_json(size));
-  std::puts(json.dump(2).c_str());
+  put_json(json);
 }
 
-void sizes(int argc, char** argv) {
-  std::string name;
+struct SizesJob {
+  std::string name;  // of one size; empty: all
   bool json = false;
-  Options options("sizes", "Lists the named sizes and the video levels that they fit in.", kSizesExamples);
-  options.optional_argument("NAME", name, "show one size in detail");
+};
+
+SizesJob parse_sizes(Options& options) {
+  SizesJob job;
+  options.describe("Lists the named sizes and the video levels that they fit in.", kSizesExamples);
+  options.optional_argument("NAME", job.name, "show one size in detail");
   options.group("Console");
-  options.flag("--json", json, "print JSON");
+  options.flag("--json", job.json, "print JSON");
   add_console_options(options);
-  if (!options.parse(argc, argv)) return;
-  const std::span<const NamedSize> chosen = name.empty() ? ods::named_sizes() : std::span(&size_by_name(name), 1);
-  if (json) return print_json(chosen);
-  name.empty() ? print_table(chosen) : print_one(chosen.front());
+  options.parse();
+  return job;
+}
+
+void list_sizes(const SizesJob& job) {
+  const bool one = !job.name.empty();
+  const std::span<const NamedSize> chosen = one ? std::span(&size_by_name(job.name), 1) : ods::named_sizes();
+  if (job.json) return print_json(chosen);
+  one ? print_one(chosen.front()) : print_table(chosen);
 }
 
 }  // namespace
 
-int ods_sizes(int argc, char** argv) {
-  return run_command([=] { sizes(argc, argv); });
-}
+extern const Command kSizes = make_command<parse_sizes, list_sizes>("sizes", "list the named sizes");

@@ -1,70 +1,74 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods comfort: where a picture, or a scene before it is rendered, strains its viewer's eyes.
-#include "ods/comfort/comfort.h"
-
-#include <fmt/format.h>
-
+// ods comfort: judges how a picture, a video, or a scene before it is rendered, strains its viewer's eyes.
 #include <chrono>
-#include <stdexcept>
 
 #include "cli/comfort/comfort_job.h"
+#include "cli/comfort/comfort_page.h"
 #include "cli/comfort/comfort_report.h"
-#include "cli/comfort/heat.h"
-#include "cli/comfort/page_of.h"
 #include "cli/comfort/video_report.h"
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "cli/options/projection_options.h"
+#include "ods/comfort/heat.h"
+#include "ods/comfort/merge_from_depth.h"
+#include "ods/files/atomic_file.h"
+#include "ods/picture/save.h"
+#include "ods/stage/judge_scene.h"
 
 namespace {
 
-constexpr const char* kStrains = "it strains the viewer's eyes";
-
-void save_html(const ComfortJob& job, const ComfortPage& page) {
-  write_page(job.html, page);
-  announce_file(job.html);
+ods::JudgedPicture judge_scene(const ComfortJob& job) {
+  const ods::Scene scene = open_scene(job.scene);
+  ods::StereoCamera camera = place_camera(job.camera, scene);
+  const ods::CpuRenderer renderer(scene);
+  if (job.camera.changes.merge_limit) {
+    ods::use_merge_map(camera, ods::merge_map_of(ods::shares_seen(renderer, camera, *job.camera.changes.merge_limit)));
+  }
+  return ods::judge_scene(renderer, scene, camera, job.width, job.comfort);
 }
 
-void judge_still(const ComfortJob& job) {
-  const Looked looked = job.input == ComfortInput::kPicture ? look_at_picture(job) : look_at_scene(job);
-  std::vector<ods::ComfortReport> reports;
-  for (const Judged& each : looked.eyes) reports.push_back(ods::judge_comfort(each.seen, job.comfort));
-  if (reports[0].unknown > 0.0 && !looked.match) {
-    warn(fmt::format("'{}': {:.3g} % of the pixels have no depth, and are not judged", job.scene.name,
-                     100.0 * reports[0].unknown));
-  }
-  job.json ? print_json(job, looked, reports[0]) : print_text(job, looked, reports[0]);
-  if (!job.heat.empty()) save_heat(job.heat, looked, reports);
-  if (!job.html.empty()) save_html(job, page_of(job, looked, reports[0]));
-  for (const ods::ComfortReport& report : reports) {
-    if (verdict(job, looked, report) == ods::ComfortLevel::kError) throw std::runtime_error(kStrains);
-  }
+ods::JudgedPicture judge_picture(const ComfortJob& job) {
+  const std::string& output = job.heat.empty() ? job.html : job.heat;
+  const std::string scratch = output.empty() ? "" : ods::existing_folder_of(output);
+  return ods::judge_picture(job.scene.name, {job.comfort, job.format, !output.empty(), scratch});
 }
 
-void judge_film(const ComfortJob& job) {
+ods::ComfortLevel judge_still(const ComfortJob& job) {
+  const ods::JudgedPicture judged = job.input == ComfortInput::kPicture ? judge_picture(job) : judge_scene(job);
+  for (const std::string& text : judged.notes) note(text);
+  for (const std::string& text : judged.warnings) warn(text);
+  job.json ? print_json(job, judged) : print_text(job, judged);
+  if (!job.heat.empty()) {
+    for (const std::string& file : ods::save_picture(ods::heat_picture(judged), judged.camera, {}, job.heat)) {
+      announce_file(file);
+    }
+  }
+  if (!job.html.empty()) save_page(job, judged);
+  return judged.verdict.level;
+}
+
+ods::ComfortLevel judge_video(const ComfortJob& job) {
   ods::VideoComfort video;
-  const ods::FormatHint format = identified_input(job.scene.name, job.format);
   run_long_job(job.progress, 0, [&](ProgressLines& lines) {
     const auto start = std::chrono::steady_clock::now();
     ods::Progress progress;
     progress.report = [&](double done) { lines.report(done, seconds_since(start), {"comfort", 0, 0, job.scene.name}); };
-    video = ods::judge_video(job.scene.name, {job.comfort, format}, progress);
+    video = ods::judge_video(job.scene.name, {job.comfort, job.format}, progress);
   });
+  for (const std::string& text : video.notes) note(text);
   job.json ? print_json(job, video) : print_text(job, video);
-  if (!job.html.empty()) save_html(job, page_of(job, video));
-  if (ods::worst_level(video) == ods::ComfortLevel::kError) throw std::runtime_error(kStrains);
+  if (!job.html.empty()) save_page(job, video);
+  return video.level;
 }
 
-void comfort(int argc, char** argv) {
-  ComfortJob job;
-  if (!read_comfort_job(job, argc, argv)) return;
-  job.input == ComfortInput::kVideo ? judge_film(job) : judge_still(job);
+ExitCode comfort(ComfortJob job) {
+  settle_input(job);
+  const ods::ComfortLevel level = job.input == ComfortInput::kVideo ? judge_video(job) : judge_still(job);
+  return level == ods::ComfortLevel::kError ? kExitFault : kExitOk;
 }
 
 }  // namespace
 
-int ods_comfort(int argc, char** argv) {
-  return run_command([=] { comfort(argc, argv); });
-}
+extern const Command kComfort = make_command<parse_comfort, comfort>("comfort", "find what strains a viewer's eyes");

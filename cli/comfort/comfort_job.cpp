@@ -28,10 +28,10 @@ constexpr const char* kComfortExamples =
 constexpr const char* kComfortSummary =
     "Judges how a stereo 360 picture strains its viewer's eyes: by its depth layer, or, if it has none, by matching\n"
     "its eyes. Judges a scene before it is rendered, too. Lists what strains most, where it is, and what would help.\n"
-    "docs/comfort.md explains the strains and their limits. Exit code 1: something is an error; cautions and warnings\n"
+    "docs/comfort.md explains the strains and their limits. Exit code 5: something is an error; cautions and warnings\n"
     "do not count.";
 
-// Where the lenses of headsets focus.
+// The distances at which the lenses of headsets focus.
 struct FocusRow {
   std::string_view name;
   float metres;
@@ -75,12 +75,12 @@ void parse_rules(const std::string& word, ods::ComfortOptions& comfort) {
   throw UsageError(fmt::format("--rules is strain, google or safe-sphere:METRES, not '{}'", word));
 }
 
-// The file says how a picture was made.
-void refuse_camera(const Options& options, const ComfortJob& job) {
+// The file records how a picture was made.
+void refuse_camera(const ComfortJob& job) {
   const std::vector<std::string> own = {"",       "--rules", "--focus",    "--viewer-ipd", "--gaze",
                                         "--heat", "--html",  "--json",     "--layout",     "--projection",
                                         "-q",     "--quiet", "--no-color", "--progress",   "--head-roll"};
-  for (const GivenWord& word : options.given_words()) {
+  for (const GivenWord& word : job.given) {
     if (std::ranges::find(own, word.name) != own.end()) continue;
     throw UsageError(fmt::format("{} is for scenes, and '{}' is a {}", word.name, job.scene.name,
                                  job.input == ComfortInput::kVideo ? "video" : "picture"));
@@ -97,17 +97,18 @@ ComfortInput input_of(const std::string& path) {
 
 }  // namespace
 
-bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
+ComfortJob parse_comfort(Options& options) {
+  ComfortJob job;
   ods::Viewer& viewer = job.comfort.viewer;
-  Options options("comfort", kComfortSummary, kComfortExamples);
-  add_scene_argument(options, job.scene, [&](const ForeignScene& scene) { take_camera(job.camera, scene); });
+  options.describe(kComfortSummary, kComfortExamples);
+  add_scene_argument(options, job.scene);
   options.group("Viewer");
   options.custom(
       "--focus", "METRES", "1.3", [&](const std::string& word) { viewer.focus = parse_focus(word); },
       "where the headset's lenses focus: metres, quest-2 (1.3), quest-3 (1.3, provisional), rift (2), infinity");
   options.custom(
       "--viewer-ipd", "METRES", "0.065", [&](const std::string& word) { viewer.ipd = parse_viewer_ipd(word); },
-      "distance between the viewer's pupils: 0.05, or 50mm, of a child to 0.075 of a man");
+      "the viewer's pupil distance, e.g. 0.05 (child) to 0.075 (large adult); 50mm also works");
   options.number("--gaze", viewer.gaze_degrees, 1.0f, 45.0f, "degrees that the eyes turn before the head does");
   options.number("--head-roll", viewer.roll_degrees, 0.0f, 45.0f,
                  "degrees that the line through the ears may be out of level");
@@ -119,25 +120,31 @@ bool read_comfort_job(ComfortJob& job, int argc, char** argv) {
   options.text("--heat", ValueKind::output_file(), job.heat,
                "save the picture with what strains in yellow, orange, red");
   options.text("--html", ValueKind::output_file(), job.html,
-               "save the report as one page with pictures and, of a video, curves");
+               "save the report as one page with pictures and, for a video, curves");
   options.number("--width", job.width, 64, 8192, "width of the pictures of a scene that are judged");
   options.flag("--json", job.json, "print JSON");
   add_input_layout_option(options, job.format.layout, "layout of a picture's eyes, if it is not detected");
-  add_camera_options(options, job.camera, job.scene.blender);
+  add_camera_options(options, job.camera);
   options.group("Console");
   add_progress_options(options, job.progress);
-  if (!options.parse(argc, argv)) return false;
-  job.input = input_of(job.scene.name);
-  if (job.input != ComfortInput::kScene) {
-    if (job.input == ComfortInput::kVideo && !job.heat.empty())
-      throw UsageError("--heat is for pictures and scenes: --html shows a video's");
-    refuse_camera(options, job);
-    if (options.given("--projection")) job.format.projection = job.camera.stereo.projection;
-    return true;
-  }
+  options.parse();
   job.scene.has_places = job.camera.position.has_value();
   job.scene.camera = job.camera.view_point;
-  int height = 0;
-  finish_camera_options(job.camera, job.width, height);
-  return true;
+  job.given = options.given_words();
+  return job;
+}
+
+void settle_input(ComfortJob& job) {
+  job.input = input_of(job.scene.name);
+  if (job.input == ComfortInput::kScene) {
+    int height = 0;
+    read_foreign(job.scene);
+    take_base(job.camera, job.scene.foreign, job.scene.blender);
+    return finish_camera_options(job.camera, job.width, height);
+  }
+  if (job.input == ComfortInput::kVideo && !job.heat.empty()) {
+    throw UsageError("--heat is for pictures and scenes: --html shows a video's");
+  }
+  refuse_camera(job);
+  if (job.camera.changes.projection.named) job.format.projection = *job.camera.changes.projection.named;
 }

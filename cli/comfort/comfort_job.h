@@ -15,16 +15,19 @@ enum class ComfortInput { kScene, kPicture, kVideo };
 
 struct ComfortJob {
   ComfortInput input = ComfortInput::kScene;
-  SceneSource scene;  // its name is that of the input, which may be a picture
+  SceneSource scene;  // its name is the input's, which may be a picture
   CameraOptions camera;
   ods::ComfortOptions comfort;
   ods::FormatHint format;  // of a picture or a video
   int width = 1024;        // of the pictures of a scene that are judged
-  std::string heat;        // where to save the levels as a picture; empty: nowhere
-  std::string html;        // likewise the report as a page
+  std::string heat;        // file for the levels as a picture; empty: none
+  std::string html;        // file for the report as a page; empty: none
   bool json = false;
+  std::vector<GivenWord> given;                 // the command line
   ProgressMode progress = ProgressMode::kAuto;  // of a video
 };
 
-// False if help was requested. Throws UsageError and ods::Error.
-bool read_comfort_job(ComfortJob& job, int argc, char** argv);
+ComfortJob parse_comfort(Options& options);
+
+// Determines the kind of the input, and applies the options for it. Throws UsageError and ods::Error.
+void settle_input(ComfortJob& job);

@@ -6,15 +6,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
+#include "cli/comfort/comfort_report.h"
+#include "cli/comfort/video_report.h"
+#include "cli/console/console.h"
 #include "ods/base/base64.h"
 #include "ods/base/quote.h"
+#include "ods/camera/pixel.h"
+#include "ods/comfort/heat.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/image_file.h"
 #include "ods/image/tone.h"
 
-using ods::ComfortLevel;
+using ods::ComfortLevel, ods::Image, ods::JudgedPicture, ods::StrainedPlace, ods::vec2, ods::vec3;
 
 namespace {
+
+constexpr int kCropWidth = 256, kCropHeight = 224;  // pixels
+constexpr float kCropAngle = 40.0f;                 // degrees across
+constexpr float kDegree = 3.14159265f / 180.0f;
 
 constexpr const char* kHead = R"(<!doctype html>
 <html lang="en">
@@ -51,7 +62,7 @@ table { border-collapse: collapse; } td { padding: .15rem 1rem .15rem 0; vertica
 </style>
 )";
 
-// As a JPEG that exists only for a moment, beside the page.
+// The picture as a JPEG.
 std::string data_uri(const ods::Image& light, const std::string& path) {
   ods::FileHeader header;
   header.format = ods::FileFormat::kJpeg;
@@ -73,32 +84,71 @@ std::string picture_html(const ods::Image& light, const std::string& words, cons
                      light.height, ods::xml_text(words));
 }
 
-std::string thing_html(const PageThing& thing, const std::string& path) {
-  const std::string crop =
-      thing.crop.pixels.empty() ? "" : "<div class=\"crop\">" + picture_html(thing.crop, thing.title, path) + "</div>";
-  return fmt::format(
-      "<li{}>{}<div><p><b class=\"{}\">{}</b> {}</p><p class=\"soft\">{}</p><p>{}</p><p>{}</p></div></li>\n",
-      crop.empty() ? " class=\"bare\"" : "", crop, comfort_level_name(thing.level), comfort_level_name(thing.level),
-      ods::xml_text(thing.title), ods::xml_text(thing.where), ods::xml_text(thing.what), ods::xml_text(thing.cure));
+// The view of the eye that looks at a place.
+Image crop_of(const JudgedPicture& judged, const StrainedPlace& place) {
+  const ods::Camera camera = ods::make_camera(judged.camera);
+  const Image& light = judged.light[place.eye];
+  const float theta = static_cast<float>(place.azimuth) * kDegree, phi = static_cast<float>(place.elevation) * kDegree;
+  const vec3 ahead = ods::look_at_angles(theta, phi).direction;
+  const vec3 right = ods::look_at_angles(theta + 90.0f * kDegree, 0.0f).direction, up = cross(right, ahead);
+  const float pixel = 2.0f * std::tan(0.5f * kCropAngle * kDegree) / kCropWidth;
+  Image crop(kCropWidth, kCropHeight, 3);
+  for (int y = 0; y < kCropHeight; y++) {
+    for (int x = 0; x < kCropWidth; x++) {
+      const vec3 way = ahead + right * (pixel * static_cast<float>(x - kCropWidth / 2)) +
+                       up * (pixel * static_cast<float>(kCropHeight / 2 - y));
+      const ods::ImagePoint point = ods::place_of(camera.projection, normalize(way));
+      if (!point.seen) continue;
+      const glm::ivec2 from = ods::pixel_at(point.uv, light);
+      std::copy_n(light.at(from.x, from.y), 3, crop.at(x, y));
+    }
+  }
+  return crop;
 }
 
-// A curve over time with its limits as dashed lines. A break in it is a value that is unknown.
-std::string curve_html(const PageCurve& curve) {
+std::string level_html(ComfortLevel level) {
+  return fmt::format("<b class=\"{0}\">{0}</b>", comfort_level_name(level));
+}
+
+std::string line_html(const std::string& text) {
+  return "<p>" + ods::xml_text(text) + "</p>\n";
+}
+
+// crop: the picture of the thing as HTML, or empty.
+std::string thing_html(ComfortLevel level, const std::string& crop, const std::string& title, const std::string& where,
+                       const std::string& what, const std::string& cure) {
+  return fmt::format("<li{}>{}<div><p>{} {}</p><p class=\"soft\">{}</p><p>{}</p><p>{}</p></div></li>\n",
+                     crop.empty() ? " class=\"bare\"" : "", crop, level_html(level), ods::xml_text(title),
+                     ods::xml_text(where), ods::xml_text(what), ods::xml_text(cure.empty() ? "" : "Cure: " + cure));
+}
+
+std::string crop_html(const JudgedPicture& judged, const StrainedPlace& place, const std::string& path) {
+  return "<div class=\"crop\">" + picture_html(crop_of(judged, place), thing_text(place), path) + "</div>";
+}
+
+std::string list_html(const std::string& things) {
+  return things.empty() ? "" : "<h2>What strains most</h2>\n<ol>\n" + things + "</ol>\n";
+}
+
+// points: seconds and value; not finite where it is unknown. Limits are dashed lines; 0 or infinite: none.
+using Points = std::vector<std::pair<double, double>>;
+std::string curve_html(std::string_view title, std::string_view unit, const ods::StrainLimits& limits,
+                       const Points& points) {
   constexpr double kWidth = 640.0, kHeight = 150.0, kLeft = 44.0, kRight = 8.0, kTop = 10.0, kBottom = 22.0;
   double most = 1e-9, end = 1e-9;
-  for (const auto& [seconds, value] : curve.points) {
+  for (const auto& [seconds, value] : points) {
     end = std::max(end, seconds);
     if (std::isfinite(value)) most = std::max(most, value);
   }
-  const bool shows_limit = std::isfinite(curve.limits.caution) && curve.limits.caution > 0.0;
-  if (shows_limit) most = std::max(most, 1.2 * curve.limits.caution);
+  const bool shows_limit = std::isfinite(limits.caution) && limits.caution > 0.0;
+  if (shows_limit) most = std::max(most, 1.2 * limits.caution);
   const auto x_of = [&](double seconds) { return kLeft + (kWidth - kLeft - kRight) * seconds / end; };
   const auto y_of = [&](double value) { return kHeight - kBottom - (kHeight - kTop - kBottom) * value / most; };
-  std::string svg = fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}, {}\">", kWidth, kHeight,
-                                ods::xml_text(curve.title), ods::xml_text(curve.unit));
-  for (const auto& [level, value] : {std::pair{ComfortLevel::kCaution, curve.limits.caution},
-                                     {ComfortLevel::kWarning, curve.limits.warning},
-                                     {ComfortLevel::kError, curve.limits.error}}) {
+  std::string svg =
+      fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}, {}\">", kWidth, kHeight, title, unit);
+  for (const auto& [level, value] : {std::pair{ComfortLevel::kCaution, limits.caution},
+                                     {ComfortLevel::kWarning, limits.warning},
+                                     {ComfortLevel::kError, limits.error}}) {
     if (!(value > 0.0) || value > most) continue;
     svg += fmt::format(
         "<line class=\"{}\" x1=\"{}\" x2=\"{}\" y1=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"currentColor\" "
@@ -107,7 +157,7 @@ std::string curve_html(const PageCurve& curve) {
   }
   std::string path;
   bool draws = false;
-  for (const auto& [seconds, value] : curve.points) {
+  for (const auto& [seconds, value] : points) {
     if (std::isfinite(value)) path += fmt::format("{}{:.1f} {:.1f}", draws ? "L" : "M", x_of(seconds), y_of(value));
     draws = std::isfinite(value);
   }
@@ -120,43 +170,112 @@ std::string curve_html(const PageCurve& curve) {
   svg +=
       fmt::format("<text x=\"{}\" y=\"{}\">0 s</text><text x=\"{}\" y=\"{}\" text-anchor=\"end\">{:.3g} s</text></svg>",
                   kLeft, kHeight - 6.0, kWidth - kRight, kHeight - 6.0, end);
-  return fmt::format("<figure>{}<figcaption>{}, {}</figcaption></figure>\n", svg, ods::xml_text(curve.title),
-                     ods::xml_text(curve.unit));
+  return fmt::format("<figure>{}<figcaption>{}, {}</figcaption></figure>\n", svg, title, unit);
 }
 
-std::string bar_html(const ComfortPage& page) {
+std::string shares_html(const ods::ComfortVerdict& verdict) {
   std::string bar = "<div class=\"bar\">", words;
-  for (const auto& [level, share] : page.shares) {
+  for (const ComfortLevel level : ods::kComfortLevels) {
+    const double share = verdict.share[level];
     bar += fmt::format("<i class=\"{}\" style=\"flex:{:.5f}\"></i>", comfort_level_name(level), share);
-    words += fmt::format("<span class=\"{}\">{} {:.1f} %</span> ", comfort_level_name(level), comfort_level_name(level),
-                         100.0 * share);
+    words += fmt::format("<span class=\"{0}\">{0} {1:.1f} %</span> ", comfort_level_name(level), 100.0 * share);
   }
   return bar + "</div><p>" + words + "<small>of the picture, by solid angle</small></p>\n";
 }
 
+// The eye with the worst place.
+std::string heat_html(const JudgedPicture& judged, const std::string& whose, const std::string& path) {
+  const ods::ComfortVerdict& verdict = judged.verdict;
+  const size_t eye = verdict.worst() ? verdict.worst()->eye : 0;
+  const std::string caption = fmt::format("{} {} eye: caution yellow, warning orange, error red", whose,
+                                          ods::eye_name(verdict.per_eye[eye].eye));
+  const Image heat = ods::heat_of(judged.light[eye], verdict.per_eye[eye].levels);
+  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", picture_html(heat, caption, path), caption);
+}
+
+std::string source_html(std::string_view what, std::string_view source) {
+  return fmt::format("<tr><td>{}</td><td class=\"soft\">{}</td></tr>\n", what, source);
+}
+
+void save(const ComfortJob& job, ComfortLevel level, const std::string& body, const std::string& sources) {
+  const std::string title = ods::xml_text(std::filesystem::path(job.scene.name).filename().string());
+  std::string html = kHead;
+  html += fmt::format("<title>{0}: {1}</title>\n</head>\n<body>\n<h1>{0}: {2}</h1>\n", title, comfort_level_name(level),
+                      level_html(level));
+  html += body;
+  html += "<h2>Where the limits come from</h2>\n<table>\n" + sources + "</table>\n</body>\n</html>\n";
+  ods::write_file(job.html, html);
+  announce_file(job.html);
+}
+
 }  // namespace
 
-void write_page(const std::string& path, const ComfortPage& page) {
-  std::string html = kHead;
-  html += fmt::format("<title>{0}: {1}</title>\n</head>\n<body>\n<h1>{0}: <b class=\"{1}\">{1}</b></h1>\n",
-                      ods::xml_text(page.title), comfort_level_name(page.level));
-  for (const std::string& line : page.lines) html += "<p>" + ods::xml_text(line) + "</p>\n";
-  if (!page.shares.empty()) html += bar_html(page);
-  for (const PagePicture& picture : page.pictures) {
-    html += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
-                        picture_html(picture.light, picture.caption, path), ods::xml_text(picture.caption));
+void save_page(const ComfortJob& job, const JudgedPicture& judged) {
+  const ods::ComfortVerdict& verdict = judged.verdict;
+  std::string body = line_html(
+      fmt::format("Eyes {:.3g} m apart; the nearest thing is {:.2f} m away.", judged.camera.ipd, verdict.nearest));
+  if (!judged.why_matched.empty()) body += line_html(judged.why_matched + ".");
+  if (judged.measured) body += line_html(measured_text(*judged.measured) + ".");
+  if (verdict.match) {
+    body +=
+        line_html(fmt::format("Judged by matching the eyes: +-{:.0f} minutes of arc; {:.0f} % of the picture "
+                              "could be matched.",
+                              verdict.match->precision, 100.0 * verdict.match->share));
   }
-  if (!page.things.empty()) html += "<h2>What strains most</h2>\n<ol>\n";
-  for (const PageThing& thing : page.things) html += thing_html(thing, path);
-  if (!page.things.empty()) html += "</ol>\n";
-  if (!page.cures.empty()) html += "<h2>What would help</h2>\n";
-  for (const std::string& cure : page.cures) html += "<p>" + ods::xml_text(cure) + "</p>\n";
-  if (!page.curves.empty()) html += "<h2>Over time</h2>\n";
-  for (const PageCurve& curve : page.curves) html += curve_html(curve);
-  html += "<h2>Where the limits come from</h2>\n<table>\n";
-  for (const auto& [what, source] : page.sources) {
-    html += fmt::format("<tr><td>{}</td><td class=\"soft\">{}</td></tr>\n", ods::xml_text(what), ods::xml_text(source));
+  body += shares_html(verdict) + heat_html(judged, "The", job.html);
+  std::string things, sources;
+  for (const StrainedPlace& place : verdict.places) {
+    const ods::StrainRow& strain = ods::strain_row(place.strain);
+    things += thing_html(place.level, crop_html(judged, place, job.html),
+                         fmt::format("{}, {:.2f} m away", thing_text(place), place.distance),
+                         direction_text(place) + fmt::format("; {} of the picture", share_text(place.share)),
+                         fmt::format("{}: {:.3g} {}", strain.title, place.value, strain.unit), cure_text(place));
   }
-  html += "</table>\n</body>\n</html>\n";
-  ods::write_file(path, html);
+  body += list_html(things);
+  const std::vector<std::string> cures = cure_lines(job, judged);
+  if (!cures.empty()) body += "<h2>What would help</h2>\n";
+  for (const std::string& cure : cures) body += line_html(cure);
+  for (const ods::StrainRow& row : ods::kStrainTable) {
+    const bool is_rule = row.member == ods::Strain::kRule, has_rule = job.comfort.rules != ods::ComfortRules::kStrain;
+    if (is_rule == has_rule && !row.source.empty()) sources += source_html(row.title, row.source);
+  }
+  save(job, verdict.level, body, sources);
+}
+
+void save_page(const ComfortJob& job, const ods::VideoComfort& video) {
+  std::string body = line_html(looked_text(video)) + heat_html(video.worst, "The worst moment's", job.html);
+  std::string things, sources;
+  const StrainedPlace* const shown = video.worst.verdict.worst();
+  for (const ods::VideoStrain& strain : video.strains) {
+    std::string crop, where, cure;
+    if (const std::optional<StrainedPlace>& place = strain.place) {
+      where = fmt::format("{:.2f} m away, {}", place->distance, direction_text(*place));
+      cure = cure_text(*place);
+      if (shown && shown->azimuth == place->azimuth) crop = crop_html(video.worst, *place, job.html);
+    }
+    things += thing_html(strain.level, crop, times_text(strain), where, strain_text(strain), cure);
+  }
+  body += list_html(things) + "<h2>Over time</h2>\n";
+  using Moment = ods::VideoMoment;
+  const auto add = [&](std::string_view title, std::string_view unit, const ods::StrainLimits& limits,
+                       double Moment::*value, bool needs_motion) {
+    Points points;
+    for (const Moment& moment : video.moments) {
+      points.emplace_back(moment.seconds, needs_motion && !moment.is_carried ? std::nan("") : moment.*value);
+    }
+    body += curve_html(title, unit, limits, points);
+  };
+  const ods::StrainLimits vertical = ods::strain_limits(ods::Strain::kVertical, job.comfort.viewer);
+  add("The nearest thing", "metres", {}, &Moment::nearest, false);
+  add("The most that eyes must converge", "degrees", {}, &Moment::vergence, false);
+  add("Vertical disparity at its worst", "minutes of arc", vertical, &Moment::vertical, false);
+  for (const auto& [ride, member] : {std::pair{ods::Ride::kTurn, &Moment::turn},
+                                     {ods::Ride::kTilt, &Moment::tilt},
+                                     {ods::Ride::kSpeed, &Moment::speed},
+                                     {ods::Ride::kAcceleration, &Moment::acceleration}}) {
+    const ods::RideRow& row = ods::ride_row(ride);
+    add(row.title, row.unit, row.limits, member, true);
+  }
+  for (const ods::RideRow& row : ods::kRideTable) sources += source_html(row.title, row.source);
+  save(job, video.level, body, sources);
 }

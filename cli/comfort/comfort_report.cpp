@@ -6,21 +6,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "cli/console/print.h"
 #include "cli/options/eye_options.h"
 
-using ods::ComfortLevel, ods::ComfortReport, ods::ComfortRules, ods::Strain, ods::StrainedPlace;
+using ods::ComfortLevel, ods::ComfortRules, ods::JudgedPicture, ods::Strain, ods::StrainedPlace;
 using Json = nlohmann::ordered_json;
 
 namespace {
 
-std::string shares_text(const std::array<double, 4>& shares) {
+using Shares = ods::EnumArray<ComfortLevel, double>;
+
+std::string shares_text(const Shares& shares) {
   std::string text;
   for (const ComfortLevel level : ods::kComfortLevels) {
     text += fmt::format("{}{} {}", level == ComfortLevel::kOk ? "" : ", ", comfort_level_name(level),
-                        share_text(shares[static_cast<size_t>(level)]));
+                        share_text(shares[level]));
   }
   return text;
 }
@@ -28,21 +30,20 @@ std::string shares_text(const std::array<double, 4>& shares) {
 void print_place(const StrainedPlace& place) {
   const std::string cure = cure_text(place);
   const ods::StrainRow& strain = ods::strain_row(place.strain);
-  fmt::print("{}: {}, {:.2f} m away, {} ({} of the picture): {}, {:.3g} {}{}{}\n", comfort_level_name(place.level),
-             thing_text(place), place.distance, direction_text(place), share_text(place.share), strain.title,
-             place.value, strain.unit, cure.empty() ? "" : "; ", cure);
+  put_out(fmt::format("{}: {}, {:.2f} m away, {} ({} of the picture): {}, {:.3g} {}{}{}\n",
+                      comfort_level_name(place.level), thing_text(place), place.distance, direction_text(place),
+                      share_text(place.share), strain.title, place.value, strain.unit, cure.empty() ? "" : "; ", cure));
 }
 
-Json shares_json(const std::array<double, 4>& shares) {
+Json shares_json(const Shares& shares) {
   Json json;
-  for (const ComfortLevel level : ods::kComfortLevels) {
-    json[comfort_level_name(level)] = shares[static_cast<size_t>(level)];
-  }
+  for (const ComfortLevel level : ods::kComfortLevels) json[comfort_level_name(level)] = shares[level];
   return json;
 }
 
-Json place_json(const StrainedPlace& place) {
+Json place_json(const JudgedPicture& judged, const StrainedPlace& place) {
   return {{"name", place.name},
+          {"eye", ods::eye_name(judged.verdict.per_eye[place.eye].eye)},
           {"level", comfort_level_name(place.level)},
           {"strain", ods::strain_row(place.strain).name},
           {"value", place.value},
@@ -77,7 +78,7 @@ std::string cure_text(const StrainedPlace& place) {
 }
 
 std::string measured_text(const ods::MeasuredEyes& eyes) {
-  std::string text = "No word says how the eyes were placed; measured from the pixels: ";
+  std::string text = "The file does not record how the eyes were placed; measured from the pixels: ";
   const ods::StereoCamera& camera = eyes.camera;
   text += camera.convergence == ods::kParallel
               ? fmt::format("eyes {:.3g} m apart", camera.ipd)
@@ -88,65 +89,74 @@ std::string measured_text(const ods::MeasuredEyes& eyes) {
                             std::max(1.0, 100.0 * eyes.error), eyes.up, eyes.down);
 }
 
-std::vector<std::string> cure_lines(const ComfortJob& job, const Looked& looked, const ComfortReport& report) {
+std::vector<std::string> cure_lines(const ComfortJob& job, const JudgedPicture& judged) {
+  const ods::ComfortVerdict& verdict = judged.verdict;
   std::vector<std::string> lines;
-  for (const std::string& name : looked.hidden) {
+  for (const std::string& name : judged.hidden) {
     lines.push_back(
         fmt::format("'{}' reaches into the circle of the eyes, where nothing is seen: move it, or the camera", name));
   }
-  if (ods::worst_level(report) < ComfortLevel::kWarning) return lines;
+  if (!verdict.worst() || verdict.worst()->level < ComfortLevel::kWarning) return lines;
   const bool is_rule = job.comfort.rules != ComfortRules::kStrain;
+  const double ipd = std::floor(1e3 * double{verdict.largest_ipd}) / 1e3;
   lines.push_back("move these things, or the camera" +
-                  (is_rule ? ""
-                           : fmt::format("; or --ipd {:.3g} instead of {:.3g}",
-                                         std::floor(1e3 * double{report.largest_ipd}) / 1e3, looked.camera.ipd)));
-  const double limit = ods::strain_limits(Strain::kVertical, job.comfort.viewer).warning;
-  if (report.most[static_cast<size_t>(Strain::kVertical)] > limit) {
-    lines.push_back("of what is above or below: --merge auto, as much stereo as the distances there allow");
+                  (is_rule ? "" : fmt::format("; or --ipd {:.3g} instead of {:.3g}", ipd, judged.camera.ipd)));
+  if (verdict.max[Strain::kVertical] > ods::strain_limits(Strain::kVertical, job.comfort.viewer).warning) {
+    lines.emplace_back("above and below: --merge auto keeps as much stereo as the distances there allow");
   }
   return lines;
 }
 
 // --- for people and for programs -------------------------------------------------------------------------------------
 
-void print_text(const ComfortJob& job, const Looked& looked, const ComfortReport& report) {
-  fmt::print("{}: {}; eyes {:.3g} m apart, nearest {:.2f} m\n", job.scene.name,
-             comfort_level_name(verdict(job, looked, report)), looked.camera.ipd, report.nearest);
-  if (!looked.why_matched.empty()) fmt::print("{}: judged by matching them\n", looked.why_matched);
-  if (looked.measured) fmt::print("{}\n", measured_text(*looked.measured));
-  if (looked.match) {
-    fmt::print("by matching: +-{:.0f} minutes of arc; {:.0f} % of the picture could be matched\n",
-               looked.match->precision, 100.0 * looked.match->share);
-    if (const ComfortLevel level = apart_level(job, *looked.match); level > ComfortLevel::kOk) {
-      fmt::print("{}: one eye sees things {:.0f} minutes of arc higher than the other: ods lint has the cure\n",
-                 comfort_level_name(level), looked.match->apart);
+void print_text(const ComfortJob& job, const JudgedPicture& judged) {
+  const ods::ComfortVerdict& verdict = judged.verdict;
+  put_out(fmt::format("{}: {}; eyes {:.3g} m apart, nearest {:.2f} m\n", job.scene.name,
+                      comfort_level_name(verdict.level), judged.camera.ipd, verdict.nearest));
+  if (!judged.why_matched.empty()) put_out(fmt::format("{}: judged by matching them\n", judged.why_matched));
+  if (judged.measured) put_out(fmt::format("{}\n", measured_text(*judged.measured)));
+  if (verdict.match) {
+    put_out(fmt::format("by matching: +-{:.0f} minutes of arc; {:.0f} % of the picture could be matched\n",
+                        verdict.match->precision, 100.0 * verdict.match->share));
+    if (verdict.apart > ComfortLevel::kOk) {
+      put_out(
+          fmt::format("{}: one eye sees things {:.0f} minutes of arc higher than the other: ods lint has the cure\n",
+                      comfort_level_name(verdict.apart), verdict.match->apart));
     }
   }
-  fmt::print("{} of the picture, by solid angle; where people look: {}\n", shares_text(report.share),
-             shares_text(report.looked));
-  if (report.head_roll > 0.0 && report.head_roll < 89.0) {
-    fmt::print("a head may tilt sideways by {:.2g} degrees before the eyes must turn apart vertically too far\n",
-               report.head_roll);
+  const std::vector<ods::EyeComfort>& eyes = verdict.per_eye;
+  if (eyes.size() == 2 && eyes[0].level != eyes[1].level) {
+    put_out(fmt::format("{} eye: {}; {} eye: {}\n", ods::eye_name(eyes[0].eye), comfort_level_name(eyes[0].level),
+                        ods::eye_name(eyes[1].eye), comfort_level_name(eyes[1].level)));
   }
-  for (const StrainedPlace& place : report.places) print_place(place);
-  for (const std::string& cure : cure_lines(job, looked, report)) fmt::print("cure: {}\n", cure);
+  put_out(fmt::format("{} of the picture, by solid angle; where people look: {}\n", shares_text(verdict.share),
+                      shares_text(verdict.looked)));
+  if (verdict.head_roll > 0.0 && verdict.head_roll < 89.0) {
+    put_out(
+        fmt::format("a head may tilt sideways by {:.2g} degrees before the eyes must turn apart vertically too far\n",
+                    verdict.head_roll));
+  }
+  for (const StrainedPlace& place : verdict.places) print_place(place);
+  for (const std::string& cure : cure_lines(job, judged)) put_out(fmt::format("cure: {}\n", cure));
 }
 
-void print_json(const ComfortJob& job, const Looked& looked, const ComfortReport& report) {
+void print_json(const ComfortJob& job, const JudgedPicture& judged) {
+  const ods::ComfortVerdict& verdict = judged.verdict;
   const ods::Viewer& viewer = job.comfort.viewer;
-  Json json = {{"path", job.scene.name},      {"level", comfort_level_name(verdict(job, looked, report))},
-               {"ipd", looked.camera.ipd},    {"viewer_ipd", viewer.ipd},
+  Json json = {{"path", job.scene.name},      {"level", comfort_level_name(verdict.level)},
+               {"ipd", judged.camera.ipd},    {"viewer_ipd", viewer.ipd},
                {"gaze", viewer.gaze_degrees}, {"roll", viewer.roll_degrees}};
   json["focus"] = std::isfinite(viewer.focus) ? Json(viewer.focus) : Json("infinity");
-  json["nearest"] = std::isfinite(report.nearest) ? Json(report.nearest) : Json();
-  json["unknown"] = report.unknown;
-  if (looked.match) {
-    json["matched"] = {
-        {"share", looked.match->share}, {"precision", looked.match->precision}, {"apart", looked.match->apart}};
-    if (!looked.why_matched.empty()) json["matched"]["why"] = looked.why_matched;
+  json["nearest"] = std::isfinite(verdict.nearest) ? Json(verdict.nearest) : Json();
+  json["unknown"] = verdict.unknown;
+  for (const ods::EyeComfort& eye : verdict.per_eye)
+    json["eyes"][ods::eye_name(eye.eye)] = comfort_level_name(eye.level);
+  if (const std::optional<ods::MatchQuality>& match = verdict.match) {
+    json["matched"] = {{"share", match->share}, {"precision", match->precision}, {"apart", match->apart}};
+    if (!judged.why_matched.empty()) json["matched"]["why"] = judged.why_matched;
   }
-  if (looked.measured) {
-    const ods::MeasuredEyes& eyes = *looked.measured;
+  if (judged.measured) {
+    const ods::MeasuredEyes& eyes = *judged.measured;
     json["measured"] = {{"merged", eyes.is_known ? Json(eyes.is_merged) : Json()},
                         {"convergence", ods::convergence_name(eyes.camera.convergence)},
                         {"error", eyes.error},
@@ -158,25 +168,17 @@ void print_json(const ComfortJob& job, const Looked& looked, const ComfortReport
       }
     }
   }
-  json["largest_ipd"] = report.largest_ipd;
-  json["head_roll"] = report.head_roll;
-  json["share"] = shares_json(report.share), json["looked"] = shares_json(report.looked);
+  json["largest_ipd"] = verdict.largest_ipd;
+  json["head_roll"] = verdict.head_roll;
+  json["share"] = shares_json(verdict.share);
+  json["looked"] = shares_json(verdict.looked);
   for (const ods::StrainRow& strain : ods::kStrainTable) {
     const bool is_rule = strain.member == Strain::kRule;
     if (is_rule == (job.comfort.rules == ComfortRules::kStrain)) continue;
-    json["most"][strain.name] = report.most[static_cast<size_t>(strain.member)];
+    json["most"][strain.name] = verdict.max[strain.member];
   }
   json["places"] = Json::array();
-  for (const StrainedPlace& place : report.places) json["places"].push_back(place_json(place));
-  json["hidden"] = looked.hidden;
-  std::puts(json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
-}
-
-ComfortLevel apart_level(const ComfortJob& job, const MatchQuality& match) {
-  return ods::level_of(match.apart, ods::strain_limits(Strain::kVertical, job.comfort.viewer));
-}
-
-ComfortLevel verdict(const ComfortJob& job, const Looked& looked, const ComfortReport& report) {
-  const ComfortLevel level = ods::worst_level(report);
-  return looked.match ? std::max(level, apart_level(job, *looked.match)) : level;
+  for (const StrainedPlace& place : verdict.places) json["places"].push_back(place_json(judged, place));
+  json["hidden"] = judged.hidden;
+  put_json(json);
 }

@@ -7,22 +7,19 @@
 #include <vector>
 
 #include "cli/comfort/comfort_job.h"
-#include "cli/comfort/judged.h"
+#include "ods/comfort/judge_picture.h"
 
-// Of everything that was looked at; of the difference in height of eyes that were matched.
-ods::ComfortLevel verdict(const ComfortJob& job, const Looked& looked, const ods::ComfortReport& report);
-ods::ComfortLevel apart_level(const ComfortJob& job, const MatchQuality& match);
+void print_text(const ComfortJob& job, const ods::JudgedPicture& judged);
+void print_json(const ComfortJob& job, const ods::JudgedPicture& judged);
 
-void print_text(const ComfortJob& job, const Looked& looked, const ods::ComfortReport& report);
-void print_json(const ComfortJob& job, const Looked& looked, const ods::ComfortReport& report);
-
-// Of a place, in words: "23 degrees right, 12 down"; "'Lamp'" or "an area"; "<0.1 %".
+// "23 degrees right, 12 down"; "'Lamp'" or "an area"; "<0.1 %".
 std::string direction_text(const ods::StrainedPlace& place);
 std::string thing_text(const ods::StrainedPlace& place);
 std::string share_text(double share);
 
-// What would help against it: empty for a caution, which may stay; against all of it.
+// The cure of a place; empty for a caution, which may stay.
 std::string cure_text(const ods::StrainedPlace& place);
-// How a picture's eyes were placed, as its pixels tell.
+// The cures of the whole picture.
+std::vector<std::string> cure_lines(const ComfortJob& job, const ods::JudgedPicture& judged);
+// Describes the placement of a picture's eyes as measured from its pixels.
 std::string measured_text(const ods::MeasuredEyes& eyes);
-std::vector<std::string> cure_lines(const ComfortJob& job, const Looked& looked, const ods::ComfortReport& report);

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "cli/comfort/comfort_report.h"
+#include "cli/console/print.h"
 
 using Json = nlohmann::ordered_json;
 
@@ -25,10 +25,15 @@ Json moment_json(const ods::VideoMoment& moment) {
                {"vergence", moment.vergence}, {"vertical", moment.vertical},
                {"middle", moment.middle}};
   if (moment.is_carried) {
-    json["turn"] = moment.turn, json["tilt"] = moment.tilt;
-    json["speed"] = moment.speed, json["acceleration"] = moment.acceleration;
+    json["turn"] = moment.turn;
+    json["tilt"] = moment.tilt;
+    json["speed"] = moment.speed;
+    json["acceleration"] = moment.acceleration;
   }
-  if (moment.cut) json["cut"] = *moment.cut, json["cut_at"] = moment.cut_at;
+  if (moment.cut) {
+    json["cut"] = *moment.cut;
+    json["cut_at"] = moment.cut_at;
+  }
   return json;
 }
 
@@ -53,9 +58,9 @@ std::string strain_text(const ods::VideoStrain& strain) {
 void print_text(const ComfortJob& job, const ods::VideoComfort& video) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const ods::VideoMoment& moment : video.moments) nearest = std::min(nearest, moment.nearest);
-  fmt::print("{}: {}; eyes {:.3g} m apart, nearest {:.2f} m\n", job.scene.name, comfort_level_name(worst_level(video)),
-             video.camera.ipd, nearest);
-  fmt::print("{}\n", looked_text(video));
+  put_out(fmt::format("{}: {}; eyes {:.3g} m apart, nearest {:.2f} m\n", job.scene.name,
+                      comfort_level_name(video.level), video.worst.camera.ipd, nearest));
+  put_out(fmt::format("{}\n", looked_text(video)));
   for (const ods::VideoStrain& strain : video.strains) {
     std::string place;
     if (strain.place) {
@@ -63,15 +68,16 @@ void print_text(const ComfortJob& job, const ods::VideoComfort& video) {
       place = fmt::format(", {:.2f} m away, {}{}{}", strain.place->distance, direction_text(*strain.place),
                           cure.empty() ? "" : "; ", cure);
     }
-    fmt::print("{}: {}: {}{}\n", comfort_level_name(strain.level), times_text(strain), strain_text(strain), place);
+    put_out(fmt::format("{}: {}: {}{}\n", comfort_level_name(strain.level), times_text(strain), strain_text(strain),
+                        place));
   }
 }
 
 void print_json(const ComfortJob& job, const ods::VideoComfort& video) {
-  Json json = {{"path", job.scene.name},       {"level", comfort_level_name(worst_level(video))},
-               {"ipd", video.camera.ipd},      {"frames", video.frames},
-               {"seconds", video.seconds},     {"every", video.every},
-               {"precision", video.precision}, {"moments", Json::array()},
+  Json json = {{"path", job.scene.name},        {"level", comfort_level_name(video.level)},
+               {"ipd", video.worst.camera.ipd}, {"frames", video.frames},
+               {"seconds", video.seconds},      {"every", video.every},
+               {"precision", video.precision},  {"moments", Json::array()},
                {"strains", Json::array()}};
   for (const ods::VideoMoment& moment : video.moments) json["moments"].push_back(moment_json(moment));
   for (const ods::VideoStrain& strain : video.strains) {
@@ -81,9 +87,10 @@ void print_json(const ComfortJob& job, const ods::VideoComfort& video) {
                  {"unit", strain.unit}};
     if (strain.place) {
       each["distance"] = strain.place->distance;
-      each["azimuth"] = strain.place->azimuth, each["elevation"] = strain.place->elevation;
+      each["azimuth"] = strain.place->azimuth;
+      each["elevation"] = strain.place->elevation;
     }
     json["strains"].push_back(std::move(each));
   }
-  std::puts(json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+  put_json(json);
 }

@@ -11,6 +11,7 @@
 
 #include "cli/compose/over_job.h"
 #include "cli/compose/over_video.h"
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
@@ -27,7 +28,7 @@ namespace {
 void lay(const OverJob& job, const std::optional<StoredPicture>& front, const StoredPicture& back,
          const std::string& output, bool is_first) {
   ods::SaveOptions save = job.save;
-  save_as_it_was(back, back.camera.projection, output, job.layout, job.has_tone, save);
+  save_as_it_was(back, back.camera.projection, output, job.layout, job.display, save);
   ods::Overlay overlay;
   if (front) {
     check_over(job, *front, back);
@@ -109,14 +110,10 @@ void lay_all(const OverJob& job, ProgressLines& lines) {
   lay_frame(job, back, front, 0, job.output, true);
 }
 
-void over(int argc, char** argv) {
-  OverJob job;
-  if (!read_over_job(job, argc, argv)) return;
+void over(const OverJob& job) {
   run_long_job(job.progress, job.threads, [&](ProgressLines& lines) { lay_all(job, lines); });
 }
 
 }  // namespace
 
-int ods_over(int argc, char** argv) {
-  return run_command([=] { over(argc, argv); });
-}
+extern const Command kOver = make_command<parse_over, over>("over", "composite a picture or video over another");

@@ -28,8 +28,9 @@ constexpr const char* kOverSummary =
 
 }  // namespace
 
-bool read_over_job(OverJob& job, int argc, char** argv) {
-  Options options("over", kOverSummary, kOverExamples);
+OverJob parse_over(Options& options) {
+  OverJob job;
+  options.describe(kOverSummary, kOverExamples);
   options.argument(ValueKind::input_file("FOREGROUND"), job.foreground,
                    "a picture, frames or a video with alpha, such as those of ods title and ods render --transparent");
   options.argument(ValueKind::input_file("BACKGROUND"), job.background,
@@ -52,21 +53,16 @@ bool read_over_job(OverJob& job, int argc, char** argv) {
   options.flag("--by-depth", job.over.by_depth,
                "hide foreground that is farther away than the background; both need depth");
   options.number("--opacity", job.over.opacity, 0.0f, 1.0f, "opacity of the foreground");
-  options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
-                 "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
-  options.choice("--tone", job.save.tone, ods::kToneCurveTable,
-                 "tone curve, when converting .hdr or .exr to another format");
+  add_display_options(options, job.display);
   options.group("Video (by default encoded like the background)");
   add_packing_options(options, job.video);
   options.group("Console");
   options.number("--threads", job.threads, 0, 1024, "number of threads; 0: all processors");
   add_progress_options(options, job.progress);
-  if (!options.parse(argc, argv)) return false;
-  job.has_tone = options.given("--tone"), job.has_exposure = options.given("--exposure");
-  job.has_target = options.given("--target");
+  options.parse();
   if (job.output.empty()) throw UsageError("no output file: add -o picture.png");
   check_share(job.share, job.background, job.output);
-  return true;
+  return job;
 }
 
 void check_over(const OverJob& job, const ods::StoredPicture& first, const ods::StoredPicture& background) {

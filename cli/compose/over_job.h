@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/console/progress.h"
+#include "cli/options/picture_options.h"
 #include "cli/options/share_options.h"
 #include "cli/options/video_options.h"
 #include "ods/compose/over.h"
@@ -21,15 +22,13 @@ struct OverJob {
   ods::OverOptions over;
   ods::SaveOptions save;
   std::optional<ods::Layout> layout;
-  bool has_tone = false, has_exposure = false;
+  DisplayOptions display;
   VideoWishes video;
-  bool has_target = false;
   int threads = 0;
   ProgressMode progress = ProgressMode::kAuto;
 };
 
-// False if help was requested. Throws UsageError and ods::Error.
-bool read_over_job(OverJob& job, int argc, char** argv);
+OverJob parse_over(Options& options);
 
 // Throws UsageError if the two cannot be composited. `first` is the foreground's first picture,
 // or a template of a video's.

@@ -36,7 +36,7 @@ VideoWishes wishes_for(const OverJob& job, const VideoInput& video, const VideoS
   VideoWishes wishes = job.video;
   wishes.output = job.output;
   wishes.keep.cut.is_cut = job.frames.has_value();
-  return wishes_like(wishes, video, stream, job.has_target);
+  return wishes_like(wishes, video, stream);
 }
 
 ods::VideoPlan plan_like(const VideoInput& video, const VideoStream& stream) {
@@ -50,7 +50,7 @@ ods::VideoPlan plan_like(const VideoInput& video, const VideoStream& stream) {
 }
 
 void check_job(const OverJob& job, const VideoInput& video) {
-  if (job.has_tone || job.has_exposure)
+  if (job.display.tone || job.display.exposure)
     throw UsageError("--exposure and --tone are for scene-linear frames, not for videos");
   if (job.layout && *job.layout != video.prototype.layout) {
     throw UsageError(fmt::format("the video stays {}; --to-layout needs frames as output (-o 'x.####.png')",

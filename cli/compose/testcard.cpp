@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "cli/compose/testcard_video.h"
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/camera_options.h"
@@ -32,34 +33,33 @@ constexpr const char* kTestcardSummary =
 
 struct TestcardJob {
   std::string output;
-  ods::RenderOptions picture;
+  PictureForm form;
+  ods::RenderOptions picture;  // only its size and eyes
   ods::SaveOptions save;
   CameraOptions camera;
   TestcardVideoWishes video;
 };
 
-bool read_options(TestcardJob& job, int argc, char** argv) {
-  Options options("testcard", kTestcardSummary, kTestcardExamples);
+TestcardJob parse_testcard(Options& options) {
+  TestcardJob job;
+  options.describe(kTestcardSummary, kTestcardExamples);
   options.group("Picture");
   options.text("-o,--output", ValueKind::output_file(), job.output,
                "output file: .png .jpg .tif .webp .hdr .exr, or a video; %V in the name writes one file per eye");
-  job.picture.width = 4096;
-  add_picture_options(options, job.picture, job.save);
+  add_picture_options(options, job.form, job.save.sidecar, "4096");
   add_sceneless_camera_options(options, job.camera);
   add_testcard_video_options(options, job.video);
   options.group("Console");
   options.number("--threads", job.video.threads, 0, 1024, "number of threads; 0: all processors");
   add_progress_options(options, job.video.progress);
-  if (!options.parse(argc, argv)) return false;
+  options.parse();
   if (job.output.empty()) throw UsageError("no output file: add -o card.png");
-  finish_picture_options(options, job.camera.stereo.projection, job.picture, job.save);
-  finish_camera_options(job.camera, job.picture.width, job.picture.height);
   job.video.is_video = job.video.is_video || ods::container_of_path(job.output).has_value();
   job.video.video.output = job.output;
   if (job.video.is_video && job.save.sidecar)
     throw UsageError("--sidecar is for pictures; a video carries its own metadata");
   job.save.tone = ods::ToneCurve::kLinear;  // so that the greys have exactly the code values on their labels
-  return true;
+  return job;
 }
 
 std::vector<std::string> lettering(const TestcardJob& job, const ods::StereoCamera& stereo, ods::Extent eye,
@@ -91,9 +91,8 @@ void draw(const TestcardJob& job, const ods::StereoCamera& stereo, ods::Extent e
   for (const std::string& file : save_picture(rows, &stereo, job.save, job.output)) announce_file(file);
 }
 
-void testcard(int argc, char** argv) {
-  TestcardJob job;
-  if (!read_options(job, argc, argv)) return;
+void testcard(TestcardJob job) {
+  use_form(job.form, 4096, job.camera, job.picture, job.save);
   const ods::StereoCamera stereo = place_camera(job.camera);
   const ods::Extent eye{job.picture.width, job.picture.height};
   const std::vector<int> eyes = ods::eye_list(job.picture.eyes);
@@ -108,6 +107,5 @@ void testcard(int argc, char** argv) {
 
 }  // namespace
 
-int ods_testcard(int argc, char** argv) {
-  return run_command([=] { testcard(argc, argv); });
-}
+extern const Command kTestcard =
+    make_command<parse_testcard, testcard>("testcard", "make a test card for players and headsets");

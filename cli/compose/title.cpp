@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "cli/compose/title_job.h"
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/options/picture_options.h"
 #include "ods/files/frames.h"
@@ -45,10 +46,11 @@ void warn_if_too_wide(const ods::Title& title) {
 // The opacity at the middle of a frame, timed from the start of the first.
 float fade(const TitleJob& job, int frame) {
   const auto [first, last] = std::minmax_element(job.frames->begin(), job.frames->end());
-  const float at = (static_cast<float>(frame - *first) + 0.5f) / job.fps;
-  const float left = (static_cast<float>(*last - frame) + 0.5f) / job.fps;
-  const float in = job.fade_in > 0.0f ? at / job.fade_in : 1.0f, out = job.fade_out > 0.0f ? left / job.fade_out : 1.0f;
-  return std::clamp(std::min(in, out), 0.0f, 1.0f);
+  const float fps = job.fps.value_or(30.0f);
+  const float at = (static_cast<float>(frame - *first) + 0.5f) / fps;
+  const float left = (static_cast<float>(*last - frame) + 0.5f) / fps;
+  const auto share = [](float seconds, std::optional<float> fade) { return fade > 0.0f ? seconds / *fade : 1.0f; };
+  return std::clamp(std::min(share(at, job.fade_in), share(left, job.fade_out)), 0.0f, 1.0f);
 }
 
 void save(const TitleJob& job, const ods::Title& title, const ods::StereoCamera& stereo, const std::string& path) {
@@ -63,9 +65,8 @@ void save(const TitleJob& job, const ods::Title& title, const ods::StereoCamera&
   for (const std::string& file : save_picture(rows, &stereo, job.save, path)) announce_file(file);
 }
 
-void title(int argc, char** argv) {
-  TitleJob job;
-  if (!read_title_job(job, argc, argv)) return;
+void title(TitleJob job) {
+  use_form(job.form, 4096, job.camera, job.picture, job.save);
   const ods::StereoCamera stereo = place_camera(job.camera);
   const ods::Extent eye{job.picture.width, job.picture.height};
   const std::vector<int> eyes = ods::eye_list(job.picture.eyes);
@@ -83,6 +84,4 @@ void title(int argc, char** argv) {
 
 }  // namespace
 
-int ods_title(int argc, char** argv) {
-  return run_command([=] { title(argc, argv); });
-}
+extern const Command kTitle = make_command<parse_title, title>("title", "make a title with depth for stereo 360");

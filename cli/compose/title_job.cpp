@@ -74,15 +74,16 @@ void add_frame_options(Options& options, TitleJob& job) {
   options.custom(
       "--frames", "RANGE", "", [&](const std::string& text) { job.frames = ods::parse_frames(text); },
       "frames to write: 1-100, 1-100x2, ...; the name needs ####");
-  options.number("--fps", job.fps, 0.01f, 1000.0f, "frames per second");
-  options.number("--fade-in", job.fade_in, 0.0f, 1e5f, "length, seconds");
-  options.number("--fade-out", job.fade_out, 0.0f, 1e5f, "length, seconds");
+  options.number("--fps", job.fps, 0.01f, 1000.0f, "frames per second", "30");
+  options.number("--fade-in", job.fade_in, 0.0f, 1e5f, "length, seconds", "0");
+  options.number("--fade-out", job.fade_out, 0.0f, 1e5f, "length, seconds", "0");
 }
 
 }  // namespace
 
-bool read_title_job(TitleJob& job, int argc, char** argv) {
-  Options options("title", kTitleSummary, kTitleExamples);
+TitleJob parse_title(Options& options) {
+  TitleJob job;
+  options.describe(kTitleSummary, kTitleExamples);
   add_text_options(options, job);
   bool flat = false;
   options.flag(
@@ -92,20 +93,17 @@ bool read_title_job(TitleJob& job, int argc, char** argv) {
   options.group("Picture");
   options.text("-o,--output", ValueKind::output_file(), job.output,
                "output file: .exr .png .tif .webp; %V in the name writes one file per eye");
-  job.picture.width = 4096;
-  add_picture_options(options, job.picture, job.save);
+  add_picture_options(options, job.form, job.save.sidecar, "4096");
   add_sceneless_camera_options(options, job.camera);
   options.group("Console");
   add_console_options(options);
-  if (!options.parse(argc, argv)) return false;
+  options.parse();
   if (job.output.empty()) throw UsageError("no output file: add -o title.exr");
   if (!ods::has_alpha(job.output)) throw UsageError("a title needs a format with alpha: .exr, .png, .tif or .webp");
-  const bool fades = options.given("--fps") || options.given("--fade-in") || options.given("--fade-out");
-  if (fades && !job.frames) throw UsageError("--fps and fades need --frames, as 1-100");
+  if ((job.fps || job.fade_in || job.fade_out) && !job.frames)
+    throw UsageError("--fps and fades need --frames, as 1-100");
   job.text = with_newlines(job.text);
   job.title.curved = !flat;
   job.save.tone = ods::ToneCurve::kLinear;  // so that a colour is shown as given
-  finish_picture_options(options, job.camera.stereo.projection, job.picture, job.save);
-  finish_camera_options(job.camera, job.picture.width, job.picture.height);
-  return true;
+  return job;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/options/camera_options.h"
+#include "cli/options/picture_options.h"
 #include "ods/compose/title.h"
 #include "ods/picture/save.h"
 #include "ods/render/render_options.h"
@@ -18,13 +19,12 @@ struct TitleJob {
   ods::TitleSetting title;
   ods::LetteringOptions lettering;
   std::optional<std::vector<int>> frames;
-  float fps = 30.0f;
-  float fade_in = 0.0f;  // seconds
-  float fade_out = 0.0f;
-  ods::RenderOptions picture;
+  std::optional<float> fps;                // by default 30
+  std::optional<float> fade_in, fade_out;  // seconds; by default 0
+  PictureForm form;
+  ods::RenderOptions picture;  // only its size and eyes
   ods::SaveOptions save;
   CameraOptions camera;
 };
 
-// False if help was requested. Throws UsageError and ods::Error.
-bool read_title_job(TitleJob& job, int argc, char** argv);
+TitleJob parse_title(Options& options);

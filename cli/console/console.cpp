@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/console/console.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -12,9 +14,10 @@
 #include <string_view>
 #include <system_error>
 
-#include "cli/console/checked_words.h"
 #include "cli/console/exit_code.h"
+#include "cli/console/print.h"
 #include "ods/base/error.h"
+#include "ods/base/quote.h"
 #include "ods/base/text.h"
 #include "ods/files/atomic_file.h"
 
@@ -27,12 +30,13 @@ bool stderr_is_terminal() {
 
 namespace {
 
+constexpr const char* kThreadLimit = "the limit on memory or processes is reached; --threads N starts fewer";
+
 void print_json(const nlohmann::ordered_json& line) {
-  // File names need not be valid UTF-8.
-  std::fprintf(stderr, "%s\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+  put_error("", ods::json_document(line) + "\n");
 }
 
-int fail(ExitCode code, const std::string& what) {
+ExitCode fail(ExitCode code, const std::string& what) {
   const std::string text = with_options(what);
   if (console.json) {
     print_json({{"error", text}, {"exit_code", static_cast<int>(code)}});
@@ -40,15 +44,27 @@ int fail(ExitCode code, const std::string& what) {
   }
   const char* no_color = std::getenv("NO_COLOR");
   bool color = stderr_is_terminal() && !console.no_color && !(no_color && *no_color);
-  std::fprintf(stderr, "ods: %s %s\n", color ? "\x1b[1;31merror:\x1b[0m" : "error:", ods::one_line(text).c_str());
+  put_error(color ? "ods: \x1b[1;31merror:\x1b[0m " : "ods: error: ", ods::one_line(text) + "\n");
   return code;
 }
 
+// The error as a whole, in both forms.
+struct MemoryError {
+  std::string plain = "ods: error: not enough memory; a smaller scene or picture needs less\n";
+  std::string json = "{\"error\":\"not enough memory; a smaller scene or picture needs less\",\"exit_code\":1}\n";
+};
+
+std::string inputs;  // "'a.png', 'b.png'"
+
+MemoryError memory_error;
+
+std::string for_inputs() {
+  return inputs.empty() ? "" : " for " + inputs;
+}
+
 // Must not allocate.
-int fail_without_memory() {
-  const std::string_view plain = "ods: error: not enough memory; a smaller scene or picture needs less\n";
-  const std::string_view json = "{\"error\":\"not enough memory; a smaller scene or picture needs less\"}\n";
-  const std::string_view line = console.json ? json : plain;
+ExitCode fail_without_memory() {
+  const std::string_view line = console.json ? memory_error.json : memory_error.plain;
   const ssize_t ignored = write(STDERR_FILENO, line.data(), line.size());
   static_cast<void>(ignored);
   return kExitFailure;
@@ -63,7 +79,11 @@ int fail_without_memory() {
     ods::remove_unfinished_files();
     _exit(fail_without_memory());
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "ods: terminated: %s\n", error.what());
+    if (std::string_view(error.what()).starts_with("pthread_create")) {  // oneTBB, in a function that must not throw
+      ods::remove_unfinished_files();
+      _exit(fail(kExitFailure, std::string("cannot start a thread: ") + kThreadLimit));
+    }
+    put_error("ods: terminated: ", std::string(error.what()) + "\n");
   } catch (...) {
   }
   std::abort();
@@ -78,13 +98,25 @@ ExitCode exit_code(ods::ErrorKind kind) {
     case ods::ErrorKind::kOutput:
       return kExitOutput;
     case ods::ErrorKind::kMemory:
-    case ods::ErrorKind::kCancelled:  // nobody cancels: interrupts end the process themselves
+    case ods::ErrorKind::kCancelled:  // cannot happen: interrupts end the process themselves
       return kExitFailure;
   }
   return kExitFailure;
 }
 
 }  // namespace
+
+void name_inputs(const std::vector<std::string>& files) {
+  constexpr size_t kMax = 3;  // more would hide the message
+  std::vector<std::string> names;
+  for (const std::string& file : files) names.push_back(fmt::format("'{}'", ods::one_line(file)));
+  if (names.size() > kMax) names.resize(kMax), names.emplace_back("...");
+  inputs = fmt::format("{}", fmt::join(names, ", "));
+  const std::string text = fmt::format("not enough memory{}; a smaller scene or picture needs less", for_inputs());
+  memory_error.plain = fmt::format("ods: error: {}\n", text);
+  const nlohmann::ordered_json json = {{"error", text}, {"exit_code", static_cast<int>(kExitFailure)}};
+  memory_error.json = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
 
 std::string with_options(const std::string& text) {
   std::string result;
@@ -101,23 +133,20 @@ std::string with_options(const std::string& text) {
 void note(const std::string& text) {
   if (console.quiet) return;
   if (console.json) return print_json({{"note", with_options(text)}});
-  std::fprintf(stderr, "ods: %s\n", ods::one_line(with_options(text)).c_str());
+  put_error("ods: ", ods::one_line(with_options(text)) + "\n");
 }
 
 void warn(const std::string& text) {
   if (console.quiet) return;
   if (console.json) return print_json({{"warning", with_options(text)}});
-  std::fprintf(stderr, "ods: warning: %s\n", ods::one_line(with_options(text)).c_str());
+  put_error("ods: warning: ", ods::one_line(with_options(text)) + "\n");
 }
 
 void announce_file(const std::string& file) {
-  if (console.quiet) return;
-  std::puts(file.c_str());
-  std::fflush(stdout);  // a program may be waiting for it
+  if (!console.quiet) put_path(file);
 }
 
-int run_to_exit_code(const std::function<ExitCode()>& body) {
-  if (only_checks()) return body();
+ExitCode run_to_exit_code(const std::function<ExitCode()>& body) {
   std::set_terminate(end_without_memory);
   try {
     const ExitCode code = body();
@@ -131,7 +160,7 @@ int run_to_exit_code(const std::function<ExitCode()>& body) {
     return fail_without_memory();
   } catch (const std::system_error& error) {
     if (error.code() != std::errc::resource_unavailable_try_again) return fail(kExitFailure, error.what());
-    return fail(kExitFailure, "cannot start a thread: the limit on memory or processes is reached");
+    return fail(kExitFailure, fmt::format("cannot start a thread{}: {}", for_inputs(), kThreadLimit));
   } catch (const std::exception& error) {
     return fail(kExitFailure, error.what());
   }

@@ -5,7 +5,7 @@
 #pragma once
 #include <functional>
 #include <string>
-#include <type_traits>
+#include <vector>
 
 #include "cli/console/exit_code.h"
 #include "ods/base/error.h"
@@ -23,11 +23,14 @@ struct Console {
 
 extern Console console;
 
-// Whether stderr is a terminal that can move its cursor.
+// The files that the command reads, for the message that memory has run out: then it is too late to make one.
+void name_inputs(const std::vector<std::string>& files);
+
+// Returns whether stderr is a terminal that can move its cursor.
 bool stderr_is_terminal();
 
-// The library names settings, `layout`; the command has them as options, --layout. Messages below are changed so;
-// what is printed in other ways goes through this.
+// Replaces the names of settings in messages of the library, `layout`, by the options of the command, --layout. The
+// functions below do it themselves; text that is printed in other ways must pass through this.
 std::string with_options(const std::string& text);
 
 // "ods: text" or {"note":"text"}, unless quiet.
@@ -41,14 +44,4 @@ void announce_file(const std::string& file);
 
 // Runs a command's body and returns its exit code. An exception becomes one line on stderr, "ods: error: text" or
 // {"error":"text","exit_code":3}, and the matching exit code (cli/console/exit_code.h).
-int run_to_exit_code(const std::function<ExitCode()>& body);
-
-// A body that returns nothing has succeeded when it returns.
-template <class Body>
-int run_command(const Body& body) {
-  if constexpr (std::is_void_v<std::invoke_result_t<Body>>) {
-    return run_to_exit_code([&] { return body(), kExitOk; });
-  } else {
-    return run_to_exit_code(body);
-  }
-}
+ExitCode run_to_exit_code(const std::function<ExitCode()>& body);

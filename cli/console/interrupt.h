@@ -4,7 +4,7 @@
 // Handles Ctrl-C, kill and a terminal that goes away.
 #pragma once
 
-// Returns what is printed on stderr when a signal of this number ends the process.
+// Returns the text for stderr when a signal of this number ends the process.
 using LastWords = const char* (*)(int signal);
 const char* plain_last_words(int signal);  // "ods: interrupted"
 
@@ -17,7 +17,7 @@ void end_on_interrupts(LastWords last_words = plain_last_words);
 // one at a time.
 class GentleStop {
  public:
-  // words: a literal, for stderr when the first signal comes.
+  // words: a literal, printed on stderr at the first signal.
   explicit GentleStop(const char* words);
   ~GentleStop();
   GentleStop(const GentleStop&) = delete;

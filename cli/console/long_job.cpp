@@ -7,7 +7,6 @@
 #include <iostream>
 #include <optional>
 
-#include "cli/console/checked_words.h"
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
 #include "ods/base/names.h"
@@ -17,7 +16,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 void add_progress_options(Options& options, ProgressMode& mode) {
-  const auto set = [&mode](size_t i) {
+  const auto set = [&mode, &console = options.console()](size_t i) {
     mode = kProgressModes[i];
     console.json = mode == ProgressMode::kJson;
   };
@@ -39,7 +38,6 @@ static ProgressMode resolved(ProgressMode mode) {
 }
 
 void run_long_job(ProgressMode mode, int threads, const std::function<void(ProgressLines& lines)>& work) {
-  if (only_checks()) end_check();
   mode = resolved(mode);
   end_on_interrupts(interrupted_line(mode));
   std::optional<tbb::global_control> limit;

@@ -14,7 +14,7 @@ double seconds_since(std::chrono::steady_clock::time_point start);
 // Adds --progress, --quiet and --no-color to the current group.
 void add_progress_options(Options& options, ProgressMode& mode);
 
-// Adds --restart to the current group: an interrupted command otherwise goes on where it stopped.
+// Adds --restart to the current group: without it, an interrupted command resumes.
 void add_restart_option(Options& options, bool& restart);
 
 // Runs the work with this many threads (0: all) until it is done, fails or is interrupted. A failure is reported to the

@@ -35,10 +35,11 @@ struct ExitMeaning {
 
 constexpr ExitMeaning kExitMeanings[] = {
     {"0", "done"},
-    {"1", "anything else: not enough memory, a limit of ods compare, a fault that ods lint found"},
+    {"1", "anything else: not enough memory"},
     {"2", "the command line is wrong: a value, a conflict, a name that is unknown or not in the file"},
     {"3", "a file is absent, broken or not supported"},
     {"4", "a file could not be written"},
+    {"5", "the input was judged and has a fault: ods lint found one, a limit of ods compare is exceeded"},
     {"130", "interrupted (Ctrl-C), 143 terminated (SIGTERM), 129 hung up (SIGHUP)"}};
 
 const ManualEntry kHelpOption = {Kind::kOption, "-h,--help", "", "show this help"};
@@ -69,8 +70,7 @@ bool is_folder(const ManualEntry& entry) {
 
 // --- help ----------------------------------------------------------------------------------------------------------
 
-// A line that begins so, with the words of a text after it, and lines that begin at that column, all as a terminal
-// shows them.
+// A line with this beginning and a text after it, wrapped to lines that begin at that column, for a terminal.
 std::string wrapped(std::string line, size_t column, const std::string& text) {
   const size_t kLineWidth = 100;
   std::string rows;
@@ -85,7 +85,7 @@ std::string wrapped(std::string line, size_t column, const std::string& text) {
   return rows + line + "\n";
 }
 
-// One row of help: the name, and beside it the text. An argument's name is what it stands for.
+// One row of help: the name, and beside it the text. An argument's name describes its value.
 std::string help_row(const ManualEntry& entry) {
   const size_t kTextColumn = 30;
   const bool has_unit = entry.kind == Kind::kOption && !entry.value.unit.empty();
@@ -202,7 +202,7 @@ std::string bash_start(const std::vector<CommandSummary>& commands) {
       names);
 }
 
-// What follows an option: one of its values, a file, a folder, or anything; empty for a flag.
+// The completion after an option: one of its values, a file, a folder, or anything; empty for a flag.
 std::string bash_value(const ManualEntry& option) {
   if (option.value.unit.empty()) return "";
   if (!option.values.empty()) return fmt::format("values='{}'", fmt::join(option.values, " "));
@@ -212,7 +212,7 @@ std::string bash_value(const ManualEntry& option) {
 
 std::string bash_part(const Manual& manual) {
   std::vector<std::string> names;
-  std::map<std::string, std::vector<std::string>> options_with;  // of what may follow them
+  std::map<std::string, std::vector<std::string>> options_with;  // by their completion
   for (const ManualEntry& option : options_of(manual)) {
     for (const std::string& name : split(option.name, ',')) {
       names.push_back(name);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods says about its commands and their options: one table per command, written as help, as a man page or as a
-// part of a completion script for a shell. `ods --help=man`, `ods render --help=man`, `ods --help=bash` and
-// `ods --help=zsh` print the latter; the build and the package install them.
+// The documentation of the commands and their options: one table per command, written as help, as a man page or as a
+// part of a completion script for a shell. `ods --help=man`, `ods render --help=man`, `ods --help=bash` and `ods
+// --help=zsh` print the latter; the build and the package install them.
 #pragma once
 #include <optional>
 #include <string>
@@ -14,20 +14,20 @@
 
 enum class ManualFormat { kHelp, kMan, kBash, kZsh };
 
-// "--help" and "-h", or "--help=man", "--help=bash", "--help=zsh"; nothing for other words.
+// "--help" and "-h", or "--help=man", "--help=bash", "--help=zsh"; nullopt for other arguments.
 std::optional<ManualFormat> manual_format(std::string_view word);
 
 struct ManualEntry {
   enum class Kind { kHeading, kArgument, kOption };
   Kind kind;
-  std::string name;                      // "-o,--output"; "SCENE"; the words of a heading
-  ValueKind value = "";                  // of an option, or what an argument is
-  std::string text = {};                 // what it does
-  std::vector<std::string> values = {};  // what completion offers for it
+  std::string name;                      // "-o,--output"; "SCENE"; a heading's text
+  ValueKind value = "";                  // of an option or an argument
+  std::string text = {};                 // its description
+  std::vector<std::string> values = {};  // values that completion offers for it
   bool repeats = false;
 };
 
-// Of one command.
+// The manual of one command.
 struct Manual {
   std::string command;   // "render"
   std::string summary;   // sentences
@@ -42,6 +42,7 @@ struct CommandSummary {
   std::string name, summary;
 };
 
-// Of ods itself. A completion script goes on with write_manual() of every command, then end_of_overview().
+// Writes the manual of ods itself. In a completion script, write_manual() of every command and end_of_overview()
+// follow.
 std::string write_overview(const std::vector<CommandSummary>& commands, ManualFormat format);
 std::string end_of_overview(ManualFormat format);

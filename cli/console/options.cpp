@@ -10,13 +10,11 @@
 #include <charconv>
 #include <cstdio>
 
-#include "cli/console/checked_words.h"
-#include "cli/console/console.h"
 #include "ods/base/suggest.h"
 
 namespace {
 
-// Parses the whole word as a number.
+// Parses the whole text as a number.
 template <class T>
 std::optional<T> parse_number(std::string_view word) {
   T value{};
@@ -49,10 +47,16 @@ std::vector<float> parse_numbers(const std::string& text) {
   return numbers;
 }
 
-Options::Options(const std::string& command, const std::string& summary, const std::string& examples)
-    : app_(std::make_unique<CLI::App>("", "ods " + command)), manual_{command, summary, examples, "", {}} {
+Options::Options(std::string command, std::vector<std::string> words)
+    : words_(std::move(words)), app_(std::make_unique<CLI::App>("", "ods " + command)) {
+  manual_.command = std::move(command);
   app_->set_help_flag();  // CLI11's runs after the options' callbacks
   app_->add_flag_callback("-h,--help", [] { throw CLI::CallForHelp(); })->trigger_on_parse();  // for -qh
+}
+
+void Options::describe(const std::string& summary, const std::string& examples) {
+  manual_.summary = summary;
+  manual_.examples = examples;
 }
 
 Options::~Options() = default;
@@ -87,12 +91,6 @@ void Options::custom(const std::string& name, const ValueKind& kind, const std::
 
 void Options::argument(const ValueKind& kind, std::string& value, const std::string& text) {
   kinds_.emplace(app_->add_option(kind.unit, value)->required(), kind);
-  add_argument(kind, kind.unit, text);
-}
-
-void Options::argument(const ValueKind& kind, const std::function<void(const std::string&)>& set,
-                       const std::string& text) {
-  kinds_.emplace(app_->add_option_function<std::string>(kind.unit, set)->required(), kind);
   add_argument(kind, kind.unit, text);
 }
 
@@ -134,9 +132,10 @@ void Options::number(const std::string& name, int& value, int low, int high, con
   custom(name, "N", fmt::format("{}", value), set, text);
 }
 
-void Options::number(const std::string& name, std::optional<int>& value, int low, int high, const std::string& text) {
+void Options::number(const std::string& name, std::optional<int>& value, int low, int high, const std::string& text,
+                     const std::string& fallback) {
   auto set = [=, &value](const std::string& word) { value = number_between(name, word, low, high); };
-  custom(name, "N", "", set, text);
+  custom(name, "N", fallback, set, text);
 }
 
 void Options::number(const std::string& name, uint32_t& value, const std::string& text) {
@@ -150,9 +149,9 @@ void Options::number(const std::string& name, float& value, float low, float hig
 }
 
 void Options::number(const std::string& name, std::optional<float>& value, float low, float high,
-                     const std::string& text) {
+                     const std::string& text, const std::string& fallback) {
   auto set = [=, &value](const std::string& word) { value = number_between(name, word, low, high); };
-  custom(name, "X", "", set, text);
+  custom(name, "X", fallback, set, text);
 }
 
 void Options::choice(const std::string& name, const std::vector<std::string>& names, const std::string& fallback,
@@ -169,17 +168,19 @@ void Options::choice(const std::string& name, const std::vector<std::string>& na
 }
 
 void add_console_options(Options& options) {
-  options.flag("-q,--quiet", console.quiet,
+  options.flag("-q,--quiet", options.console().quiet,
                "print only errors, and text that is the result; no notes, warnings or names of written files");
-  options.flag("--no-color", console.no_color, "no colours, as with the environment variable NO_COLOR");
+  options.flag("--no-color", options.console().no_color, "no colours, as with the environment variable NO_COLOR");
 }
 
 void Options::at_once(const std::string& name) {
   app_->get_option(name)->trigger_on_parse();
 }
 
-bool Options::given(const std::string& name) const {
-  return app_->count(name) > 0;
+void Options::refuse(const std::vector<std::string>& names, const std::string& why) const {
+  for (const std::string& name : names) {
+    if (app_->count(name) > 0) throw UsageError(name + " " + why);
+  }
 }
 
 std::vector<GivenWord> Options::given_words() const {
@@ -212,12 +213,10 @@ std::string Options::describe_extras() const {
   return fmt::format("'{}' is an extra argument", first);
 }
 
-// The help that the words ask for, if any. parse() looks for it first, because arguments and options may open files
-// when they are set, and a fault there would hide the help. A value "--help" must therefore be written --output=--help,
-// or follow "--".
-static std::optional<ManualFormat> wanted_help(int argc, char** argv) {
-  for (int i = 1; i < argc; i++) {
-    const std::string_view word = argv[i];
+// Returns the format of help that the arguments request, if any. parse() looks for it first, because a fault of another
+// argument would hide the help. A value "--help" must therefore be written --output=--help, or follow "--".
+static std::optional<ManualFormat> requested_help(const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
     if (word == "--") break;
     if (const auto format = manual_format(word)) return format;
     if (word.starts_with("--help")) {
@@ -227,19 +226,24 @@ static std::optional<ManualFormat> wanted_help(int argc, char** argv) {
   return {};
 }
 
-bool Options::parse(int argc, char** argv) {
-  const auto print = [this](ManualFormat format) {
+std::vector<std::string> Options::take_rest() {
+  const auto end = std::ranges::find(words_, "--");
+  if (end == words_.end()) return {};
+  std::vector<std::string> rest(end + 1, words_.end());
+  words_.erase(end, words_.end());
+  return rest;
+}
+
+void Options::parse() {
+  const auto help = [this](ManualFormat format) {
     manual_.usage += "[OPTION...]";
-    std::fputs(write_manual(manual_, format).c_str(), stdout);
-    return false;
+    return HelpRequest{write_manual(manual_, format)};
   };
-  if (const auto format = wanted_help(argc, argv)) return print(*format);
+  if (const auto format = requested_help(words_)) throw help(*format);
   try {
-    app_->parse(argc, argv);
-    keep_given(given_words());
-    return true;
+    app_->parse(std::vector<std::string>(words_.rbegin(), words_.rend()));  // CLI11 takes them from the back
   } catch (const CLI::CallForHelp&) {
-    return print(ManualFormat::kHelp);
+    throw help(ManualFormat::kHelp);
   } catch (const CLI::ExtrasError&) {
     throw UsageError(describe_extras());
   } catch (const CLI::ParseError& error) {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "ods/base/quote.h"
 #include "ods/base/text.h"
 
 bool progress_is_for_farm(ProgressMode mode) {
@@ -59,8 +60,8 @@ std::string percent_text(double done) {
 
 }  // namespace
 
-// None while there is too little to tell it from. What comes before the first report of any work, such as loading, is
-// no measure of the work: 20 seconds of that and a millionth of a frame would make years.
+// Empty until there is enough work to estimate it. Time before the first report of work, such as loading, does not
+// count: 20 seconds of loading and a millionth of a frame would give years.
 std::optional<double> ProgressLines::seconds_left(double done, double seconds) const {
   const double kEnoughWork = 0.01, kEnoughSeconds = 20.0;
   const double measured = seconds - first_seconds_;
@@ -81,9 +82,7 @@ std::string ProgressLines::json_line(double done, double seconds, const Progress
     line += fmt::format(",\"seconds_left\":{:.1f}", *left);
   if (!step.kind.empty()) line += fmt::format(",\"kind\":\"{}\"", step.kind);
   if (step.frames > 0) line += fmt::format(",\"frame\":{},\"frames\":{}", step.frame, step.frames);
-  // File names need not be valid UTF-8.
-  const auto lenient = nlohmann::json::error_handler_t::replace;
-  if (!step.file.empty()) line += ",\"file\":" + nlohmann::json(step.file).dump(-1, ' ', false, lenient);
+  if (!step.file.empty()) line += ",\"file\":" + ods::json_document(step.file);
   return line + "}\n";
 }
 
@@ -143,7 +142,8 @@ void ProgressLines::report(double done, double seconds, const ProgressStep& step
 
 void ProgressLines::fail(const std::string& why) {
   clear();
-  if (mode_ == ProgressMode::kOpenJd) out_ << "openjd_fail: " << ods::one_line(why) << '\n' << std::flush;
+  if (mode_ == ProgressMode::kOpenJd)
+    out_ << "openjd_fail: " << ods::terminal_text(ods::one_line(why)) << '\n' << std::flush;
 }
 
 void ProgressLines::clear() {

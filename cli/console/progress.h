@@ -43,7 +43,7 @@ LastWords interrupted_line(ProgressMode mode);
 // "45 s", "3:07 min", "1:02:03 h".
 std::string duration_text(double seconds);
 
-// What a job is working on. A job that makes one picture has no frames.
+// The step that a job is working on. A job that makes one picture has no frames.
 struct ProgressStep {
   std::string_view kind;  // render, stitch, encode, ...; must outlive the call
   int frame = 0;          // counted from 1

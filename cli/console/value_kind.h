@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What an option's value or an argument is: its name in help, and whether it names a file or a folder. An option says
-// so where it is added; the manual, the shells' completion and ods submit go by that.
+// The kind of an option's value or an argument: its name in help, and whether it names a file or a folder. It is set
+// where the option is added, and used by the manual, the shells' completion and ods submit.
 #pragma once
 #include <functional>
 #include <string>
@@ -17,7 +17,7 @@ struct ValueKind {
   ValueKind(const char* name) : unit(name) {}
   ValueKind(std::string name) : unit(std::move(name)) {}
 
-  // judge: whether a value is a path, of those that may be something else, too.
+  // judge: returns whether a value is a path, for values that may be something else.
   static ValueKind input_file(std::string name = "FILE", Judge judge = {}) {
     return {std::move(name), PathUse::kInput, false, std::move(judge)};
   }

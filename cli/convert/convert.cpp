@@ -10,6 +10,7 @@
 #include <chrono>
 #include <mutex>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/convert/convert_frames.h"
@@ -36,12 +37,12 @@ void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
   ods::Conversion conversion = ods::convert(job.picture, job.target);
   if (conversion.no_depth > 0) {
-    note(fmt::format("{}: {} of its depths are invalid (NaN, 0 or less): taken for far away", job.input,
+    note(fmt::format("{}: {} of its depths are invalid (NaN, 0 or less): taken for far away", job.given.input,
                      conversion.no_depth));
   }
-  count_rows(conversion.rows, job.output, lines, start);
-  const auto files = ods::save_picture(conversion.rows, &job.target.camera, job.save, job.output);
-  lines.report(1.0, seconds_since(start), {"convert", 0, 0, job.output});
+  count_rows(conversion.rows, job.given.output, lines, start);
+  const auto files = ods::save_picture(conversion.rows, &job.target.camera, job.save, job.given.output);
+  lines.report(1.0, seconds_since(start), {"convert", 0, 0, job.given.output});
   lines.clear();
   for (const std::string& file : files) announce_file(file);
   const ods::Extent eye = job.target.eye;
@@ -52,13 +53,12 @@ void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
                    eye.height, duration_text(seconds_since(start))));
 }
 
-void convert(int argc, char** argv) {
-  ConvertJob job;
-  if (!read_convert_job(job, argc, argv)) return;
-  run_long_job(job.progress, job.threads, [&](ProgressLines& lines) {
-    if (ods::container_of_path(job.output)) return convert_to_video(job, lines);
+void convert(const ConvertOptions& given) {
+  ConvertJob job = open_conversion(given);
+  run_long_job(given.progress, given.threads, [&](ProgressLines& lines) {
+    if (ods::container_of_path(given.output)) return convert_to_video(job, lines);
     if (job.kind != ods::FootageKind::kPicture) return convert_to_frames(job, lines);
-    open_input(job);
+    read_pixels(job);
     convert_to_file(job, lines);
   });
 }
@@ -80,6 +80,5 @@ void say_what_is_filled(double share) {
                   100.0 * share));
 }
 
-int ods_convert(int argc, char** argv) {
-  return run_command([=] { convert(argc, argv); });
-}
+extern const Command kConvert =
+    make_command<parse_convert, convert>("convert", "change a picture's projection, layout, size or eyes");

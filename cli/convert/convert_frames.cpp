@@ -31,10 +31,10 @@ struct Work {
 
 class Frames {
  public:
-  explicit Frames(ConvertJob& job) : job_(job), names_(video_names(job.output)) {
-    if (job_.footage) job_.footage->choose(job_.trim);
+  explicit Frames(ConvertJob& job) : job_(job), names_(video_names(job.given.output)) {
+    if (job_.footage) job_.footage->choose(job_.given.span());
     for (size_t i = 0; i < job_.files.frames.size(); i++) refuse_overwriting(output_of(i), job_.files.path(i));
-    const auto exists = [&](int frame) { return job_.share.skip_existing && ods::is_saved(names_.path(frame)); };
+    const auto exists = [&](int frame) { return job_.given.share.skip_existing && ods::is_saved(names_.path(frame)); };
     std::erase_if(job_.files.frames, exists);
   }
 
@@ -76,14 +76,14 @@ class Frames {
     work.picture.reset();
   }
 
-  // Of all pictures, whichever process makes them.
+  // The first of all pictures, whichever process makes it.
   int place_of(size_t index) const {
     if (job_.kind == FootageKind::kVideo) return static_cast<int>(index);
     const std::vector<int>& every = job_.every_frame;
     return static_cast<int>(std::ranges::find(every, job_.files.frames[index]) - every.begin());
   }
 
-  // Frames keep their numbers; those of a video count from 0.
+  // Frames keep their numbers; frames of a video count from 0.
   std::string output_of(size_t index) const {
     return names_.path(job_.kind == FootageKind::kFrames ? job_.files.frames[index] : static_cast<int>(index));
   }
@@ -108,11 +108,11 @@ size_t frames_at_once(const ConvertJob& job) {
 void convert_to_frames(ConvertJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
   const bool from_video = job.kind == FootageKind::kVideo;
-  if (from_video) refuse_other_colors(job.footage->stream(), job.input);
+  if (from_video) refuse_other_colors(job.footage->stream(), job.given.input);
   open_depth(job);
   find_merges(job);
   Frames frames(job);
-  note_guesses(job.input, job.picture);
+  note_guesses(job.given.input, job.picture);
   const size_t expected = from_video ? static_cast<size_t>(job.footage->expected_count()) : job.files.frames.size();
   size_t done = 0;
   double empty = 0.0, filled = 0.0;
@@ -128,8 +128,9 @@ void convert_to_frames(ConvertJob& job, ProgressLines& lines) {
       frames_at_once(job), [&](Work& work) { return frames.take(work); }, [&](Work& work) { frames.convert(work); },
       report);
   lines.clear();
-  if (done == 0 && from_video) throw UsageError(fmt::format("there is no picture in that part of '{}'", job.input));
+  if (done == 0 && from_video)
+    throw UsageError(fmt::format("there is no picture in that part of '{}'", job.given.input));
   say_what_is_missing(empty / static_cast<double>(std::max<size_t>(done, 1)), false);
   say_what_is_filled(filled / static_cast<double>(std::max<size_t>(done, 1)));
-  note(fmt::format("{}: {} frames, in {}", job.output, done, duration_text(seconds_since(start))));
+  note(fmt::format("{}: {} frames, in {}", job.given.output, done, duration_text(seconds_since(start))));
 }

@@ -11,7 +11,7 @@ void convert_to_frames(ConvertJob& job, ProgressLines& lines);
 // Writes a video.
 void convert_to_video(ConvertJob& job, ProgressLines& lines);
 
-// Says how much of the pictures is empty: `share`, 0..1.
+// Notes how much of the pictures is empty: `share`, 0..1.
 void say_what_is_missing(double share, bool sees_around);
-// Says how much shows what was hidden.
+// Notes how much of the pictures was hidden and is filled.
 void say_what_is_filled(double share);

@@ -1,69 +1,44 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods convert has to do.
+// A conversion that is ready to run: the options, the opened input, and the plan.
 #pragma once
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "cli/console/progress.h"
-#include "cli/convert/depth_input.h"
-#include "cli/options/camera_options.h"
-#include "cli/options/share_options.h"
-#include "cli/options/video_options.h"
+#include "cli/convert/plan_conversion.h"
 #include "ods/comfort/merge_from_depth.h"
-#include "ods/convert/convert.h"
-#include "ods/convert/video/convert_video.h"
-#include "ods/render/render_options.h"
 
 struct ConvertJob {
-  std::vector<std::string> arguments;  // as given
-  std::string input;
-  std::string output;
-  ods::FormatHint known;  // of the input
-  DepthInput depth;
-  std::optional<ods::DepthFootage> depth_frames;  // of frames and videos, after open_depth()
+  ConvertOptions given;
   ods::FootageKind kind = ods::FootageKind::kPicture;
-  ods::FrameFiles files;                     // of frames
-  std::vector<int> every_frame;              // likewise, of all processes that share them
-  std::optional<ods::Footage> footage;       // of a video
-  std::optional<ods::PictureReader> reader;  // of a picture, until open_input()
-  ods::StoredPicture picture;                // only its header until open_input(); of a video or of the first frame
+  ods::FrameFiles files;                     // the frames that this process converts
+  std::vector<int> every_frame;              // the frames that all processes convert together
+  std::optional<ods::Footage> footage;       // a video
+  std::optional<ods::PictureReader> reader;  // a picture, until read_pixels()
+  ods::StoredPicture picture;                // its header until read_pixels(); the header of a video or the first frame
   ods::ConvertTarget target;
-  std::optional<float> merge_limit;        // --merge auto: the target's merge is found when the depth is there
-  std::optional<ods::SteadyMerge> merges;  // likewise of frames and videos, after find_merges()
   ods::SaveOptions save;
-  bool has_exposure = false, has_tone = false, has_layout = false;
-
-  // Frames and videos.
-  FrameShare share;
-  bool restart = false;  // a video does not go on from what an interrupted run has kept
-  ods::TimeSpan trim;
   std::vector<ods::TurnKey> turns;
-  VideoWishes video;
-  bool has_packing = false;  // an option says how to encode
-  bool has_target = false;   // --target
-
-  int threads = 0;
-  ProgressMode progress = ProgressMode::kAuto;
+  std::optional<ods::DepthFootage> depth_frames;  // beside frames and videos, after open_depth()
+  std::optional<ods::SteadyMerge> merges;         // --merge auto for frames and videos, after find_merges()
 };
 
-// Values that are not given remain the input's. Returns false if help was asked for. Throws UsageError and ods::Error.
-bool read_convert_job(ConvertJob& job, int argc, char** argv);
+// Opens the input's header and plans the conversion. Prints notes. Throws UsageError and ods::Error.
+ConvertJob open_conversion(const ConvertOptions& given);
 
-// Reads the input's pixels, if it is one picture. Throws UsageError and ods::Error.
-void open_input(ConvertJob& job);
+// Reads the pixels of an input that is one picture. Throws UsageError and ods::Error.
+void read_pixels(ConvertJob& job);
 
-// Opens the depth of frames and videos, if they have any beside them. Throws UsageError and ods::Error.
+// Opens the depth beside frames and videos, if there is any. Throws UsageError and ods::Error.
 void open_depth(ConvertJob& job);
 
-// The number of the first frame, whichever process converts it; none of a video.
+// Returns the number of the first frame, whichever process converts it; nullopt for a video.
 std::optional<int> first_of_all(const ConvertJob& job);
 
-// The merges of --merge auto, of frames and videos. Throws UsageError and ods::Error.
+// Finds the merges of --merge auto for frames and videos. Throws UsageError and ods::Error.
 void find_merges(ConvertJob& job);
 
-// Asked of the header, so that nobody waits for pixels in vain, and of the pixels: reading them may leave out a layer
-// of depth that the header promised. Throws UsageError.
+// Called twice: on the header, to fail early, and on the pixels, because decoding may drop the depth layer that the
+// header announced. Throws UsageError.
 void refuse_impossible(const ConvertJob& job, const ods::StoredPicture& picture);

@@ -17,18 +17,19 @@ using ods::Container, ods::FootageKind, ods::SphericalMetadata, ods::VideoStream
 
 namespace {
 
-// The layout of the new frames. Videos have both eyes in halves; one that nobody asked for becomes the usual one.
+// The layout of the new frames. Videos have both eyes in halves; another layout becomes the usual one, unless it was
+// requested.
 ods::Layout layout_for(const ConvertJob& job) {
   const ods::Layout layout = job.save.layout;
   if (job.target.eyes.size() == 1 || ods::arrangement_of(layout).is_halves()) return layout;
-  if (!job.has_layout) return ods::default_layout(job.target.camera.projection);
+  if (!job.given.form.given_layout()) return ods::default_layout(job.target.camera.projection);
   throw UsageError(
       fmt::format("a video's layout is top-bottom, bottom-top, side-by-side or cross-eyed, perhaps -half, "
                   "not {}",
                   layout_name(layout)));
 }
 
-// What the old video says goes on holding: its angles, its eye distance, and whether it is for Apple's players.
+// The old video's metadata stay: its angles, its eye distance, and whether it is for Apple's players.
 void keep_words(const ConvertJob& job, ods::VideoPlan& plan) {
   SphericalMetadata& metadata = plan.metadata;
   if (job.target.eyes.size() == 2 && job.picture.has_ipd) {
@@ -52,7 +53,7 @@ ods::VideoPlan plan_for(ConvertJob& job) {
   job.target.eye = ods::squeezed_eye(layout, job.target.eye, eyes);
   ods::VideoPlan plan = ods::plan_eyes(job.target.eye, job.target.eyes.size(), layout, job.target.camera.projection);
   keep_words(job, plan);
-  const Container container = container_for(job.output);
+  const Container container = container_for(job.given.output);
   if (plan.metadata.projection && has_boxes(container) && !fits_v2(plan.metadata)) {
     throw UsageError(
         fmt::format("{} cannot express {}; .mkv can", container_name(container), metadata_text(plan.metadata)));
@@ -60,55 +61,55 @@ ods::VideoPlan plan_for(ConvertJob& job) {
   return plan;
 }
 
-// Encoding costs quality and time: what only tags would change is for other commands.
+// Encoding costs quality and time: changes of metadata alone are for other commands.
 void refuse_copy(const ConvertJob& job, const ods::VideoPlan& plan) {
   const bool is_turned = job.footage && job.footage->stream().is_turned;
   const bool has_layers = job.footage && job.footage->video().views != ods::Views::kFirst;
   const bool is_same = !is_turned && !has_layers && (plan.layout == job.picture.layout || job.picture.eyes.size() == 1);
-  if (job.trim.is_part() || !job.turns.empty() || job.has_packing || !is_same ||
+  if (job.given.span().is_part() || !job.turns.empty() || job.given.video.says_how_to_encode() || !is_same ||
       !is_same_picture(job.picture, job.target))
     return;
   throw UsageError(
       fmt::format("no pixel of '{}' would change, and encoding it again would cost quality: ods inject "
                   "changes what it says of itself; --codec or --crf encode it again all the same",
-                  job.input));
+                  job.given.input));
 }
 
 VideoWishes wishes_for(const ConvertJob& job) {
-  VideoWishes wishes = job.video;
-  wishes.output = job.output;
+  VideoWishes wishes = job.given.video;
+  wishes.output = job.given.output;
   if (!job.footage) return wishes;
   const VideoStream& stream = job.footage->stream();
-  wishes.keep.cut.is_cut = job.trim.is_part();
-  if (job.trim.to) wishes.keep.cut.length = *job.trim.to - job.trim.from;
-  wishes = wishes_like(wishes, job.footage->video(), stream, job.has_target);
+  wishes.keep.cut.is_cut = job.given.span().is_part();
+  if (job.given.span().to) wishes.keep.cut.length = *job.given.span().to - job.given.span().from;
+  wishes = wishes_like(wishes, job.footage->video(), stream);
   if (!stream.words.is_hdr()) return wishes;
-  if (job.video.bits == 8)
-    throw UsageError(fmt::format("'{}' is HDR, which needs 10 bits: leave out --bits 8", job.input));
+  if (job.given.video.bits == 8)
+    throw UsageError(fmt::format("'{}' is HDR, which needs 10 bits: leave out --bits 8", job.given.input));
   wishes.bits = 10;
   return wishes;
 }
 
 void check_job(const ConvertJob& job) {
   if (!job.footage) return;
-  if (job.has_exposure || job.has_tone) {
+  if (job.given.display.exposure || job.given.display.tone) {
     throw UsageError("--exposure and --tone are for scene-linear frames: a video's curve stays as it is");
   }
   if (job.footage->stream().words.is_hdr() && changes_colors(job.target.right)) {
     throw UsageError(fmt::format(
-        "'{}' is HDR, whose code values are kept: --right-gain and --right-gamma are for others", job.input));
+        "'{}' is HDR, whose code values are kept: --right-gain and --right-gamma are for others", job.given.input));
   }
   if (job.footage->stream().has_alpha) {
     throw UsageError(
         fmt::format("'{}' has alpha, which the encoders here cannot keep: convert it to frames (-o "
                     "'x.####.png')",
-                    job.input));
+                    job.given.input));
   }
 }
 
 int convert_footage(ConvertJob& job, const ods::VideoPlan& plan, const ods::EncodeOptions& options,
                     const ods::Progress& progress) {
-  const ods::Resume resume{resume_settings(job), [](const std::string& words) { note(words); }, job.restart};
+  const ods::Resume resume{resume_settings(job), [](const std::string& words) { note(words); }, job.given.restart};
   ods::DepthFootage* depth = job.depth_frames ? &*job.depth_frames : nullptr;
   ods::MergeOfPicture merge;
   if (job.merges) merge = [&job](int picture) { return job.merges->at(picture); };
@@ -116,27 +117,27 @@ int convert_footage(ConvertJob& job, const ods::VideoPlan& plan, const ods::Enco
     const ods::DisplayTransform display{job.save.exposure, job.save.tone};
     return ods::convert_frames(
         {job.files, job.picture, job.target, plan.layout, plan.metadata, display, resume, depth, say_of_depth, merge},
-        options, job.output, progress);
+        options, job.given.output, progress);
   }
   return ods::convert_video(*job.footage,
                             {job.target, plan.layout, plan.metadata, job.turns, resume, depth, say_of_depth, merge},
-                            options, job.output, progress);
+                            options, job.given.output, progress);
 }
 
 }  // namespace
 
 void convert_to_video(ConvertJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
-  note_guesses(job.footage ? job.input : job.files.path(0), job.picture);
+  note_guesses(job.footage ? job.given.input : job.files.path(0), job.picture);
   check_job(job);
   open_depth(job);
   find_merges(job);
-  if (job.footage) job.footage->choose(job.trim);
+  if (job.footage) job.footage->choose(job.given.span());
   const ods::VideoPlan plan = plan_for(job);
   refuse_copy(job, plan);
   for (const std::string& each : plan.notes) note(each);
   const VideoWishes wishes = wishes_for(job);
-  const ods::EncodeOptions options = encode_options(wishes, plan.size, job.threads);
+  const ods::EncodeOptions options = encode_options(wishes, plan.size, job.given.threads);
   ods::check_packing(plan, options.packing);
   say_what_players_need(wishes, plan, options);
   const size_t expected = job.footage ? static_cast<size_t>(job.footage->expected_count()) : job.files.frames.size();
@@ -146,11 +147,11 @@ void convert_to_video(ConvertJob& job, ProgressLines& lines) {
   }
   ods::Progress progress;
   progress.report = [&](double done) {
-    lines.report(done, seconds_since(start), video_step("convert", done, expected, job.output));
+    lines.report(done, seconds_since(start), video_step("convert", done, expected, job.given.output));
   };
   const int count = convert_footage(job, plan, options, progress);
   lines.clear();
-  announce_file(job.output);
-  note(fmt::format("{}: {}, in {}", job.output, video_text(plan, options, static_cast<size_t>(count)),
+  announce_file(job.given.output);
+  note(fmt::format("{}: {}, in {}", job.given.output, video_text(plan, options, static_cast<size_t>(count)),
                    duration_text(seconds_since(start))));
 }

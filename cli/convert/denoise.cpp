@@ -8,10 +8,12 @@
 
 #include <utility>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/convert/denoise_job.h"
 #include "cli/options/picture_options.h"
+#include "ods/convert/convert.h"
 #include "ods/denoise/oidn.h"
 #include "ods/files/atomic_file.h"
 
@@ -31,37 +33,51 @@ ods::StoredNoise read_input(const DenoiseJob& job, const ods::StoredPicture& pic
   return noise;
 }
 
-void denoise_file(DenoiseJob& job, ProgressLines& lines) {
+// The header shows whether the output can be written, before the pixels are read.
+ods::SaveOptions plan_output(const DenoiseJob& job, const ods::StoredPicture& header) {
+  const ods::ConvertTarget same = ods::same_format(header);
+  ods::SaveOptions save;
+  save_as_it_was(header, header.camera.projection, job.output, job.layout, job.display, save);
+  note_misleading_name(job.output, save, same.eyes.size(), header.camera.projection);
+  ods::check_output(job.output, save, same.eyes, same.eye, &header.camera.projection);
+  return save;
+}
+
+void denoise_file(const DenoiseJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
-  const ods::StoredPicture picture = job.reader->read(ods::existing_folder_of(job.output));
-  job.reader.reset();
+  if (job.oidn) ods::check_oidn();
+  refuse_overwriting(job.output, job.input);
+  ods::OpenOptions open;
+  open.format = job.known;
+  std::optional<ods::PictureReader> reader(std::in_place, job.input, open);
+  const ods::SaveOptions save = plan_output(job, reader->header());
+  const ods::StoredPicture picture = reader->read(ods::existing_folder_of(job.output));
+  reader.reset();  // it may hold a decoder's memory
   ods::StoredNoise noise = read_input(job, picture);
   ods::Progress progress;
   progress.report = [&](double done) { lines.report(0.9 * done, seconds_since(start), {"denoise", 0, 0, job.output}); };
   if (job.oidn) {
     ods::denoise_with_oidn(noise.picture, picture.camera, job.options.threads, progress);
   } else {
-    job.options.keep_statistics = false;
-    ods::denoise(noise.picture, picture.camera, job.options, progress);
+    ods::DenoiseOptions options = job.options;
+    options.keep_statistics = false;
+    ods::denoise(noise.picture, picture.camera, options, progress);
   }
   // The file has the other layers.
   for (ods::EyeImage& eye : noise.picture.eyes) eye = {eye.eye, std::move(eye.radiance), {}, {}, {}};
   const ods::PictureRows rows = ods::denoised_rows(picture, noise.picture);
-  const auto files = ods::save_picture(rows, &picture.camera, job.save, job.output);
+  const auto files = ods::save_picture(rows, &picture.camera, save, job.output);
   lines.report(1.0, seconds_since(start), {"denoise", 0, 0, job.output});
   lines.clear();
   for (const std::string& file : files) announce_file(file);
   note(fmt::format("{} denoised in {}", files.front(), duration_text(seconds_since(start))));
 }
 
-void denoise(int argc, char** argv) {
-  DenoiseJob job;
-  if (!read_denoise_job(job, argc, argv)) return;
+void denoise(const DenoiseJob& job) {
   run_long_job(job.progress, job.options.threads, [&](ProgressLines& lines) { denoise_file(job, lines); });
 }
 
 }  // namespace
 
-int ods_denoise(int argc, char** argv) {
-  return run_command([=] { denoise(argc, argv); });
-}
+extern const Command kDenoise =
+    make_command<parse_denoise, denoise>("denoise", "remove the noise of a rendered picture, both eyes together");

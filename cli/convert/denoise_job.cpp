@@ -6,8 +6,6 @@
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
 #include "cli/options/projection_options.h"
-#include "ods/convert/convert.h"
-#include "ods/denoise/oidn.h"
 
 namespace {
 
@@ -21,7 +19,7 @@ constexpr const char* kDenoiseSummary =
     "of half of the samples each. Albedo, normals and depth help if the file has them. Both eyes are denoised\n"
     "together. The more samples there are, the less is changed.";
 
-void add_input_options(Options& options, DenoiseJob& job, std::optional<ods::ProjectionSetting>& projection) {
+void add_input_options(Options& options, DenoiseJob& job) {
   options.argument(ValueKind::input_file("IN"), job.input, "input file: .exr; %V in the name reads one file per eye");
   options.group("Input, if it is not detected");
   options.text("--variance", "NAME", job.layers.variance, "layer with the variance of each pixel's mean");
@@ -29,11 +27,12 @@ void add_input_options(Options& options, DenoiseJob& job, std::optional<ods::Pro
   options.text("--half-b", "NAME", job.layers.half_b, "layer with the mean of the other half");
   options.custom(
       "--projection", "NAME", "",
-      [&](const std::string& name) { projection = projection_by_name("--projection", name); }, "its projection");
+      [&](const std::string& name) { job.known.projection = projection_by_name("--projection", name); },
+      "its projection");
   add_input_layout_option(options, job.known.layout, "its layout");
 }
 
-void add_output_options(Options& options, DenoiseJob& job, std::optional<ods::Layout>& layout, bool& alone) {
+void add_output_options(Options& options, DenoiseJob& job, bool& alone) {
   options.group("Output");
   options.text(
       "-o,--output", ValueKind::output_file(), job.output,
@@ -41,12 +40,10 @@ void add_output_options(Options& options, DenoiseJob& job, std::optional<ods::La
       "in the name writes one file per eye");
   options.flag("--each-eye", alone, "denoise each eye alone");
   options.flag("--oidn", job.oidn, "use Intel Open Image Denoise, if it is installed; it needs no statistics");
-  add_layout_option(options, layout,
+  add_layout_option(options, job.layout,
                     "how both eyes share the new file; by default as its name says (_TB), else the input's",
                     "--to-layout");
-  options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
-                 "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
-  options.choice("--tone", job.save.tone, ods::kToneCurveTable, "tone curve; .hdr and .exr ignore it");
+  add_display_options(options, job.display);
   options.group("Console");
   options.number("--threads", job.options.threads, 0, 1024, "number of threads; 0: all processors");
   add_progress_options(options, job.progress);
@@ -54,29 +51,19 @@ void add_output_options(Options& options, DenoiseJob& job, std::optional<ods::La
 
 }  // namespace
 
-bool read_denoise_job(DenoiseJob& job, int argc, char** argv) {
-  Options options("denoise", kDenoiseSummary, kDenoiseExamples);
-  std::optional<ods::Layout> layout;
+DenoiseJob parse_denoise(Options& options) {
+  DenoiseJob job;
   bool alone = false;
-  add_input_options(options, job, job.known.projection);
-  add_output_options(options, job, layout, alone);
-  if (!options.parse(argc, argv)) return false;
+  options.describe(kDenoiseSummary, kDenoiseExamples);
+  add_input_options(options, job);
+  add_output_options(options, job, alone);
+  options.parse();
   if (job.output.empty()) throw UsageError("no output file: add -o picture.exr");
   if (job.layers.half_a.empty() != job.layers.half_b.empty()) throw UsageError("--half-a and --half-b go together");
   if (!job.layers.half_a.empty() && !job.layers.variance.empty()) {
     throw UsageError("--variance or --half-a with --half-b, not both");
   }
-  if (job.oidn) ods::check_oidn();
   job.layers.needed = !job.oidn;
-  refuse_overwriting(job.output, job.input);
   job.options.both_eyes = !alone;
-  ods::OpenOptions open;
-  open.format = job.known;
-  job.reader.emplace(job.input, open);
-  const ods::StoredPicture& header = job.reader->header();
-  const ods::ConvertTarget same = ods::same_format(header);
-  save_as_it_was(header, header.camera.projection, job.output, layout, options.given("--tone"), job.save);
-  note_misleading_name(job.output, job.save, same.eyes.size(), header.camera.projection);
-  ods::check_output(job.output, job.save, same.eyes, same.eye, &header.camera.projection);
-  return true;
+  return job;
 }

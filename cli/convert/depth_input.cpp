@@ -10,9 +10,6 @@
 
 namespace {
 
-constexpr const char* kDepthWords[] = {"--depth-kind",  "--near",        "--far",
-                                       "--depth-along", "--depth-edges", "--eye-height"};
-
 std::string meanings() {
   std::string text;
   for (const ods::DepthKindRow& row : ods::kDepthKindTable) {
@@ -44,10 +41,8 @@ void add_depth_options(Options& options, DepthInput& depth) {
                  "height of the camera above the floor, metres: finds the scale of depth that has none");
 }
 
-void check_depth_options(const Options& options, const DepthInput& depth) {
-  for (const char* word : kDepthWords) {
-    if (options.given(word) && depth.path.empty()) throw UsageError(fmt::format("{} goes with --depth FILE", word));
-  }
+std::vector<std::string> depth_option_names() {
+  return {"--depth-kind", "--near", "--far", "--depth-along", "--depth-edges", "--eye-height"};
 }
 
 void give_depth(const DepthInput& depth, ods::StoredPicture& picture) {

@@ -16,12 +16,12 @@ struct DepthInput {
 
 void add_depth_options(Options& options, DepthInput& depth);
 
-// Throws UsageError: an option of depth without --depth.
-void check_depth_options(const Options& options, const DepthInput& depth);
+// The options that need --depth.
+std::vector<std::string> depth_option_names();
 
-// Adds the depth to a picture, and says what there is to say. Throws as ods::add_depth().
+// Adds the depth to a picture, and prints notes. Throws as ods::add_depth() does.
 void give_depth(const DepthInput& depth, ods::StoredPicture& picture);
 void say_of_depth(const ods::DepthReport& report);
 
-// Merges the poles by these shares of the eye distance (ods/comfort/merge_from_depth.h), and says how.
+// Merges the poles by these shares of the eye distance (ods/comfort/merge_from_depth.h), and prints a note.
 void use_shares(std::vector<float> shares, ods::StereoCamera& camera);

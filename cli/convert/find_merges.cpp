@@ -15,7 +15,7 @@
 
 namespace {
 
-// A picture on its way from its depth to what that allows.
+// A picture between reading its depth and computing its shares.
 struct Look {
   int picture = 0;
   std::optional<ods::StoredPicture> header;
@@ -23,14 +23,14 @@ struct Look {
   std::vector<float> shares;
 };
 
-// With depth as it is: nothing here needs the edges of the pictures, so no video is decoded.
+// Uses the depth unsharpened: the edges of the pictures are not needed here, so no video is decoded.
 class Looks {
  public:
   Looks(const ConvertJob& job, int step) : job_(job), step_(step), header_(job.picture) {
-    if (job.depth.path.empty()) return;
-    ods::DepthOptions options = job.depth.options;
+    if (job.given.depth.path.empty()) return;
+    ods::DepthOptions options = job.given.depth.options;
     options.edges = ods::DepthEdges::kSoft;
-    depth_.emplace(job.depth.path, job.picture, options, job.trim, first_of_all(job));
+    depth_.emplace(job.given.depth.path, job.picture, options, job.given.span(), first_of_all(job));
   }
 
   // The next look: every step-th picture, and the last one.
@@ -57,17 +57,18 @@ class Looks {
       look.header = ods::open_frame(all, static_cast<size_t>(look.picture), job_.picture);
       refuse_impossible(job_, *look.header);
     }
-    look.shares = ods::comfortable_shares(ods::seen_by_eyes(*look.header), job_.target.camera, *job_.merge_limit);
+    look.shares = ods::comfortable_shares(ods::seen_by_eyes(*look.header), job_.target.camera,
+                                          *job_.given.camera.changes.merge_limit);
     look.header.reset();
   }
 
  private:
-  // Nothing: there are no more pictures. An empty function: the picture's file has it.
+  // Returns nullopt if there are no more pictures, and an empty function if the picture's file has the depth.
   std::optional<ods::DepthFootage::Give> next_depth() {
     const bool has_frames = job_.kind == ods::FootageKind::kFrames;
     if (has_frames && static_cast<size_t>(next_) >= job_.every_frame.size()) return std::nullopt;
     if (!depth_) return ods::DepthFootage::Give();
-    if (next_ > 0 && ods::footage_kind(job_.depth.path) == ods::FootageKind::kPicture) return std::nullopt;
+    if (next_ > 0 && ods::footage_kind(job_.given.depth.path) == ods::FootageKind::kPicture) return std::nullopt;
     std::optional<int> number;
     if (has_frames) number = job_.every_frame[static_cast<size_t>(next_)];
     return depth_->next_if_any(number);
@@ -84,11 +85,11 @@ class Looks {
 }  // namespace
 
 void find_merges(ConvertJob& job) {
-  if (!job.merge_limit || job.target.eyes[0] == ods::kMono) return;
+  if (!job.given.camera.changes.merge_limit || job.target.eyes[0] == ods::kMono) return;
   if (!job.turns.empty()) {
     throw UsageError("--merge auto and --stabilize exclude each other: stabilize the video and its depth first");
   }
-  const ods::FrameRate rate = job.footage ? job.footage->stream().rate : job.video.rate;
+  const ods::FrameRate rate = job.footage ? job.footage->stream().rate : job.given.video.rate;
   const int step = std::max(1, static_cast<int>(std::lround(ods::kLookSeconds * rate.value())));
   Looks looks(job, step);
   std::vector<std::vector<float>> shares;
@@ -96,7 +97,7 @@ void find_merges(ConvertJob& job) {
   ods::run_pipeline<Look>(
       kAtOnce, [&](Look& look) { return looks.take(look); }, [&](Look& look) { looks.judge(look); },
       [&](Look& look) { shares.push_back(std::move(look.shares)); });
-  if (shares.empty()) return;  // whoever converts says that there is no picture
+  if (shares.empty()) return;  // the conversion reports that there is no picture
   job.merges.emplace(shares, step);
   const ods::Image least = job.merges->least();
   note(merge_by_depth_text(least) + (job.merges->varies() ? ", where the depth allows least; more elsewhere" : ""));

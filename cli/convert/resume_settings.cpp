@@ -24,19 +24,19 @@ void add_file(const std::string& path, ods::Settings& settings) {
 }  // namespace
 
 ods::Settings resume_settings(const ConvertJob& job) {
-  std::vector<std::string> arguments = job.arguments;
+  std::vector<std::string> arguments = job.given.words;
   std::erase(arguments, "--restart");
   ods::Settings settings = {{"version of ods", ODS_VERSION, ""},
                             {"arguments", ods::one_line(fmt::format("{}", fmt::join(arguments, " "))), ""}};
-  std::set<std::string> files(job.arguments.begin(), job.arguments.end());
+  std::set<std::string> files(job.given.words.begin(), job.given.words.end());
   for (size_t i = 0; i < job.files.frames.size(); i++) {
     for (const int eye : {ods::kLeft, ods::kRight}) files.insert(ods::path_for_eye(job.files.path(i), eye));
   }
-  if (const auto depth = ods::frame_names(job.depth.path)) {
+  if (const auto depth = ods::frame_names(job.given.depth.path)) {
     for (const int frame : ods::frames_on_disk(*depth)) files.insert(depth->path(frame));
   }
   for (const std::string& file : files) {
-    if (file == job.output) continue;
+    if (file == job.given.output) continue;
     add_file(file, settings);
     add_file(ods::sidecar_path(file), settings);
   }

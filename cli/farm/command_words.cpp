@@ -24,7 +24,7 @@ bool is_pattern(const std::string& path) {
          ods::frame_names(fs::path(path).parent_path().native()).has_value();
 }
 
-// The folder of files that one name stands for: what comes before its first mark.
+// The folder of the files that a pattern matches: the path before its first mark.
 std::string folder_of_pattern(const std::string& path) {
   const size_t mark = std::min(path.find_first_of("#@%${"), path.size());
   return path.substr(0, path.rfind('/', mark));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The words of a command that is split: with absolute names of files, and without those that the farm decides.
+// The arguments of a command that is split: with absolute names of files, and without the options that the farm sets.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,15 +9,15 @@
 #include "cli/console/options.h"
 #include "ods/farm/plan.h"
 
-// The files and folders that the words name, absolute from here on.
+// Returns the files and folders that the arguments name, and makes them absolute.
 std::vector<ods::PlanPath> find_paths(std::vector<GivenWord>& given);
 
 // Throws Error(kInput) for input files that cannot be opened.
 void check_inputs(const std::vector<ods::PlanPath>& paths);
 
-// Without these options.
+// Returns the arguments without these options.
 std::vector<GivenWord> without(const std::vector<GivenWord>& given, const std::vector<std::string>& names);
-// With no other options.
+// Returns the arguments with only these options.
 std::vector<GivenWord> only(const std::vector<GivenWord>& given, const std::vector<std::string>& names);
 
 // Throws UsageError if one of these is given.

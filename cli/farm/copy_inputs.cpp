@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Where every file goes. Files beside the scene keep their places beside it.
+// Returns the destination of every file. Files beside the scene keep their places beside it.
 FileCopies plan_moves(const SplitCommand& split, const fs::path& inputs) {
   FileCopies moves, back;
   const auto add = [&](const std::string& from, const fs::path& place) {

@@ -19,7 +19,7 @@ bool has_same_commands(const ods::FarmPlan& plan) {
     std::vector<ods::TaskGroup> then = ods::open_plan(plan.folder).groups;
     std::erase_if(then, [](const ods::TaskGroup& group) { return group.name == kRawGroup; });
     return std::ranges::equal(then, plan.groups, same);
-  } catch (const ods::Error&) {  // there is none, or one of another version
+  } catch (const ods::Error&) {  // no plan, or a plan of another version
     return false;
   }
 }

@@ -6,6 +6,6 @@
 #include "cli/farm/split_command.h"
 #include "ods/farm/plan.h"
 
-// Whether the file that the last of several groups makes is there, was made by these very commands (as the plan in the
-// folder says), and is newer than all that they read.
+// Returns whether the file of the last of several groups exists, was made by exactly these commands (by the plan in the
+// folder), and is newer than all their inputs.
 bool is_finished(const ods::FarmPlan& plan, const SplitCommand& split);

@@ -12,6 +12,7 @@
 #include <map>
 #include <set>
 
+#include "cli/console/exit_code.h"
 #include "cli/farm/queue.h"
 #include "ods/base/error.h"
 #include "ods/base/text.h"
@@ -28,9 +29,10 @@ using ods::TaskState;
 struct Known {
   TaskState state = TaskState::kWaiting;
   std::string why;
+  bool found_fault = false;
 };
 
-// Of a group, by the numbers of its tasks.
+// The states of a group's tasks, by their numbers.
 using KnownTasks = std::map<int, Known>;
 
 std::string last_line(const std::string& path) {
@@ -58,8 +60,9 @@ std::map<std::string, KnownTasks> ended_tasks(const std::string& folder) {
     const auto [end, fault] = std::from_chars(name.data() + dot + 1, name.data() + name.size(), number);
     if (fault != std::errc() || end != name.data() + name.size()) continue;
     std::ifstream(entries->path()) >> code;
-    ended[name.substr(0, dot)][number] = {code == 0 ? TaskState::kDone : TaskState::kFailed,
-                                          fmt::format("exit code {}", code)};
+    const bool is_done = code == kExitOk || code == kExitFault;
+    ended[name.substr(0, dot)][number] = {is_done ? TaskState::kDone : TaskState::kFailed,
+                                          fmt::format("exit code {}", code), code == kExitFault};
   }
   return ended;
 }
@@ -103,13 +106,13 @@ bool is_active(TaskState state) {
   return state == TaskState::kWaiting || state == TaskState::kRunning;
 }
 
-// What Slurm says counts while a task waits and runs; how it ended, it says best itself. A task that Slurm ended
-// (TIMEOUT, CANCELLED, ...) could not.
+// Slurm's state counts while a task waits and runs; the task's own record of its end is better, unless Slurm ended it
+// (TIMEOUT, CANCELLED, ...).
 void add_tasks(std::map<std::string, KnownTasks>& known, const std::vector<ods::SlurmTask>& tasks) {
   for (const ods::SlurmTask& task : tasks) {
     KnownTasks& group = known[task.group];
     const auto before = group.find(task.number);
-    if (before == group.end() || is_active(task.state)) group[task.number] = {task.state, task.word};
+    if (before == group.end() || is_active(task.state)) group[task.number] = {task.state, task.word, false};
   }
 }
 
@@ -119,6 +122,7 @@ GroupReport report_group(const ods::TaskGroup& group, const KnownTasks& known, c
   for (const auto& [number, task] : known) {
     if (number < 1 || number > group.tasks) continue;
     if (task.state == TaskState::kDone) report.done++;
+    if (task.found_fault) report.faults.push_back(number);
     if (task.state == TaskState::kRunning) report.running++;
     if (task.state == TaskState::kWaiting) report.waiting++;
     if (task.state != TaskState::kFailed) continue;
@@ -151,7 +155,7 @@ void add_queue(GroupReport& report, const std::vector<ods::SlurmTask>& queued,
 
 }  // namespace
 
-// Plans of earlier versions do not say.
+// Plans of earlier versions do not record it.
 bool JobReport::is_known() const {
   return scheduler.empty() || scheduler == "slurm";
 }
@@ -164,12 +168,16 @@ bool JobReport::is_done() const {
   return is_over() && std::ranges::all_of(groups, [](const GroupReport& g) { return g.failed.empty() && g.lost == 0; });
 }
 
+bool JobReport::found_fault() const {
+  return std::ranges::any_of(groups, [](const GroupReport& g) { return !g.faults.empty(); });
+}
+
 JobReport report_job(const std::string& folder, const std::vector<ods::SlurmTask>& queued) {
   const ods::FarmPlan plan = ods::open_plan(folder);
   const std::map<std::string, ods::SlurmArray> arrays = sent_arrays(folder);
   std::vector<ods::SlurmTask> tasks;
   const auto is_own = [&](const ods::SlurmTask& t) {
-    return t.folder == folder && (arrays.empty() || arrays.contains(t.job));  // not those of an earlier submission
+    return t.folder == folder && (arrays.empty() || arrays.contains(t.job));  // not tasks of an earlier submission
   };
   std::ranges::copy_if(queued, std::back_inserter(tasks), is_own);
   std::map<std::string, KnownTasks> known = ended_tasks(folder);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a job on the farm gets on: from its folder and from what Slurm says.
+// The state of a job on the farm: from its folder and from Slurm.
 #pragma once
 #include <map>
 #include <optional>
@@ -13,7 +13,7 @@
 
 struct FailedTask {
   int number = 0;
-  std::string why;    // "exit code 3", or Slurm's word: "TIMEOUT"
+  std::string why;    // "exit code 3", or Slurm's state: "TIMEOUT"
   std::string last;   // line of its log
   std::string nodes;  // of its starts: "one, two"
 };
@@ -24,23 +24,25 @@ struct GroupReport {
   int lost = 0;                             // neither ended nor in the queue: cancelled long ago, or never sent
   int restarts = 0;                         // of all tasks
   std::map<std::string, int> nodes;         // how many tasks run on each
-  std::optional<std::pair<int, int>> made;  // frames, parts or views that are there, of so many
+  std::optional<std::pair<int, int>> made;  // existing frames, parts or views, and their full number
   std::vector<FailedTask> failed;
+  std::vector<int> faults;  // tasks that are done, and whose command judged its input and found a fault
   std::optional<double> seconds_left;
 };
 
 struct JobReport {
   std::string name, folder, scheduler;
   std::vector<GroupReport> groups;
-  bool is_known() const;  // what its tasks do, because Slurm or the tasks say so
+  bool is_known() const;  // Slurm or the tasks report the state of its tasks
   bool is_over() const;   // nothing runs or waits
   bool is_done() const;   // all tasks are
+  bool found_fault() const;
 };
 
-// tasks: of Slurm's queue, of any job. The tasks of jobs that Slurm has forgotten are known by what they left in the
-// folder. Throws ods::Error(kInput) if the folder has no plan.
+// tasks: in Slurm's queue, of any job. Tasks that Slurm has forgotten are reported by their files in the folder. Throws
+// ods::Error(kInput) if the folder has no plan.
 JobReport report_job(const std::string& folder, const std::vector<ods::SlurmTask>& tasks);
 
-// As a table and the failed tasks, for people; and as JSON (docs/farm.md has its keys).
+// Write the report as a table with the failed tasks, for people, and as JSON (docs/farm.md has its keys).
 std::string report_text(const std::vector<JobReport>& jobs);
 std::string report_json(const std::vector<JobReport>& jobs);

@@ -8,6 +8,7 @@
 #include "cli/console/progress.h"
 #include "cli/farm/job_report.h"
 #include "ods/base/json_reader.h"
+#include "ods/base/quote.h"
 
 namespace {
 
@@ -50,6 +51,10 @@ std::string notes_text(const JobReport& job) {
       text +=
           fmt::format("{} {}: {} neither ended nor in the queue; submit it again\n", job.name, group.name, group.lost);
     }
+    for (const int task : group.faults) {
+      text +=
+          fmt::format("{0} {1} {2}: found a fault, see {3}/logs/{1}.{2}.log\n", job.name, group.name, task, job.folder);
+    }
     for (const FailedTask& task : group.failed) {
       text += fmt::format("{} {} {}: {}{}{}{}\n", job.name, group.name, task.number,
                           task.nodes.empty() ? "" : "on " + task.nodes + ", ", task.why, task.last.empty() ? "" : ": ",
@@ -69,6 +74,7 @@ Json json_of(const JobReport& job, const GroupReport& group) {
                {"lost", group.lost},
                {"restarts", group.restarts},
                {"nodes", group.nodes},
+               {"faults", group.faults},
                {"failed", Json::array()}});
   for (const FailedTask& task : group.failed) {
     json["failed"].push_back(
@@ -97,5 +103,5 @@ std::string report_json(const std::vector<JobReport>& jobs) {
     for (const GroupReport& group : job.groups) json["groups"].push_back(json_of(job, group));
     all.push_back(json);
   }
-  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return ods::json_document(all, 2) + "\n";
 }

@@ -11,9 +11,11 @@
 #include <set>
 #include <thread>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
 #include "cli/console/options.h"
+#include "cli/console/print.h"
 #include "cli/farm/job_report.h"
 #include "cli/farm/queue.h"
 #include "ods/farm/plan.h"
@@ -38,15 +40,14 @@ bool is_folder_of_job(const std::string& name) {
   return fs::exists(name + "/plan.json", ignored);
 }
 
-// Throws ods::Error(kInput) if there is none of that name.
+// Throws ods::Error(kInput) if there is no job of that name.
 std::vector<JobReport> find_jobs(const JobsWishes& wishes) {
   const bool by_folder = !wishes.name.empty() && is_folder_of_job(wishes.name);
-  const auto queue = queued_tasks();
-  if (!queue && !by_folder) {
+  const auto [tasks, fault] = read_queue();
+  if (!fault.empty() && !by_folder) {
     throw ods::Error(ods::ErrorKind::kInput,
-                     "there is no Slurm here: squeue is not found, or fails; ods jobs FOLDER reads a job's folder");
+                     fmt::format("there is no Slurm here: {}; ods jobs FOLDER reads a job's folder", fault));
   }
-  const std::vector<ods::SlurmTask> tasks = queue.value_or(std::vector<ods::SlurmTask>());
   if (by_folder) {
     const JobReport job = report_job(ods::absolute_folder(wishes.name), tasks);
     if (wishes.follow && !job.is_known()) {
@@ -74,40 +75,43 @@ std::vector<JobReport> find_jobs(const JobsWishes& wishes) {
   return jobs;
 }
 
-void jobs(int argc, char** argv) {
+JobsWishes parse_jobs(Options& options) {
   JobsWishes wishes;
-  Options options("jobs",
-                  "Shows how much is done, running, waiting and failed of the jobs that ods submit sent to Slurm.",
-                  kJobsExamples);
+  options.describe("Shows how much is done, running, waiting and failed of the jobs that ods submit sent to Slurm.",
+                   kJobsExamples);
   options.optional_argument("NAME", wishes.name, "a job, or its folder; by default all");
   options.flag("--follow", wishes.follow,
-               "show it again every five seconds until the job has ended; exit code 1 if it is not complete");
+               "show it again every five seconds until the job has ended; exit code 1 if it is not complete, 5 if it "
+               "judged its input and found a fault");
   options.flag("--json", wishes.json, "print it as JSON");
   options.group("Console");
   add_console_options(options);
-  if (!options.parse(argc, argv)) return;
+  options.parse();
+  return wishes;
+}
+
+ExitCode show_jobs(const JobsWishes& wishes) {
   if (wishes.follow) end_on_interrupts();
   std::vector<JobReport> found;
   std::string before;
   while (true) {
     found = find_jobs(wishes);
     const std::string text = wishes.json ? report_json(found) : found.empty() ? "no jobs\n" : report_text(found);
-    if (text != before) std::fputs(text.c_str(), stdout);
+    if (text != before) put_out(text);
     std::fflush(stdout);
     before = text;
     const bool over = std::ranges::all_of(found, [](const JobReport& job) { return job.is_over(); });
     if (!wishes.follow || over) break;
     std::this_thread::sleep_for(std::chrono::seconds(5));
   }
-  if (!wishes.follow) return;
+  if (!wishes.follow) return kExitOk;
   for (const JobReport& job : found) {
     if (!job.is_done())
       throw ods::Error(ods::ErrorKind::kCancelled, fmt::format("'{}' has ended, but it is not complete", job.name));
   }
+  return std::ranges::any_of(found, &JobReport::found_fault) ? kExitFault : kExitOk;
 }
 
 }  // namespace
 
-int ods_jobs(int argc, char** argv) {
-  return run_command([=] { jobs(argc, argv); });
-}
+extern const Command kJobs = make_command<parse_jobs, show_jobs>("jobs", "show the progress of Slurm jobs");

@@ -10,12 +10,11 @@
 #include <iterator>
 #include <numeric>
 
-#include "cli/console/checked_words.h"
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/farm/command_words.h"
 #include "cli/options/picture_options.h"
-#include "cli/render/frame_settings.h"
-#include "cli/render/library_options.h"
+#include "cli/render/plan.h"
 #include "cli/render/render_frames.h"
 #include "cli/slits/stitch_frames.h"
 #include "cli/video/video_job.h"
@@ -27,42 +26,23 @@
 #include "ods/scene/builtin/builtin.h"
 #include "ods/scene/gltf/gltf.h"
 #include "ods/sequence/frame_renderer.h"
+#include "ods/sequence/identity.h"
 #include "ods/sequence/video_journal.h"
 
 namespace fs = std::filesystem;
 
-// One a file, in the folders beside this one.
-int ods_convert(int argc, char** argv);
-int ods_denoise(int argc, char** argv);
-int ods_encode(int argc, char** argv);
-int ods_inject(int argc, char** argv);
-int ods_lint(int argc, char** argv);
-int ods_merge(int argc, char** argv);
-int ods_over(int argc, char** argv);
-
 namespace {
 
 using Words = std::vector<std::string>;
-using Split = std::optional<SplitCommand>;
 
 const Words kByFarm = {"--threads", "--progress", "--wait", "--only", "--skip-existing", "--restart", "--raw", "-q"};
 const Words kByMachine = {"--threads", "--progress"};
-const Words kLate = {"--wait", "120"};  // seconds: what network disks take to show another machine's files
+const Words kLate = {"--wait", "120"};  // seconds until network disks show another machine's files
 
-// The words as main() has them.
-class Arguments {
- public:
-  explicit Arguments(const Words& words) : words_(words) {
-    for (std::string& word : words_) pointers_.push_back(word.data());
-    pointers_.push_back(nullptr);
-  }
-  int count() const { return static_cast<int>(words_.size()); }
-  char** words() { return pointers_.data(); }
-
- private:
-  Words words_;
-  std::vector<char*> pointers_;
-};
+// The arguments of a command, without its name.
+Options options_of(const Words& words) {
+  return Options(words.front(), {words.begin() + 1, words.end()});
+}
 
 // The files of the scene beside it, which have to be there, too.
 void add_scene_files(SplitCommand& split, const SceneSource& scene) {
@@ -90,7 +70,7 @@ size_t bytes_of_files(const SplitCommand& split) {
 // The picture, the libraries, and a scene that is decoded and has its acceleration structure. A denoised frame of a
 // video has two beside it.
 size_t memory_of(const SplitCommand& split, const RenderJob& job) {
-  const size_t picture = ods::picture_bytes(options_to_finish(job));
+  const size_t picture = ods::picture_bytes(plan(job).sampled);
   const size_t pictures = job.time.is_video ? 3 : 1;
   return (size_t{512} << 20) + pictures * picture + picture / 2 + 8 * bytes_of_files(split);
 }
@@ -113,7 +93,7 @@ void count(SplitCommand& split, const std::string& noun, const std::vector<int>&
   split.noun = noun, split.count = numbers.size(), split.numbers = numbers;
 }
 
-// The group that is split, of what was counted; its tasks are not yet. files: the names of what it makes.
+// The group that is split; its tasks are not counted yet. files: the names of the files that it makes.
 ods::TaskGroup split_group(const SplitCommand& split, const std::string& name, Words command, const std::string& option,
                            const std::string& files) {
   if (files.find("%V") != std::string::npos) return {name, std::move(command), option};  // two files each
@@ -122,10 +102,9 @@ ods::TaskGroup split_group(const SplitCommand& split, const std::string& name, W
 
 // --- the commands ---------------------------------------------------------------------------------------------------
 
-Split split_video(const Words& words) {
-  VideoJob job;
-  Arguments arguments(words);
-  if (!read_video_job(job, arguments.count(), arguments.words())) return std::nullopt;
+SplitCommand split_video(const Words& words) {
+  Options options = options_of(words);
+  const VideoJob job = settled(parse_video(options));
   std::vector<GivenWord> given = job.render.given;
   const bool has_rig = !job.rig.empty();
   SplitCommand split = begin(given);
@@ -134,10 +113,9 @@ Split split_video(const Words& words) {
   std::vector<int> frames;
   if (has_rig) {
     const ods::SlitRig rig = open_rig(job.rig);
-    if (!job.render.has_layout) job.render.save.layout = rig.layout;
     const ods::VideoPlan plan = expect_video(job.render.save.layout, rig.eyes.size(), rig.eye, rig.camera.projection);
     encode_options(job.video, plan.size, 0);
-    settings = stitch_settings(job.rig, given.front().value, job.render.save);
+    settings = stitch_identity(job.rig, given.front().value, job.render.save.layout);
     if (job.render.time.frames.empty()) throw UsageError("--rig needs --frames: the numbers of the views' folders");
     frames = ods::parse_frames(job.render.time.frames);
   } else {
@@ -145,12 +123,12 @@ Split split_video(const Words& words) {
         expect_video(job.render.save.layout, ods::eye_list(job.render.render.eyes).size(),
                      {job.render.render.width, job.render.render.height}, job.render.camera.stereo.projection);
     encode_options(job.video, plan.size, 0);
-    settings = frame_settings(job.render);
+    settings = frame_identity(identified(job.render));
     frames = frames_of(job.render);
   }
   split.memory = memory_of(split, job.render);
   split.restart = job.restart;
-  split.halo = !has_rig && draws_on_neighbours(job.render) ? 1 : 0;
+  split.halo = !has_rig && plan(job.render).sequence.draws_on_neighbours ? 1 : 0;
   count(split, "frame", frames);
   split.prepare = [output = split.output, settings, frames, restart = job.restart] {
     ods::VideoJournal(output, settings, restart, ods::JournalUse::kShared).plan(frames, frames);
@@ -160,14 +138,14 @@ Split split_video(const Words& words) {
   if (split.halo > 0) {
     split.raw = split_group(split, kRawGroup, command_words("video", given, {"--raw"}), "--only",
                             pattern + std::string(ods::kRawEnd));
-    split.disk = frames.size() * ods::samples_bytes(options_to_finish(job.render));
+    split.disk = frames.size() * ods::samples_bytes(plan(job.render).sampled);
   }
   split.groups = {split_group(split, "frames", command_words("video", given), "--only", pattern),
                   {"video", command_words("video", given, kLate), ""}};
   return split;
 }
 
-// Options that decide what becomes of the samples: the merge has them.
+// Options for the use of the samples: the merge gets them.
 const Words kOfMerge = {"--layout", "--sidecar", "--statistics", "--denoise", "--tone"};
 
 void remove_parts(const ods::FrameNames& names, const std::vector<int>& parts) {
@@ -182,17 +160,19 @@ void check_parts(const RenderJob& first, const ods::FrameNames& names) {
   const fs::path folder = fs::path(names.before).parent_path();
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) return;
+  const ods::SequenceOptions of_first = identified(first);
   for (const int number : ods::frames_on_disk(names)) {
     const ods::Settings then = ods::read_part_header(names.path(number)).settings;
-    ods::Settings now = sample_settings(first);
-    now.back().value = fmt::format("{}/{}", number, first.part->count);
+    ods::SequenceOptions part = of_first;
+    part.render.part.number = number;
+    const ods::Settings now = sample_identity(part, double{first.time.time.value_or(0.0f)});
     expect_same_settings(names.path(number), then, now, "`restart` discards the parts and starts over");
   }
 }
 
-// docs/farm.md says where the numbers come from.
+// docs/farm.md has the sources of the numbers.
 size_t merge_memory(const RenderJob& job) {
-  const bool denoised = denoiser_of(job) != ods::Denoiser::kNone;
+  const bool denoised = plan(job).sequence.finish.denoiser != ods::Denoiser::kNone;
   const size_t of_pixel = denoised ? 84 : ods::keeps_layers(job.output) ? 40 : 12;
   const size_t pixels = static_cast<size_t>(job.render.width) * static_cast<size_t>(job.render.height);
   const size_t parts = std::min(static_cast<size_t>(job.parts), size_t{200});
@@ -210,11 +190,10 @@ void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const
       without(without(given, kByFarm), {"-o", "--parts", "--layout", "--denoise", "--sidecar", "--keep-parts"});
   of_part.push_back({"-o", pattern});
   const Words render = command_words("render", of_part, {"--skip-existing"});
-  RenderJob checked;
   Words first = render;
   first.insert(first.end(), {"--part", fmt::format("1/{}", job.parts)});
-  Arguments arguments(first);
-  read_render_job(checked, arguments.count(), arguments.words());  // throws what the tasks would
+  Options options = options_of(first);
+  const RenderJob checked = settled(parse_render(options));  // throws as the tasks would
   const ods::FrameNames names = *ods::frame_names(pattern);
   split.restart = job.restart;
   if (job.restart) {
@@ -228,7 +207,7 @@ void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const
   Words merge = kLate;
   if (!job.keep_parts) merge.push_back("--remove-parts");
   split.memory = memory_of(split, checked);
-  split.disk = static_cast<size_t>(job.parts) * ods::samples_bytes(options_to_finish(checked));
+  split.disk = static_cast<size_t>(job.parts) * ods::samples_bytes(plan(checked).sampled);
   split.groups = {split_group(split, "parts", render, "--part", pattern),
                   {"merge", command_words("merge", of_merge, merge), "", 1, merge_memory(job)}};
 }
@@ -242,10 +221,9 @@ void split_views(SplitCommand& split, const std::vector<GivenWord>& given, const
                               "--only", split.output)};
 }
 
-Split split_render(const Words& words) {
-  RenderJob job;
-  Arguments arguments(words);
-  if (!read_render_job(job, arguments.count(), arguments.words(), true)) return std::nullopt;
+SplitCommand split_render(const Words& words) {
+  Options options = options_of(words);
+  const RenderJob job = settled(parse_render(options));
   std::vector<GivenWord> given = job.given;
   SplitCommand split = begin(given);
   add_scene_files(split, job.scene);
@@ -270,10 +248,9 @@ Split split_render(const Words& words) {
   return split;
 }
 
-Split split_stitch(const Words& words) {
-  StitchJob job;
-  Arguments arguments(words);
-  if (!read_stitch_job(job, arguments.count(), arguments.words())) return std::nullopt;
+SplitCommand split_stitch(const Words& words) {
+  Options options = options_of(words);
+  const StitchJob job = parse_stitch(options);
   if (job.frames.empty()) throw UsageError("one picture has nothing to split: --frames stitches many");
   std::vector<GivenWord> given = job.given;
   SplitCommand split = begin(given);
@@ -291,7 +268,7 @@ Split split_stitch(const Words& words) {
 
 struct Splitter {
   std::string_view name;
-  Split (*split)(const Words& words);
+  SplitCommand (*split)(const Words& words);
 };
 
 constexpr Splitter kSplitters[] = {{"video", split_video}, {"render", split_render}, {"stitch", split_stitch}};
@@ -300,15 +277,12 @@ constexpr Splitter kSplitters[] = {{"video", split_video}, {"render", split_rend
 
 struct OtherCommand {
   std::string_view name;
-  int (*run)(int argc, char** argv);
-  std::optional<size_t> frames = std::nullopt;  // the argument whose frames become those of the output, one by one
+  std::optional<size_t> frames = std::nullopt;  // the argument whose frames become the frames of the output, one by one
   bool in_place = false;                        // without -o it changes its input
 };
 
 constexpr OtherCommand kOthers[] = {
-    {"convert", ods_convert, 0}, {"over", ods_over, 1},  {"denoise", ods_denoise},
-    {"merge", ods_merge},        {"encode", ods_encode}, {"inject", ods_inject, {}, true},
-    {"lint", ods_lint},
+    {"convert", 0}, {"over", 1}, {"denoise"}, {"merge"}, {"encode"}, {"inject", {}, true}, {"lint"},
 };
 
 std::vector<int> frames_of(const std::string& pattern, const std::vector<GivenWord>& given) {
@@ -316,11 +290,9 @@ std::vector<int> frames_of(const std::string& pattern, const std::vector<GivenWo
   return range == given.end() ? ods::frames_on_disk(*ods::frame_names(pattern)) : ods::parse_frames(range->value);
 }
 
-Split split_other(const OtherCommand& command, const Words& words) {
-  Arguments arguments(words);
-  const auto read = checked_words([&] { command.run(arguments.count(), arguments.words()); });
-  if (!read) return std::nullopt;
-  std::vector<GivenWord> given = *read;
+SplitCommand split_other(const OtherCommand& command, const Words& words) {
+  Options options = options_of(words);
+  std::vector<GivenWord> given = find_command(command.name)->parse(options).given;
   SplitCommand split = begin(given);
   split.memory = (size_t{2} << 30) + 8 * bytes_of_files(split);
   const std::string name(command.name);
@@ -342,7 +314,7 @@ Split split_other(const OtherCommand& command, const Words& words) {
 
 }  // namespace
 
-Split split_command(const Words& words) {
+SplitCommand split_command(const Words& words) {
   if (words.empty()) throw UsageError("no command: write it after --, as in: ods submit --to slurm -- video ...");
   for (const Splitter& each : kSplitters) {
     if (words.front() == each.name) return each.split(words);
@@ -352,6 +324,6 @@ Split split_command(const Words& words) {
   }
   std::vector<std::string> names = ods::names_of(kSplitters);
   std::ranges::copy(ods::names_of(kOthers), std::back_inserter(names));
-  throw UsageError(fmt::format("a farm's job is one of {}; '{}' is none{}", fmt::join(names, ", "), words.front(),
+  throw UsageError(fmt::format("'{}' cannot run on a farm; choose one of {}{}", words.front(), fmt::join(names, ", "),
                                ods::did_you_mean(words.front(), names)));
 }

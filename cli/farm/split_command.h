@@ -23,15 +23,15 @@ struct SplitCommand {
   size_t memory = 0;                      // bytes that a task takes
   size_t disk = 0;                        // that all parts take, or all raw frames, at most
   std::optional<int> threads;             // that the command asks for
-  bool restart = false;                   // what is there is discarded
-  std::string noun;                       // what the tasks make: "frame", "part", "view"
-  size_t count = 0;                       // of these
-  std::vector<int> numbers;               // theirs
-  std::optional<ods::TaskGroup> raw;      // before the first group, where that is cheaper: renders what that denoises
-  int halo = 0;                           // on each side of a task's own, that it renders for the denoiser
-  std::function<void()> prepare = [] {};  // what has to be on the disk before the first task starts
+  bool restart = false;                   // existing files are discarded
+  std::string noun;                       // the product of the tasks: "frame", "part", "view"
+  size_t count = 0;                       // the number of products
+  std::vector<int> numbers;               // their numbers
+  std::optional<ods::TaskGroup> raw;      // before the first group, if that is cheaper: renders its frames raw
+  int halo = 0;                           // frames on each side of a task's own that it renders for the denoiser
+  std::function<void()> prepare = [] {};  // writes the files that must exist before the first task starts
 };
 
-// Nothing if help was requested. words: "video", "scene.glb", "-o", ... Throws UsageError for a command that cannot be
-// split, and what the command itself throws for bad options and files.
-std::optional<SplitCommand> split_command(const std::vector<std::string>& words);
+// words: "video", "scene.glb", "-o", ... Throws UsageError for a command that cannot be split, and as the command's
+// parse() does.
+SplitCommand split_command(const std::vector<std::string>& words);

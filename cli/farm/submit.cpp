@@ -5,10 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
+#include "cli/console/print.h"
 #include "cli/console/programs.h"
 #include "cli/farm/copy_inputs.h"
 #include "cli/farm/finished.h"
@@ -22,9 +23,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What this cluster can take.
+constexpr float kSubmitLimit = 600;  // seconds for all of a job's sbatch
+
+// The limits of this cluster.
 void ask_slurm(const SubmitJob& job, const ods::FarmPlan& plan, ods::SchedulerWishes& wishes) {
-  const auto config = run_program({"scontrol", "show", "config"});
+  const auto config = run_program({.words = {"scontrol", "show", "config"}, .limit = kSlurmLimit});
   const std::string text = config ? config->out : "";
   wishes.largest_array = std::max(2, ods::slurm_setting(text, "MaxArraySize").value_or(1001));
   const int most = ods::slurm_setting(text, "MaxJobCount").value_or(10000), tasks = plan.groups.front().tasks;
@@ -35,11 +38,11 @@ void ask_slurm(const SubmitJob& job, const ods::FarmPlan& plan, ods::SchedulerWi
 
 void print(const std::vector<ods::FarmFile>& files, const ods::FarmPlan& plan) {
   for (const ods::FarmFile& file : files) {
-    std::fputs(fmt::format("# {}/{}\n{}\n", plan.folder, file.name, file.text).c_str(), stdout);
+    put_out(fmt::format("# {}/{}\n{}\n", plan.folder, file.name, file.text));
   }
 }
 
-// Replaces what an earlier submission left, but for the logs.
+// Replaces the files of an earlier submission, except the logs.
 void write(const std::vector<ods::FarmFile>& files, const ods::FarmPlan& plan) {
   std::error_code ignored;
   for (const char* name : {"/ended", "/starts"}) fs::remove_all(plan.folder + name, ignored);
@@ -47,11 +50,12 @@ void write(const std::vector<ods::FarmFile>& files, const ods::FarmPlan& plan) {
 }
 
 void check_idle(const ods::FarmPlan& plan) {
-  const auto tasks = queued_tasks();
-  if (!tasks)
+  const auto [tasks, fault] = read_queue();
+  if (!fault.empty()) {
     throw ods::Error(ods::ErrorKind::kInput,
-                     "there is no Slurm here: squeue is not found, or fails; --dry-run prints what would be sent");
-  for (const ods::SlurmTask& task : *tasks) {
+                     fmt::format("there is no Slurm here: {}; --dry-run prints what would be sent", fault));
+  }
+  for (const ods::SlurmTask& task : tasks) {
     const bool lives = task.state == ods::TaskState::kWaiting || task.state == ods::TaskState::kRunning;
     if (!lives || task.folder != plan.folder) continue;
     throw UsageError(fmt::format("'{}' has tasks in the queue, job {}: wait, or scancel them, or give another -o",
@@ -60,44 +64,43 @@ void check_idle(const ods::FarmPlan& plan) {
 }
 
 void send(const ods::FarmPlan& plan) {
-  const auto sent = run_program({"sh", plan.folder + "/submit.sh"}, ProgramErrors::kShown);
-  if (!sent || sent->code != 0) {
-    throw ods::Error(ods::ErrorKind::kOutput, fmt::format("Slurm did not accept the job; its message is above. "
-                                                          "Try again: sh {}/submit.sh",
-                                                          ods::shell_word(plan.folder)));
+  const Program submit = {.words = {"sh", plan.folder + "/submit.sh"}, .limit = kSubmitLimit};
+  const auto sent = run_program(submit);
+  if (const std::string fault = program_fault(submit, sent); !fault.empty()) {
+    throw ods::Error(ods::ErrorKind::kOutput,
+                     fmt::format("Slurm did not accept the job ({}); try again: sh {}/submit.sh", fault,
+                                 ods::shell_word(plan.folder)));
   }
+  if (!sent->last_words.empty()) warn(fmt::format("Slurm: {}", sent->last_words));
   ods::write_file(plan.folder + "/jobs.txt", sent->out);
-  if (!console.quiet) std::fputs(sent->out.c_str(), stdout);
+  if (!console.quiet) put_out(sent->out);
   note(fmt::format("ods jobs {} --follow shows its progress", ods::shell_word(plan.name)));
 }
 
-void submit(int argc, char** argv) {
-  SubmitJob job;
-  if (!read_submit_job(job, argc, argv)) return;
-  std::optional<SplitCommand> split = split_command(job.command);
-  if (!split) return;
+void submit(const SubmitJob& job) {
+  SplitCommand split = split_command(job.command);
   const ods::SchedulerRow& scheduler = ods::row_in(ods::kSchedulerTable, *job.to);
   const bool is_slurm = scheduler.member == ods::Scheduler::kSlurm;
   FileCopies copies;
-  if (job.copies) copies = move_inputs(*split, make_plan(job, *split).folder);
-  ods::FarmPlan plan = make_plan(job, *split);
+  if (job.copies) copies = move_inputs(split, make_plan(job, split).folder);
+  ods::FarmPlan plan = make_plan(job, split);
   ods::check_quotable(plan);
   ods::check_writable(plan.folder + "/plan.json");
-  scheduler.write(plan, job.wishes);  // throws for what it cannot be told
+  scheduler.write(plan, job.wishes);  // throws for settings that it does not support
   if (is_slurm && !job.dry) check_idle(plan);
-  if (!job.dry && !split->restart && is_finished(plan, *split)) {
-    return note(fmt::format("'{}' is finished: there is nothing to do; remove it to make it again", split->output));
+  if (!job.dry && !split.restart && is_finished(plan, split)) {
+    return note(fmt::format("'{}' is finished: there is nothing to do; remove it to make it again", split.output));
   }
   if (!job.dry) {
     copy_files(copies);
-    split->prepare();
+    split.prepare();
   }
-  count_tasks(job, *split, plan);
+  count_tasks(job, split, plan);
   ods::SchedulerWishes wishes = job.wishes;
   if (is_slurm) ask_slurm(job, plan, wishes);
   std::vector<ods::FarmFile> files = scheduler.write(plan, wishes);
   files.insert(files.begin(), {"plan.json", ods::write_plan(plan)});
-  say_job(plan, *split);
+  say_job(plan, split);
   if (job.dry) return print(files, plan);
   write(files, plan);
   if (is_slurm) return send(plan);
@@ -107,6 +110,5 @@ void submit(int argc, char** argv) {
 
 }  // namespace
 
-int ods_submit(int argc, char** argv) {
-  return run_command([=] { submit(argc, argv); });
-}
+extern const Command kSubmit =
+    make_command<parse_submit, submit>("submit", "send a command to a render farm, split into tasks");

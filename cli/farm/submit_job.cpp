@@ -5,13 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/console/programs.h"
-#include "cli/console/spawn.h"
 #include "ods/base/quote.h"
 #include "ods/files/atomic_file.h"
 
@@ -68,14 +66,14 @@ void add_options(Options& options, SubmitJob& job) {
 
 }  // namespace
 
-bool read_submit_job(SubmitJob& job, int argc, char** argv) {
-  const auto is_end = [](const char* word) { return std::strcmp(word, "--") == 0; };
-  const auto end = std::find_if(argv, argv + argc, is_end);
-  Options options("submit", kSubmitSummary, kSubmitExamples);
+SubmitJob parse_submit(Options& options) {
+  SubmitJob job;
+  job.command = options.take_rest();
+  options.describe(kSubmitSummary, kSubmitExamples);
   std::vector<std::string> extras;
   options.arguments("COMMAND", extras, "after all options of ods submit and --: the command, without the word ods");
   add_options(options, job);
-  if (!options.parse(static_cast<int>(end - argv), argv)) return false;
+  options.parse();
   if (!extras.empty()) {
     throw UsageError(fmt::format("'{}' belongs after --, as in: ods submit --to slurm -- video ...", extras[0]));
   }
@@ -89,11 +87,10 @@ bool read_submit_job(SubmitJob& job, int argc, char** argv) {
   }
   check_line("--image", job.wishes.image);
   check_line("--volume", job.wishes.volume);
-  if (end != argv + argc) job.command.assign(end + 1, argv + argc);
   if (!job.command.empty() && job.command.front() == "ods") job.command.erase(job.command.begin());
   if (job.program.empty()) job.program = job.to == ods::Scheduler::kSlurm ? own_program() : "ods";
   job.wishes.mount = ods::absolute_folder(job.wishes.mount.empty() ? "." : job.wishes.mount);
-  return true;
+  return job;
 }
 
 std::string usual_folder(const std::string& output) {
@@ -129,7 +126,7 @@ static double time_first(const SplitCommand& split) {
   words.insert(words.end(), {group.option, fmt::format("{}", split.numbers.front()), "-q"});
   note(fmt::format("making {} {} here to measure its time; --chunk N does without", split.noun, split.numbers.front()));
   const auto start = std::chrono::steady_clock::now();
-  const auto result = run_program(words, ProgramErrors::kShown);
+  const auto result = run_program({.words = words, .shows_errors = true});
   if (!result || result->code != 0) {
     throw ods::Error(ods::ErrorKind::kInput, fmt::format("{} {} cannot be made: {}", split.noun, split.numbers.front(),
                                                          ods::shell_line({words.begin() + 1, words.end()})));

@@ -22,8 +22,7 @@ struct SubmitJob {
   std::vector<std::string> command;
 };
 
-// False if help was requested. Throws UsageError.
-bool read_submit_job(SubmitJob& job, int argc, char** argv);
+SubmitJob parse_submit(Options& options);
 
 // The plan for the scheduler: the folder, and everything but the number of tasks of the first group.
 ods::FarmPlan make_plan(const SubmitJob& job, const SplitCommand& split);
@@ -31,6 +30,6 @@ ods::FarmPlan make_plan(const SubmitJob& job, const SplitCommand& split);
 // FOLDER/NAME.farm beside the output.
 std::string usual_folder(const std::string& output);
 
-// Sets how many tasks the groups have. Without --chunk the first frame is made here, and its time decides; also
-// whether the frames are rendered first and denoised by a group of their own.
+// Sets the number of tasks of the groups. Without --chunk, makes the first frame here and measures it; its time also
+// decides whether the frames are rendered first and denoised by a separate group.
 void count_tasks(const SubmitJob& job, const SplitCommand& split, ods::FarmPlan& plan);

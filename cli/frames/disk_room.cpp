@@ -50,7 +50,7 @@ namespace {
 
 struct DiskRoom {
   bool fits = true;
-  std::string text;  // empty: nothing to say
+  std::string text;  // empty: no message
 };
 
 // how_much: "up to", "about".

@@ -15,8 +15,8 @@ ods::OnWaiting say_waiting(const std::string& noun) {
   };
 }
 
-void wait_for_frames(const std::vector<ods::SharedFrame>& frames, const std::string& noun, float seconds) {
-  ods::wait_for_frames(frames, seconds, [&](size_t missing) {
+std::function<void(size_t missing)> say_late(const std::string& noun, float seconds) {
+  return [noun, seconds](size_t missing) {
     note(fmt::format("waiting up to {:g} s for {} {}s that are not there yet", seconds, missing, noun));
-  });
+  };
 }

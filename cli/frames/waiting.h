@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Says which frames of other processes are waited for (ods/sequence/shared_frames.h). noun: "frame", or what they are.
+// Notes which frames of other processes are waited for (ods/sequence/shared_frames.h). noun: "frame", or another
+// product.
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,5 +12,5 @@
 
 ods::OnWaiting say_waiting(const std::string& noun);
 
-// As ods::wait_for_frames().
-void wait_for_frames(const std::vector<ods::SharedFrame>& frames, const std::string& noun, float seconds);
+// Returns a callback for ods::wait_for_frames() that notes how many files are waited for.
+std::function<void(size_t missing)> say_late(const std::string& noun, float seconds);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A certificate of our own for https in the local network, where browsers give pages no headset without it. No one
-// vouches for it, so that browsers warn once; it is kept, so that they need not warn again. Through OpenSSL.
+// A certificate of our own for https in the local network, because browsers do not give pages a headset without it. It
+// is self-signed, so browsers warn once; it is kept, so that they do not warn again. Through OpenSSL.
 #pragma once
 #include <string>
 #include <vector>

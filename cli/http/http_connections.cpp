@@ -17,7 +17,7 @@ void HttpConnections::end(int socket, Connection& connection) {
   shutdown(socket, SHUT_RDWR);
 }
 
-// Among all connections, or those of an address.
+// Searches all connections, or the connections of an address.
 bool HttpConnections::make_room(const uint32_t* address, size_t most) {
   size_t count = 0;
   auto longest = connections_.end();

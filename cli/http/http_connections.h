@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The connections of a server: how many there may be, and which one goes when there are too many.
+// The connections of a server: their limit, and the choice of the one to close beyond it.
 #pragma once
 #include <condition_variable>
 #include <cstdint>
@@ -10,18 +10,18 @@
 
 class HttpConnections {
  public:
-  // A connected socket from an address; it waits for a request. Where there are too many, the one that has waited
-  // longest is ended. False: none waits, and there is no room.
+  // Adds a connected socket from an address; it waits for a request. If there are too many, closes the one that has
+  // waited longest. Returns false if none waits, and there is no room.
   bool add(int socket, uint32_t address);
-  // Before the socket is closed.
+  // Call it before the socket is closed.
   void remove(int socket);
 
-  // It has a request. False: it was ended.
+  // Marks the connection as having a request. Returns false if it was closed.
   bool begin(int socket);
-  // It waits for the next one.
+  // Marks the connection as waiting for the next request.
   void wait(int socket);
 
-  // Ends all, and waits until they are removed.
+  // Closes all connections, and waits until they are removed.
   void end();
 
  private:

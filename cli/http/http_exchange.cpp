@@ -18,7 +18,7 @@ namespace {
 using std::chrono::seconds;
 
 constexpr seconds kPatience{5};      // for the next bytes of a body, and for a reader of ours to take some
-constexpr size_t kPiece = 64 << 10;  // of what is read and written
+constexpr size_t kPiece = 64 << 10;  // bytes read or written at once
 constexpr const char* kText = "text/plain; charset=utf-8";
 
 // The page loads what we serve, and shows pictures that it made itself.
@@ -31,7 +31,7 @@ constexpr const char* kFields =
     "Cross-Origin-Resource-Policy: same-origin\r\n"
     "Cache-Control: no-store\r\n";
 
-// In a time that does not tell how much of it is right.
+// Compares in a time that does not depend on how much is right.
 bool same_secret(std::string_view a, std::string_view b) {
   unsigned char difference = a.size() == b.size() ? 0 : 1;
   for (size_t i = 0; i < std::min(a.size(), b.size()); i++) {
@@ -51,7 +51,7 @@ struct File {
   int descriptor;
 };
 
-// An upload, until somebody moves it.
+// An upload, until the handler moves it.
 struct RemovedFile {
   ~RemovedFile() {
     if (!path.empty()) unlink(path.c_str());
@@ -144,7 +144,7 @@ bool HttpExchange::is_upload(const RequestHead& head) const {
   return head.method == "POST" && !options_.upload.empty() && path_of(head) == options_.upload;
 }
 
-// Whether it asks for the opener, as nobody has before.
+// Returns whether it requests the opener for the first time.
 bool HttpExchange::opens(const WebStream& stream, const RequestHead& head) {
   return !options_.opener.empty() && head.method == "GET" && is_our_name(head.field("host")) &&
          same_secret(head.path, "/" + options_.opener) && stream.is_our_users() && !has_opened_.exchange(true);
@@ -195,12 +195,12 @@ WebAnswer HttpExchange::ask(const WebRequest& request) const {
     const bool by_user = error.kind() == ods::ErrorKind::kInput || error.kind() == ods::ErrorKind::kUsage;
     return {.status = by_user ? 400 : 500, .body = with_options(error.what()) + "\n"};
   } catch (const std::exception& error) {
-    warn(error.what());  // who is in the network need not know what is in it
+    warn(error.what());  // other users of the network must not see the details
     return {.status = 500, .body = "that did not work: the terminal of ods view says why\n"};
   }
 }
 
-// The body, in memory or as a file. Else the status that refuses it, 0 if nobody sends it any more.
+// Reads the body, into memory or a file. Otherwise sets the status that refuses it, or 0 if the client has gone.
 int HttpExchange::receive(WebStream& stream, std::string& bytes, uint64_t length, WebRequest& request) {
   if (request.file.empty()) {
     const auto keep = [&](std::string_view piece) { return request.body.append(piece), true; };

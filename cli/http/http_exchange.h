@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One request and its answer: who may ask, what is read, and what is sent.
+// One request and its answer: access, the bytes read, and the bytes sent.
 #pragma once
 #include <atomic>
 #include <mutex>
@@ -16,17 +16,17 @@ class HttpExchange {
   // port: at which it listens.
   HttpExchange(const WebOptions& options, int port, WebHandler handler);
 
-  // head: of the request, as it came; bytes: what came behind it, of which the body is taken. False: the connection is
-  // to be closed.
+  // head: of the request, as received; bytes: received after it; the body is taken from there. Returns false if the
+  // connection is to be closed.
   bool answer(WebStream& stream, std::string_view head, std::string& bytes);
 
-  // Says in a line why not.
+  // Answers with a line that gives the reason.
   static bool refuse(WebStream& stream, int status, const std::string& why);
 
  private:
   using Take = std::function<bool(std::string_view piece)>;
 
-  // Why not, in a line, and with which status; empty: it may.
+  // The reason to refuse a request, in a line, and its status; empty if it is allowed.
   std::string refusal(const RequestHead& head, int& status) const;
   bool is_our_name(const std::string& host) const;
   bool opens(const WebStream& stream, const RequestHead& head);

@@ -10,7 +10,7 @@
 
 namespace {
 
-// Takes what comes before the mark off the text, and the mark.
+// Removes the part before the mark, and the mark, from the text, and returns the part.
 std::optional<std::string_view> take_until(std::string_view& text, std::string_view mark) {
   const size_t at = text.find(mark);
   if (at == std::string_view::npos) return {};
@@ -73,7 +73,7 @@ bool read_fields(std::string_view text, RequestHead& head) {
     const std::string_view value = trimmed(*line);
     if (std::ranges::any_of(value, [](unsigned char c) { return (c < ' ' && c != '\t') || c == 0x7f; })) return false;
     const std::string small = ods::small_letters(std::string(*name));
-    // Browsers send several of these, and we need none.
+    // Browsers send several of these, and we do not need them.
     if (!head.fields.emplace(small, value).second && small != "cookie" && !small.starts_with("accept")) return false;
   }
   return true;
@@ -146,6 +146,8 @@ const char* reason_of(int status) {
       return "Request Timeout";
     case 411:
       return "Length Required";
+    case 429:
+      return "Too Many Requests";
     case 413:
       return "Content Too Large";
     case 416:

@@ -21,8 +21,8 @@ struct RequestHead {
   std::string field(const std::string& name) const;
 };
 
-// text: all up to the empty line, and with it. Nothing if it is no request that we understand: of another version, with
-// a field twice, with bytes that belong nowhere.
+// text: up to and including the empty line. Returns nullopt if it is not a request that we support: another version, a
+// repeated field, stray bytes.
 std::optional<RequestHead> read_request_head(std::string_view text);
 
 struct FilePart {
@@ -31,8 +31,8 @@ struct FilePart {
   uint64_t count = 0;
 };
 
-// asked: the request's field Range; what it does not say well, and several ranges at once, is the whole file.
+// asked: the request's field Range; a malformed one, and several ranges at once, mean the whole file.
 FilePart part_of_file(std::string_view asked, uint64_t size);
 
-// The words of the status line.
+// The text of the status line.
 const char* reason_of(int status);

@@ -67,7 +67,8 @@ struct HttpServer::State {
   HttpConnections connections;
 };
 
-// Reads on until the text has the end of a head: its size. 0: it does not come, and the client has been told.
+// Reads until the text has the end of a head, and returns the head's size. Returns 0 if the end does not come, after
+// answering the client.
 static size_t read_head(WebStream& stream, std::string& text, WebDeadline until) {
   for (;;) {
     const size_t end = text.find("\r\n\r\n");
@@ -116,14 +117,14 @@ void HttpServer::State::take(int socket, uint32_t address) {
   const auto serve_to_its_end = [this, socket] {
     try {
       serve(socket);
-    } catch (const std::exception&) {  // out of memory: others go on
+    } catch (const std::exception&) {  // out of memory: other connections continue
     }
     connections.remove(socket);
     close(socket);
   };
   try {
     std::thread(serve_to_its_end).detach();
-  } catch (const std::system_error&) {  // there are no more threads
+  } catch (const std::system_error&) {  // no more threads
     connections.remove(socket);
     close(socket);
   }
@@ -140,7 +141,7 @@ std::string value_of(const WebRequest& request, const std::string& name) {
 
 HttpServer::HttpServer(const WebOptions& options, WebHandler handler)
     : state_(std::make_unique<State>(options, std::move(handler))) {
-  signal(SIGPIPE, SIG_IGN);  // a browser that goes is no reason to end
+  signal(SIGPIPE, SIG_IGN);  // a browser that disconnects must not end us
 }
 
 HttpServer::~HttpServer() {

@@ -3,19 +3,19 @@
 //
 // Serves a web page to its own user, over HTTP or HTTPS.
 //
-// Nobody else may use it: every address begins with a secret, the Host header must be a name that we go by (else a web
-// site could reach us by a name of its own that it lets point to this machine), and a request with an Origin must come
+// Other users are refused: every address begins with a secret, the Host header must be one of our names (otherwise a
+// web site could reach us by a name of its own that points to this machine), and a request with an Origin must come
 // from our page. Nothing is shared with other sites, and the page can load nothing from elsewhere.
 //
-// Limits: a request's head has 5 seconds and 16 KB, an address 32 connections, all addresses 256. Where there are too
-// many, the one that has waited longest for a request is closed. Whoever is refused is not read any further.
+// Limits: a request's head has 5 seconds and 16 KB, an address 32 connections, all addresses 256. If there are too
+// many, the one that has waited longest for a request is closed. A refused connection is not read any further.
 //
 // Why it is our own: a library would have to keep these limits. libmicrohttpd 0.9.75 (tried; 1.0 has the same options)
-// knows a timeout of inactivity, which a header line a second renews for ever, and refuses what an address has beyond
-// its 32 connections: 32 of them that send a byte now and then kept the page of the same machine out for as long as
-// they liked. Both need a table of connections and a deadline for each, which end sockets that the library owns.
-// Ranges, the secret, hosts, origins and uploads to disk would be ours as well. cpp-httplib has no limit per address,
-// none for the size of a head, and reads refused bodies.
+// has a timeout of inactivity, which a header line a second renews for ever, and refuses the connections of an address
+// beyond 32: 32 of them that send a byte now and then kept the page of the same machine out for as long as they liked.
+// Both need a table of connections and a deadline for each, which end sockets that the library owns. Ranges, the
+// secret, hosts, origins and uploads to disk would be ours as well. cpp-httplib has no limit per address, none for the
+// size of a head, and reads refused bodies.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -39,14 +39,14 @@ struct WebAnswer {
   std::string file{};  // is sent in place of the body, or the part of it that the browser asks for; a link is not
 };
 
-// 404, in words.
+// Answer 404 with a line of text.
 WebAnswer nothing_there();
 
-// What the query says under a name; empty if it says nothing.
+// Returns the value of a name in the query; empty if it is absent.
 std::string value_of(const WebRequest& request, const std::string& name);
 
-// Called from several threads at once. What it throws becomes an answer with a line of text: ods::Error of kind kInput
-// or kUsage 400, all else 500.
+// Called from several threads at once. An exception becomes an answer with a line of text: 400 for ods::Error of kind
+// kInput or kUsage, otherwise 500.
 using WebHandler = std::function<WebAnswer(const WebRequest& request)>;
 
 struct WebOptions {
@@ -59,7 +59,7 @@ struct WebOptions {
   std::string key;
   size_t most_body = size_t{64} << 10;  // bytes of a request's body
   std::string upload;                   // the path whose bodies are files, one at a time; empty: none
-  std::string upload_folder;            // for those; nobody else can enter it
+  std::string upload_folder;            // for uploads; other users cannot enter it
   size_t most_upload = size_t{512} << 20;
 };
 

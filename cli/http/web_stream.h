@@ -14,7 +14,7 @@ using WebDeadline = std::chrono::steady_clock::time_point;
 // A certificate and its key, for all connections.
 class WebKeys {
  public:
-  // Paths of PEM files. Throws Error(kInput) for those that cannot be used.
+  // Paths of PEM files. Throws Error(kInput) for files that cannot be used.
   WebKeys(const std::string& certificate, const std::string& key);
   ~WebKeys();
   WebKeys(const WebKeys&) = delete;
@@ -35,13 +35,13 @@ class WebStream {
 
   // Agrees on keys, where there are some. False, as below: the deadline has passed, or the other side has gone.
   bool open(WebDeadline until);
-  // As many bytes as there are, at least one; 0 in place of false.
+  // Reads the available bytes, at least one; returns 0 on failure.
   size_t read(char* to, size_t most, WebDeadline until);
   // patience: for the other side to take more of them.
   bool write(std::string_view bytes, std::chrono::seconds patience);
   // A program of this machine and this user is at the other end.
   bool is_our_users() const;
-  // Says the end, and lets the other side read what was sent: whoever closes while bytes come in takes it back.
+  // Signals the end, and lets the other side read the bytes sent: closing while bytes arrive would discard them.
   void end();
 
  private:

@@ -8,8 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/lint/compare_report.h"
 #include "cli/options/picture_options.h"
@@ -31,7 +31,7 @@ constexpr const char* kCompareSummary =
     "sphere)\n"
     "and the largest error and its place, per eye and overall. Two integer files are compared as code values from 0 "
     "to\n"
-    "1, all others in linear light; the peak is 1. Exit code 1: a limit was exceeded.";
+    "1, all others in linear light; the peak is 1. Exit code 5: a limit was exceeded.";
 
 struct CompareJob {
   std::string a, b;
@@ -41,8 +41,9 @@ struct CompareJob {
   std::optional<float> max_rmse, min_psnr, max_error;
 };
 
-bool read_options(CompareJob& job, int argc, char** argv) {
-  Options options("compare", kCompareSummary, kCompareExamples);
+CompareJob parse_compare(Options& options) {
+  CompareJob job;
+  options.describe(kCompareSummary, kCompareExamples);
   options.argument(ValueKind::input_file("A"), job.a, "a picture; %V in the name: one file per eye");
   options.argument(ValueKind::input_file("B"), job.b, "a picture of the same size; its layout may differ");
   add_input_layout_option(options, job.layout, "layout of both files, if it is not detected");
@@ -56,7 +57,8 @@ bool read_options(CompareJob& job, int argc, char** argv) {
   options.group("Console");
   options.flag("--json", job.json, "print JSON");
   add_console_options(options);
-  return options.parse(argc, argv);
+  options.parse();
+  return job;
 }
 
 void encode(LoadedEyes& file) {
@@ -89,7 +91,7 @@ CompareReport compare(const CompareJob& job) {
     encode(a);
     encode(b);
   }
-  report.comparison = ods::compare_eyes(a.eyes, b.eyes);
+  report.comparison = ods::compare_eyes(a.eyes, b.eyes, {fmt::format("'{}'", job.a), fmt::format("'{}'", job.b)});
   if (!a.variance.empty() && !b.variance.empty()) report.z = z_test(a.eyes, b.eyes, a.variance, b.variance);
   return report;
 }
@@ -113,34 +115,36 @@ void write_difference(const CompareReport& report, const std::string& path) {
   save_picture(picture, options, path);
 }
 
-// A failure becomes exit code 1. NaN, if nothing could be compared, exceeds every limit.
-void check_limits(const CompareJob& job, const ods::Errors& whole) {
-  auto fail = [](const std::string& text) { throw std::runtime_error(text); };
+// NaN, if nothing could be compared, exceeds every limit.
+std::vector<std::string> exceeded_limits(const CompareJob& job, const ods::Errors& whole) {
+  std::vector<std::string> exceeded;
   if (job.max_rmse && !(whole.rmse <= *job.max_rmse)) {
-    fail(fmt::format("RMSE {:.4g} is above --max-rmse {}", whole.rmse, *job.max_rmse));
+    exceeded.push_back(fmt::format("RMSE {:.4g} is above --max-rmse {}", whole.rmse, *job.max_rmse));
   }
   if (job.min_psnr && !(whole.psnr >= *job.min_psnr)) {
-    fail(fmt::format("PSNR {:.2f} is below --min-psnr {}", whole.psnr, *job.min_psnr));
+    exceeded.push_back(fmt::format("PSNR {:.2f} is below --min-psnr {}", whole.psnr, *job.min_psnr));
   }
   if (job.max_error && !(whole.largest.error <= *job.max_error)) {
-    fail(fmt::format("the largest error {:.4g} is above --max-error {}", whole.largest.error, *job.max_error));
+    exceeded.push_back(
+        fmt::format("the largest error {:.4g} is above --max-error {}", whole.largest.error, *job.max_error));
   }
   const bool limited = job.max_rmse || job.min_psnr || job.max_error;
-  if (limited && whole.not_finite > 0) fail(fmt::format("{} pixels are NaN or infinite", whole.not_finite));
+  if (limited && whole.not_finite > 0) {
+    exceeded.push_back(fmt::format("{} pixels are NaN or infinite", whole.not_finite));
+  }
+  return exceeded;
 }
 
-void run_compare(int argc, char** argv) {
-  CompareJob job;
-  if (!read_options(job, argc, argv)) return;
+ExitCode run_compare(const CompareJob& job) {
   for (const std::string& input : {job.a, job.b}) refuse_overwriting(job.difference, input);
-  const CompareReport report = compare(job);
+  CompareReport report = compare(job);
+  report.exceeded = exceeded_limits(job, report.comparison.whole);
   job.json ? print_json(report) : print_text(report);
   if (!job.difference.empty()) write_difference(report, job.difference);
-  check_limits(job, report.comparison.whole);
+  return report.exceeded.empty() ? kExitOk : kExitFault;
 }
 
 }  // namespace
 
-int ods_compare(int argc, char** argv) {
-  return run_command([=] { run_compare(argc, argv); });
-}
+extern const Command kCompare =
+    make_command<parse_compare, run_compare>("compare", "measure the difference between two pictures");

@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "cli/console/print.h"
 
 using Json = nlohmann::ordered_json;
 
@@ -44,12 +45,12 @@ void print_row(const CompareReport& report, const char* name, const ods::Errors&
     const Direction at = direction_of(report, largest);
     direction = fmt::format("{:.1f},{:.1f}", at.azimuth, at.elevation);
   }
-  fmt::print("{:<6} {:>10.4g} {:>7.2f} {:>7.2f} {:>10.4g}  {:<18} {:<13} {}\n", name, errors.rmse, errors.psnr,
-             is_lat_long(report) ? errors.ws_psnr : std::nan(""), largest.error, where,
-             is_lat_long(report) ? direction : "-", errors.not_finite);
+  put_out(fmt::format("{:<6} {:>10.4g} {:>7.2f} {:>7.2f} {:>10.4g}  {:<18} {:<13} {}\n", name, errors.rmse, errors.psnr,
+                      is_lat_long(report) ? errors.ws_psnr : std::nan(""), largest.error, where,
+                      is_lat_long(report) ? direction : "-", errors.not_finite));
 }
 
-// JSON has no infinity: equal pictures give null.
+// JSON cannot express infinity: equal pictures give null.
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
@@ -73,23 +74,27 @@ Json to_json(const CompareReport& report, const char* name, const ods::Errors& e
 
 }  // namespace
 
+static void print_noise(const std::optional<ods::ZTest>& z) {
+  if (!z) return put_out("\nnoise: unknown, because not both files have variance.R, G and B\n");
+  put_out(
+      fmt::format("\nnoise: z has mean {:.4f} (0 expected), rms {:.4f} (1), beyond 3 {:.3g} % (0.27), largest {:.3g}",
+                  z->mean, z->rms, 100.0 * z->beyond_3, z->largest));
+  put_out(fmt::format("; {} values differ without any noise\n", z->sure_differences));
+}
+
 void print_text(const CompareReport& report) {
   for (size_t i = 0; i < 2; i++) {
-    fmt::print("{} {}: {}, {}\n", "AB"[i], report.paths[i], layout_word(report.files[i]), report.files[i].guess.reason);
+    put_out(fmt::format("{} {}: {}, {}\n", "AB"[i], report.paths[i], layout_word(report.files[i]),
+                        report.files[i].guess.reason));
   }
-  fmt::print("in {}\n\n", report.in_code_values ? "code values 0..1, display-encoded" : "linear light");
-  fmt::print("{:<6} {:>10} {:>7} {:>7} {:>10}  {:<18} {:<13} {}\n", "eye", "RMSE", "PSNR", "WS-PSNR", "largest",
-             "at x,y", "degrees", "not finite");
+  put_out(fmt::format("in {}\n\n", report.in_code_values ? "code values 0..1, display-encoded" : "linear light"));
+  put_out(fmt::format("{:<6} {:>10} {:>7} {:>7} {:>10}  {:<18} {:<13} {}\n", "eye", "RMSE", "PSNR", "WS-PSNR",
+                      "largest", "at x,y", "degrees", "not finite"));
   const std::vector<ods::Errors>& eyes = report.comparison.eyes;
   for (size_t i = 0; i < eyes.size(); i++) print_row(report, eye_word(report, i), eyes[i]);
   if (eyes.size() > 1) print_row(report, "both", report.comparison.whole);
-  if (!report.z) {
-    fmt::print("\nnoise: unknown, because not both files have variance.R, G and B\n");
-    return;
-  }
-  fmt::print("\nnoise: z has mean {:.4f} (0 expected), rms {:.4f} (1), beyond 3 {:.3g} % (0.27), largest {:.3g}",
-             report.z->mean, report.z->rms, 100.0 * report.z->beyond_3, report.z->largest);
-  fmt::print("; {} values differ without any noise\n", report.z->sure_differences);
+  print_noise(report.z);
+  for (const std::string& limit : report.exceeded) put_out(limit + "\n");
 }
 
 void print_json(const CompareReport& report) {
@@ -101,6 +106,7 @@ void print_json(const CompareReport& report) {
   const std::vector<ods::Errors>& eyes = report.comparison.eyes;
   for (size_t i = 0; i < eyes.size(); i++) json["eyes"].push_back(to_json(report, eye_word(report, i), eyes[i]));
   json["whole"] = to_json(report, "all", report.comparison.whole);
+  json["exceeded"] = report.exceeded;
   json["z"] = nullptr;
   if (report.z) {
     json["z"] = {{"values", report.z->values},   {"mean", report.z->mean},
@@ -108,5 +114,5 @@ void print_json(const CompareReport& report) {
                  {"largest", report.z->largest}, {"sure_differences", report.z->sure_differences}};
   }
   // File names need not be valid UTF-8.
-  std::puts(json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+  put_json(json);
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ods/image/compare.h"
 #include "ods/picture/load_eyes.h"
@@ -15,7 +16,8 @@ struct CompareReport {
   std::array<ods::LoadedEyes, 2> files;
   bool in_code_values = false;  // else in linear light
   ods::Comparison comparison;
-  std::optional<ods::ZTest> z;  // if both files have variance
+  std::optional<ods::ZTest> z;        // if both files have variance
+  std::vector<std::string> exceeded;  // a line for each limit
 };
 
 void print_text(const CompareReport& report);

@@ -8,8 +8,8 @@
 
 #include <chrono>
 #include <filesystem>
-#include <stdexcept>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/lint/lint_report.h"
@@ -33,44 +33,44 @@ constexpr const char* kLintSummary =
     "in\n"
     "videos also eyes that are apart in time, cuts of one eye, duplicate frames. Each finding has a certainty (0 to "
     "1),\n"
-    "the evidence and a cure; what was judged and what was not is listed. docs/lint.md explains them. Exit code 1: a\n"
+    "the evidence and a cure; what was judged and what was not is listed. docs/lint.md explains them. Exit code 5: a\n"
     "fault was found; warnings and information do not count.";
 
 struct LintJob {
   std::string path;
   ods::LintOptions lint;
-  ods::ProjectionSetting projection;
   float min_certainty = 0.5f;
   int every = 0;
   ProgressMode progress = ProgressMode::kAuto;
   bool json = false;
 };
 
-bool read_options(LintJob& job, int argc, char** argv) {
-  Options options("lint", kLintSummary, kLintExamples);
+LintJob parse_lint(Options& options) {
+  LintJob job;
+  options.describe(kLintSummary, kLintExamples);
   options.argument(ValueKind::input_file("FILE"), job.path, "a picture or a video; %V in the name: one file per eye");
   add_input_layout_option(options, job.lint.layout, "layout, if it is not detected");
   options.number("--min-certainty", job.min_certainty, 0.0f, 1.0f, "hide findings below this certainty");
   ods::FormatHint lenses;
   add_lens_options(options, lenses);
-  add_projection_options(options, job.projection);
+  ProjectionChanges projection;
+  add_projection_options(options, projection);
   options.group("Videos");
   options.number("--every", job.every, 0, 1 << 30,
                  "judge every N-th frame as a picture; 1: all; 0: about 24, and one of every shot");
   options.group("Console");
   options.flag("--json", job.json, "print JSON");
   add_progress_options(options, job.progress);
-  if (!options.parse(argc, argv)) return false;
-  const std::string fault = ods::projection_fault(job.projection);
+  options.parse();
+  const ods::ProjectionSetting wished = changed({}, projection);
+  const std::string fault = ods::projection_fault(wished);
   if (!fault.empty()) throw UsageError(fault);
-  if (options.given("--projection") || options.given("--face") || options.given("--range")) {
-    job.lint.projection = job.projection;
-  }
+  if (projection.named || projection.face || projection.range) job.lint.projection = wished;
   if (lenses.front_and_back) throw UsageError("--front-and-back is one eye, and lint judges two: convert it");
   lenses.projection = job.lint.projection;
   finish_lens_options(lenses);
   job.lint.lenses = lenses.lenses;
-  return true;
+  return job;
 }
 
 ods::LintReport lint_with_progress(const LintJob& job, ProgressLines& lines) {
@@ -80,9 +80,7 @@ ods::LintReport lint_with_progress(const LintJob& job, ProgressLines& lines) {
   return ods::lint_video(job.path, {job.lint, job.every}, progress);
 }
 
-void run_lint(int argc, char** argv) {
-  LintJob job;
-  if (!read_options(job, argc, argv)) return;
+ExitCode run_lint(const LintJob& job) {
   const bool is_film = !ods::names_eye(job.path) && std::filesystem::exists(job.path) && ods::is_video(job.path);
   if (!is_film && job.every > 0) throw UsageError(fmt::format("--every is for videos, and '{}' is not one", job.path));
   ods::LintReport report;
@@ -97,11 +95,9 @@ void run_lint(int argc, char** argv) {
     return finding.certainty < static_cast<double>(job.min_certainty);
   });
   job.json ? print_json(job.path, report) : print_text(job.path, report);
-  if (has_finding(report, ods::Severity::kFault, 0.0)) throw std::runtime_error("a fault was found");
+  return has_finding(report, ods::Severity::kFault, 0.0) ? kExitFault : kExitOk;
 }
 
 }  // namespace
 
-int ods_lint(int argc, char** argv) {
-  return run_command([=] { run_lint(argc, argv); });
-}
+extern const Command kLint = make_command<parse_lint, run_lint>("lint", "find faults in a stereo 360 picture");

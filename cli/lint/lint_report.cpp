@@ -6,8 +6,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "cli/console/print.h"
 
 using ods::Finding, ods::LintReport, ods::Severity;
 using Json = nlohmann::ordered_json;
@@ -44,28 +45,29 @@ std::string times_text(const std::vector<double>& times) {
 
 void print_finding(const Finding& finding) {
   const std::string when = finding.times.empty() ? "" : ", " + times_text(finding.times);
-  fmt::print("{} {}: {}, certainty {:.2f}{}: {}. Cure: {}.\n", severity_name(severity_of(finding.fault)),
-             fault_name(finding.fault), fault_title(finding.fault), finding.certainty, when, finding.evidence,
-             finding.cure);
+  put_out(fmt::format("{} {}: {}, certainty {:.2f}{}: {}. Cure: {}.\n", severity_name(severity_of(finding.fault)),
+                      fault_name(finding.fault), fault_title(finding.fault), finding.certainty, when, finding.evidence,
+                      finding.cure));
 }
 
 }  // namespace
 
 void print_text(const std::string& path, const LintReport& report) {
-  fmt::print("{}: {}x{}, {} ({}), {}, an eye {}x{}\n", path, report.file.width, report.file.height, layout_word(report),
-             report.reason, report.projection, report.eye.width, report.eye.height);
-  if (report.frames > 0) fmt::print("{} frames, of which {} were judged\n", report.frames, report.judged_frames);
+  put_out(fmt::format("{}: {}x{}, {} ({}), {}, an eye {}x{}\n", path, report.file.width, report.file.height,
+                      layout_word(report), report.reason, report.projection, report.eye.width, report.eye.height));
+  if (report.frames > 0)
+    put_out(fmt::format("{} frames, of which {} were judged\n", report.frames, report.judged_frames));
   for (const Finding& finding : report.findings) print_finding(finding);
-  for (const std::string& text : report.notes) fmt::print("note: {}\n", text);
-  fmt::print("judged: {}\n", fmt::join(check_names(report.judged), ", "));
+  for (const std::string& text : report.notes) put_out(fmt::format("note: {}\n", text));
+  put_out(fmt::format("judged: {}\n", fmt::join(check_names(report.judged), ", ")));
   for (const auto& [reason, names] : by_reason(report.not_judged)) {
-    fmt::print("not judged: {} ({})\n", fmt::join(names, ", "), reason);
+    put_out(fmt::format("not judged: {} ({})\n", fmt::join(names, ", "), reason));
   }
   const auto faults = std::count_if(report.findings.begin(), report.findings.end(), [](const Finding& finding) {
     return severity_of(finding.fault) == Severity::kFault;
   });
-  fmt::print("{} found in what was judged\n",
-             faults == 0 ? "no fault" : fmt::format("{} fault{}", faults, faults == 1 ? "" : "s"));
+  put_out(fmt::format("{} found in what was judged\n",
+                      faults == 0 ? "no fault" : fmt::format("{} fault{}", faults, faults == 1 ? "" : "s")));
 }
 
 void print_json(const std::string& path, const LintReport& report) {
@@ -94,5 +96,5 @@ void print_json(const std::string& path, const LintReport& report) {
   }
   if (report.frames > 0) json["frames"] = report.frames, json["judged_frames"] = report.judged_frames;
   // File names need not be valid UTF-8.
-  std::puts(json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+  put_json(json);
 }

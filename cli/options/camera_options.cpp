@@ -9,29 +9,11 @@
 #include "cli/console/console.h"
 #include "cli/options/eye_options.h"
 #include "cli/options/field_option.h"
-#include "cli/options/projection_options.h"
 #include "ods/base/error.h"
-#include "ods/base/suggest.h"
 #include "ods/picture/metadata/stereo_format.h"
-#include "ods/scene/motion.h"
 #include "ods/stage/place.h"
 
 using ods::CameraField, ods::StereoCamera, ods::Scene, ods::vec3, ods::ViewPoint;
-
-namespace {
-
-const ViewPoint& find_view_point(const Scene& scene, const std::string& name) {
-  std::vector<std::string> names;
-  for (const ViewPoint& view : scene.view_points) {
-    if (view.name == name) return view;
-    names.push_back(view.name);
-  }
-  if (names.empty()) throw UsageError("--camera: the scene has no camera; use --position X,Y,Z");
-  throw UsageError(fmt::format("--camera: the scene has no camera '{}'{} (ods info lists them)", name,
-                               ods::did_you_mean(name, names)));
-}
-
-}  // namespace
 
 vec3 parse_point(const std::string& name, const std::string& word) {
   const std::vector<float> p = parse_numbers(word);
@@ -53,17 +35,20 @@ static void add_attitude_options(Options& options, CameraOptions& camera) {
   add_field_option(options, "--pitch", camera.pitch, CameraField::kPitch, "tilt up, degrees; tilts the horizon too");
   add_field_option(options, "--roll", camera.roll, CameraField::kRoll,
                    "roll clockwise, degrees; tilts the horizon too");
-  add_camera_preset_option(options, camera);
+  add_camera_preset_option(options, camera.changes);
   add_eye_options(options, camera);
-  add_projection_options(options, camera.stereo.projection);
+  add_projection_options(options, camera.changes.projection);
 }
 
-void take_camera(CameraOptions& camera, const ForeignScene& scene) {
+// Keeps the tilt of the options.
+static void take_scene_camera(CameraOptions& camera, const ForeignScene& scene) {
   if (!scene.camera) return;
   const StereoCamera& own = scene.camera->camera;
   camera.stereo.projection = own.projection;
-  if (own.pitch != 0.0f) camera.pitch = own.pitch;
-  if (own.roll != 0.0f) camera.roll = own.roll;
+  if (own.pitch != 0.0f && !camera.pitch) camera.pitch = own.pitch;
+  if (own.roll != 0.0f && !camera.roll) camera.roll = own.roll;
+  camera.stereo.lens_radius = own.lens_radius;
+  camera.stereo.focus_distance = own.focus_distance;
   if (!scene.has_stereo) return;
   camera.stereo.ipd = own.ipd;
   camera.stereo.convergence = own.convergence;
@@ -72,20 +57,32 @@ void take_camera(CameraOptions& camera, const ForeignScene& scene) {
   camera.stereo.bottom = own.bottom;
 }
 
-static void take_camera_file(CameraOptions& camera, const std::string& path, const BlenderOptions& blender) {
-  std::vector<std::string> warnings;
-  StereoCamera own;
-  if (is_foreign_scene(path)) {
-    const ForeignScene scene = convert_foreign_scene(path, blender);
-    if (!scene.camera) throw ods::Error(ods::ErrorKind::kInput, fmt::format("'{}' has no camera", path));
-    take_camera(camera, scene);
-    own = scene.camera->camera;
+void take_pose(CameraOptions& camera, const StereoCamera& own) {
+  camera.position = camera.position.value_or(own.position);
+  camera.yaw = camera.yaw.value_or(own.yaw);
+  camera.pitch = camera.pitch.value_or(own.pitch);
+  camera.roll = camera.roll.value_or(own.roll);
+}
+
+void take_base(CameraOptions& camera, const std::optional<ForeignScene>& scene, const BlenderOptions& blender) {
+  if (camera.file.empty()) {
+    if (scene) take_scene_camera(camera, *scene);
+  } else if (is_foreign_scene(camera.file)) {
+    const ForeignScene other = convert_foreign_scene(camera.file, blender);
+    if (!other.camera) throw ods::Error(ods::ErrorKind::kInput, fmt::format("'{}' has no camera", camera.file));
+    take_scene_camera(camera, other);
+    take_pose(camera, other.camera->camera);
   } else {
-    own = camera.stereo = ods::open_camera(path, warnings).camera;
+    camera.stereo = read_camera_file(camera.file).camera;
+    take_pose(camera, camera.stereo);
   }
+}
+
+ods::Sidecar read_camera_file(const std::string& path) {
+  std::vector<std::string> warnings;
+  ods::Sidecar file = ods::open_camera(path, warnings);
   for (const std::string& warning : warnings) note(warning);
-  camera.position = own.position;
-  camera.yaw = own.yaw, camera.pitch = own.pitch, camera.roll = own.roll;
+  return file;
 }
 
 static void add_view_options(Options& options, CameraOptions& camera) {
@@ -100,12 +97,15 @@ void add_place_options(Options& options, CameraOptions& camera) {
   add_view_options(options, camera);
 }
 
-void add_camera_options(Options& options, CameraOptions& camera, const BlenderOptions& blender) {
+void add_camera_file_option(Options& options, std::string& file, const std::string& text) {
+  options.text("--camera-file", ValueKind::input_file(), file, text);
+}
+
+void add_camera_options(Options& options, CameraOptions& camera) {
   camera.may_follow_depth = true;
   options.group("Camera");
-  options.custom(
-      "--camera-from", ValueKind::input_file(), "",
-      [&](const std::string& path) { take_camera_file(camera, path, blender); },
+  add_camera_file_option(
+      options, camera.file,
       "take the camera, including its position, from a .blend, a .camera.json or a picture that carries it");
   add_view_options(options, camera);
   add_attitude_options(options, camera);
@@ -118,37 +118,20 @@ void add_sceneless_camera_options(Options& options, CameraOptions& camera) {
 }
 
 void finish_camera_options(CameraOptions& camera, int width, int& height) {
-  finish_eye_options(camera);
+  const CameraChanges& changes = camera.changes;
+  if (changes.preset && !changes.preset->note.empty()) note(changes.preset->note);
+  camera.stereo = changed(camera.stereo, changes);
+  read_maps(changes, camera.stereo);
+  if (!camera.yaw && camera.stereo.yaw != 0.0f) camera.yaw = camera.stereo.yaw;  // a preset's
   finish_projection(camera.stereo.projection, width, height);
 }
 
-static ViewPoint chosen_view(const CameraOptions& camera, const Scene& scene) {
-  const bool is_named = ods::camera_choice(camera.view_point) == ods::CameraChoice::kNamed;
-  return is_named ? find_view_point(scene, camera.view_point) : ods::default_view(scene);
-}
-
-StereoCamera place_camera_again(const CameraOptions& camera, const Scene& scene) {
-  const ViewPoint view = chosen_view(camera, scene);
-  StereoCamera stereo = camera.stereo;
-  stereo.position = camera.position.value_or(view.position);
-  stereo.yaw = camera.yaw.value_or(view.yaw);
-  stereo.pitch = camera.pitch.value_or(0.0f);
-  stereo.roll = camera.roll.value_or(0.0f);
-  const std::string fault = camera_fault(stereo);  // a scene's view point may be outside the camera's ranges
-  if (!fault.empty()) throw UsageError("the camera's " + fault);
-  return stereo;
-}
-
-bool file_moves_camera(const CameraOptions& camera, const Scene& scene) {
-  if (camera.position && camera.yaw) return false;
-  const bool is_named = ods::camera_choice(camera.view_point) == ods::CameraChoice::kNamed;
-  if (!is_named) return uses_own_camera(scene) && moves_view(scene.animation, 0);
-  const ptrdiff_t index = &find_view_point(scene, camera.view_point) - scene.view_points.data();
-  return moves_view(scene.animation, static_cast<int>(index));
+ods::SceneCamera scene_camera(const CameraOptions& camera) {
+  return {camera.stereo, camera.view_point, camera.position, camera.yaw, camera.pitch, camera.roll, {}};
 }
 
 void note_camera(const CameraOptions& camera, const Scene& scene, const StereoCamera& stereo) {
-  const ViewPoint view = chosen_view(camera, scene);
+  const ViewPoint view = view_of(scene_camera(camera), scene);
   const bool is_ours = ods::camera_choice(camera.view_point) != ods::CameraChoice::kNamed && !uses_own_camera(scene);
   std::string from = is_ours ? view.name : "the scene's camera '" + view.name + "'";
   if (camera.position) from = "--position";
@@ -160,7 +143,7 @@ void note_camera(const CameraOptions& camera, const Scene& scene, const StereoCa
 }
 
 StereoCamera place_camera(const CameraOptions& camera, const Scene& scene) {
-  const StereoCamera stereo = place_camera_again(camera, scene);
+  const StereoCamera stereo = camera_in(scene_camera(camera), scene);
   note_camera(camera, scene, stereo);
   return stereo;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The options of a camera without a scene: from a sidecar, or as ods render takes them.
+// The options of a camera without a scene: from a file, or as ods render takes them.
 #pragma once
 #include <optional>
 
@@ -10,15 +10,14 @@
 #include "ods/render/render_options.h"
 
 struct CameraSource {
-  CameraOptions camera;
-  ods::Sidecar file;
+  CameraOptions camera;               // its file: a .camera.json or a picture that carries it
   std::optional<ods::Layout> layout;  // value of --layout
-  int width = 2048;                   // of one eye
-  ods::Eyes eyes = ods::Eyes::kBothEyes;
+  std::optional<int> width;           // of one eye; by default the file's, else 2048
+  std::optional<ods::Eyes> eyes;      // by default the file's, else both
 };
 
-// --from takes effect first: the options after it change what it read.
 void add_camera_source(Options& options, CameraSource& source);
 
-// The result of the options, once they are parsed. Throws UsageError and ods::Error.
+// The camera that the options ask for, in the form that the file or the options give it. Sets source.camera to that
+// camera. Throws UsageError and ods::Error.
 ods::Sidecar read_camera_source(CameraSource& source);

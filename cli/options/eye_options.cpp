@@ -67,43 +67,39 @@ PoleMergeSetting parse_merge(const std::string& name, const std::string& text) {
 }
 
 // parallel, toe-in,METRES or shift,METRES
-void parse_convergence(const std::string& text, StereoCamera& stereo) {
+CameraChanges::Convergence parse_convergence(const std::string& text) {
   const WordAndNumbers parts = split(text);
-  for (int convergence : ods::kConvergences) {
-    if (parts.word != ods::convergence_name(convergence) || !parts.legal || parts.numbers.size() > 1) continue;
-    if (parts.numbers.size() == 1 && !range_of(CameraField::kConvergenceDistance).contains(parts.numbers[0])) continue;
-    stereo.convergence = convergence;
-    if (parts.numbers.size() == 1) stereo.convergence_distance = parts.numbers[0];
-    return;
+  for (int mode : ods::kConvergences) {
+    if (parts.word != ods::convergence_name(mode) || !parts.legal || parts.numbers.size() > 1) continue;
+    if (parts.numbers.empty()) return {mode, std::nullopt};
+    if (range_of(CameraField::kConvergenceDistance).contains(parts.numbers[0])) return {mode, parts.numbers[0]};
   }
   throw UsageError(
       fmt::format("--convergence is parallel, toe-in,METRES or shift,METRES (0.001 to a million), not '{}'", text));
 }
 
-void parse_axis(const std::string& text, StereoCamera& stereo) {
-  if (text == "camera") {
-    stereo.axis.reset();
-    return;
-  }
+// Returns nullopt for the camera's own axis.
+std::optional<vec3> parse_axis(const std::string& text) {
+  if (text == "camera") return std::nullopt;
   std::vector<float> numbers = text == "world" ? std::vector<float>{0.0f, 1.0f, 0.0f} : parse_numbers(text);
   const bool three = numbers.size() == 3;
   const float size = three ? std::hypot(numbers[0], numbers[1], numbers[2]) : 0.0f;
   if (!(size > 1e-6f && size < range_of(CameraField::kAxis).most)) {
     throw UsageError(fmt::format("--axis is camera, world or a direction X,Y,Z, not '{}'", text));
   }
-  stereo.axis = vec3(numbers[0], numbers[1], numbers[2]) / size;
+  return vec3(numbers[0], numbers[1], numbers[2]) / size;
 }
 
-void parse_lens(const std::string& text, StereoCamera& stereo) {
+ods::vec2 parse_lens(const std::string& text) {
   const std::vector<float> numbers = parse_numbers(text);
   const bool legal = numbers.size() == 2 && range_of(CameraField::kLensRadius).contains(numbers[0]) &&
                      range_of(CameraField::kFocusDistance).contains(numbers[1]);
   if (!legal) throw UsageError(fmt::format("--lens is RADIUS,FOCUS in metres, as 0.005,2, not '{}'", text));
-  stereo.lens_radius = numbers[0], stereo.focus_distance = numbers[1];
+  return {numbers[0], numbers[1]};
 }
 
 // NAME[:PARAMETER=VALUE,...]
-void parse_camera_preset(const std::string& text, CameraOptions& camera) {
+CameraChanges::Preset parse_camera_preset(const std::string& text) {
   const size_t colon = std::min(text.find(':'), text.size());
   const std::string name = text.substr(0, colon);
   const ods::CameraPreset* preset = ods::find_camera_preset(name);
@@ -123,20 +119,19 @@ void parse_camera_preset(const std::string& text, CameraOptions& camera) {
     at = end + 1;
   }
   try {
-    camera.stereo = ods::camera_like(*preset, given);
+    return {ods::camera_like(*preset, given),
+            preset->exact ? "" : fmt::format("{} is only approximated: {}", preset->system, preset->note)};
   } catch (const std::invalid_argument& error) {
     throw UsageError(std::string("--camera-preset ") + error.what());
   }
-  if (camera.stereo.yaw != 0.0f && !camera.yaw) camera.yaw = camera.stereo.yaw;
-  if (!preset->exact) note(fmt::format("{} is only approximated: {}", preset->system, preset->note));
 }
 
 }  // namespace
 
-void add_camera_preset_option(Options& options, CameraOptions& camera) {
+void add_camera_preset_option(Options& options, CameraChanges& changes) {
   options.custom(
       "--camera-preset", "SYSTEM[:PARAMETER=VALUE,..]", "",
-      [&](const std::string& text) { parse_camera_preset(text, camera); },
+      [&](const std::string& text) { changes.preset = parse_camera_preset(text); },
       "match the camera of another renderer, using its own parameters: google, povray, arnold, cycles, ospray, ...; "
       "the options below override it");
   options.offer("--camera-preset", ods::names_of(ods::camera_presets()));
@@ -152,57 +147,65 @@ std::optional<float> parse_auto_merge(const std::string& text) {
 }
 
 void add_circle_options(Options& options, CameraOptions& camera) {
-  StereoCamera& stereo = camera.stereo;
+  CameraChanges& changes = camera.changes;
   options.group("Eyes");
   for (const ods::CameraFieldRow& row : ods::camera_fields()) {
     if (row.help.empty()) continue;
-    options.number(fmt::format("--{}", row.setting), *row.numbers(stereo)[0], row.range.least, row.range.most,
-                   std::string(row.help));
+    options.number(fmt::format("--{}", row.setting), changes.numbers[row.member], row.range.least, row.range.most,
+                   std::string(row.help), fmt::format("{}", *row.numbers(camera.stereo)[0]));
   }
-  const auto set_both = [&](const std::string& text) {
-    camera.merge_limit = camera.may_follow_depth ? parse_auto_merge(text) : std::nullopt;
-    if (!camera.merge_limit) stereo.top = stereo.bottom = parse_merge("--merge", text);
-  };
-  const auto set_top = [&](const std::string& text) { stereo.top = parse_merge("--merge-top", text); };
-  const auto set_bottom = [&](const std::string& text) { stereo.bottom = parse_merge("--merge-bottom", text); };
+  const bool may_follow_depth = camera.may_follow_depth;
   const char* merge_unit = "MODE[,START[,END[,EXP]]]";
-  const std::string automatic = camera.may_follow_depth
+  const std::string automatic = may_follow_depth
                                     ? fmt::format(
                                           "; auto[,MINUTES]: as much stereo as the scene's depth allows, so that eyes "
                                           "turn apart by no more than {} minutes of arc",
                                           ods::kFusionLimit)
                                     : "";
   options.custom(
-      "--merge", merge_unit, same_merge(stereo.top, ods::kUsualMerge) ? "cosine,60,90,1" : "none,60,90,1", set_both,
+      "--merge", merge_unit, same_merge(camera.stereo.top, ods::kUsualMerge) ? "cosine,60,90,1" : "none,60,90,1",
+      [&changes, may_follow_depth](const std::string& text) {
+        changes.merge_limit = may_follow_depth ? parse_auto_merge(text) : std::nullopt;
+        changes.merge.reset();
+        if (!changes.merge_limit) changes.merge = parse_merge("--merge", text);
+      },
       fmt::format("reduce the eye distance to 0 towards the poles, so that one can look up and down: {}; between the "
                   "elevations START and END, degrees; EXP is the curve's exponent. none: the pure model{}",
                   merge_names(), automatic));
-  options.custom("--merge-top", merge_unit, "", set_top, "the same for the upper pole only");
-  options.custom("--merge-bottom", merge_unit, "", set_bottom, "the same for the lower pole only");
-  options.text("--merge-map", ValueKind::input_file(), camera.merge_map,
+  options.custom(
+      "--merge-top", merge_unit, "",
+      [&](const std::string& text) { changes.merge_top = parse_merge("--merge-top", text); },
+      "--merge of the upper pole only");
+  options.custom(
+      "--merge-bottom", merge_unit, "",
+      [&](const std::string& text) { changes.merge_bottom = parse_merge("--merge-bottom", text); },
+      "--merge of the lower pole only");
+  options.text("--merge-map", ValueKind::input_file(), changes.merge_map,
                "lat-long picture for --merge map: white is full stereo, black is none");
-  options.flag("--merge-map-inverted", camera.merge_map_inverted,
+  options.flag("--merge-map-inverted", changes.merge_map_inverted,
                "invert the map: black is full stereo, as in Arnold's manual");
   options.text(
-      "--head-tilt-map", ValueKind::input_file(), camera.head_tilt_map,
+      "--head-tilt-map", ValueKind::input_file(), changes.head_tilt_map,
       "lat-long picture that tilts the head: white 90 degrees to the right, mid-grey not at all, black 90 degrees "
       "to the left");
   options.custom(
-      "--convergence", "MODE[,METRES]", "parallel", [&](const std::string& text) { parse_convergence(text, stereo); },
+      "--convergence", "MODE[,METRES]", "parallel",
+      [&](const std::string& text) { changes.convergence = parse_convergence(text); },
       "parallel; toe-in: the eyes' rays meet at METRES; shift: the pictures are shifted sideways so that points at "
       "METRES coincide");
 }
 
 void add_eye_options(Options& options, CameraOptions& camera) {
-  StereoCamera& stereo = camera.stereo;
+  CameraChanges& changes = camera.changes;
   add_circle_options(options, camera);
   options.custom(
-      "--axis", "AXIS", "camera", [&](const std::string& text) { parse_axis(text, stereo); },
+      "--axis", "AXIS", "camera", [&](const std::string& text) { changes.axis = parse_axis(text); },
       "normal of the viewing circle: the camera's up axis, the world's up axis, or X,Y,Z");
   options.custom(
-      "--lens", "RADIUS,FOCUS", "", [&](const std::string& text) { parse_lens(text, stereo); },
+      "--lens", "RADIUS,FOCUS", "", [&](const std::string& text) { changes.lens = parse_lens(text); },
       "depth of field: radius of the lens and focus distance, in metres");
-  options.flag("--left-handed", stereo.mirrored, "swap front and back, for a left-handed world that was not converted");
+  options.flag("--left-handed", changes.left_handed,
+               "swap front and back, for a left-handed world that was not converted");
 }
 
 // Numbers, not light: of any format a pixel's value is the one that is stored, 0..1. NaN becomes `fallback`.
@@ -239,21 +242,39 @@ std::string merge_by_depth_text(const ods::Image& map) {
   return "merge by depth: " + merge_curve_text(map);
 }
 
-void finish_eye_options(CameraOptions& camera) {
-  StereoCamera& stereo = camera.stereo;
-  if (camera.merge_limit && !camera.merge_map.empty()) {
+void read_maps(const CameraChanges& changes, StereoCamera& camera) {
+  if (changes.merge_limit && !changes.merge_map.empty()) {
     throw UsageError("--merge auto and --merge-map exclude each other");
   }
-  const bool wanted = stereo.top.mode == ods::kMergeMap || stereo.bottom.mode == ods::kMergeMap;
-  if (camera.merge_map.empty() && wanted && !stereo.merge_map)
+  const bool wanted = camera.top.mode == ods::kMergeMap || camera.bottom.mode == ods::kMergeMap;
+  if (changes.merge_map.empty() && wanted && !camera.merge_map) {
     throw UsageError("--merge map needs a picture: --merge-map FILE");
-  if (camera.merge_map.empty() && camera.merge_map_inverted)
+  }
+  if (changes.merge_map.empty() && changes.merge_map_inverted) {
     throw UsageError("--merge-map-inverted needs a picture: --merge-map FILE");
-  if (!camera.merge_map.empty()) {
-    if (!wanted) stereo.top.mode = stereo.bottom.mode = ods::kMergeMap;
-    stereo.merge_map = read_map(camera.merge_map, 0.0f, camera.merge_map_inverted);
   }
-  if (!camera.head_tilt_map.empty()) {
-    stereo.head_tilt_map = read_map(camera.head_tilt_map, 0.5f);
+  if (!changes.merge_map.empty()) {
+    if (!wanted) camera.top.mode = camera.bottom.mode = ods::kMergeMap;
+    camera.merge_map = read_map(changes.merge_map, 0.0f, changes.merge_map_inverted);
   }
+  if (!changes.head_tilt_map.empty()) camera.head_tilt_map = read_map(changes.head_tilt_map, 0.5f);
+}
+
+StereoCamera changed(StereoCamera camera, const CameraChanges& changes) {
+  if (changes.preset) camera = changes.preset->camera;
+  for (const auto& [field, value] : changes.numbers) {
+    if (value) *numbers_of(camera, field)[0] = *value;
+  }
+  if (changes.merge) camera.top = camera.bottom = *changes.merge;
+  if (changes.merge_top) camera.top = *changes.merge_top;
+  if (changes.merge_bottom) camera.bottom = *changes.merge_bottom;
+  if (changes.convergence) {
+    camera.convergence = changes.convergence->mode;
+    camera.convergence_distance = changes.convergence->distance.value_or(camera.convergence_distance);
+  }
+  if (changes.axis) camera.axis = *changes.axis;
+  if (changes.lens) camera.lens_radius = changes.lens->x, camera.focus_distance = changes.lens->y;
+  camera.mirrored |= changes.left_handed;
+  camera.projection = changed(camera.projection, changes.projection);
+  return camera;
 }

@@ -35,16 +35,10 @@ Layout layout_by_name(const std::string& name, const std::string& word) {
                                ods::did_you_mean(word, ods::names_of(ods::kLayoutTable))));
 }
 
-void add_layout_option(Options& options, Layout& layout, const std::string& text) {
-  auto set = [&](const std::string& word) { layout = layout_by_name("--layout", word); };
-  options.custom("--layout", "LAYOUT", std::string(ods::layout_name(layout)), set, text + ": " + layout_list());
-  options.offer("--layout", ods::names_of(ods::kLayoutTable));
-}
-
 void add_layout_option(Options& options, std::optional<Layout>& layout, const std::string& text,
-                       const std::string& name) {
+                       const std::string& name, const std::string& fallback) {
   auto set = [&layout, name](const std::string& word) { layout = layout_by_name(name, word); };
-  options.custom(name, "LAYOUT", "", set, name == "--layout" ? text + ": " + layout_list() : text);
+  options.custom(name, "LAYOUT", fallback, set, name == "--layout" ? text + ": " + layout_list() : text);
   options.offer(name, ods::names_of(ods::kLayoutTable));
 }
 

@@ -10,11 +10,11 @@
 #include "ods/camera/layout.h"
 
 // Adds --layout LAYOUT, with the names and aliases of ods/camera/layout.h. `text` describes the option.
-void add_layout_option(Options& options, ods::Layout& layout, const std::string& text);
+// fallback: the default, for help; empty: none is shown.
 void add_layout_option(Options& options, std::optional<ods::Layout>& layout, const std::string& text,
-                       const std::string& name = "--layout");
+                       const std::string& name = "--layout", const std::string& fallback = "");
 
-// The same for what a file is: also mono, as ods probe prints it, which is Layout::kSeparate.
+// Adds --layout for an input file: also takes mono, as ods probe prints it, which is Layout::kSeparate.
 void add_input_layout_option(Options& options, std::optional<ods::Layout>& layout, const std::string& text);
 
 // The layout with the name or alias that `option` was given. Throws UsageError with a suggestion.

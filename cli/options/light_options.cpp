@@ -82,7 +82,7 @@ ods::Environment read_picture(const std::string& option, const std::string& path
   return environment;
 }
 
-// Of a file or a colour.
+// The environment of a file or a colour.
 ods::Environment given_environment(const std::string& option, const Named& named, const std::string& confined_to) {
   if (!named.file.empty()) return read_picture(option, named.file, confined_to);
   ods::Environment environment;
@@ -104,7 +104,7 @@ void read_lamp(const std::string& word, ods::LightWishes& wishes) {
   wishes.lamp_position = vec3(numbers[0], numbers[1], numbers[2]);
 }
 
-// None: what the camera would see anyway.
+// Nullopt: the camera sees the environment.
 std::optional<ods::Environment> read_background(const std::string& word, const std::string& confined_to) {
   if (word.empty() || word == "env") return std::nullopt;
   const Named named = parse_environment("--background", word);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The options of a scene's light, and what they supply where the scene has none.
+// The options of a scene's light, and the light that they supply if the scene lacks it.
 #pragma once
 #include <optional>
 #include <string>
@@ -10,7 +10,7 @@
 #include "ods/stage/light/lamp_unit.h"
 #include "ods/stage/light/supply.h"
 
-// As the user wrote them; empty: by default.
+// The options as the user wrote them; empty: the default.
 struct LightOptions {
   std::string environment;  // --env
   std::string lamp;         // --lamp
@@ -21,10 +21,11 @@ struct LightOptions {
 
 void add_light_options(Options& options, LightOptions& light);
 
-// The file that --env or --background (option) names; empty for words, numbers and an empty word. Throws UsageError.
+// Returns the file that --env or --background (option) names; empty for keywords, numbers and an empty value. Throws
+// UsageError.
 std::string environment_file(const std::string& option, const std::string& word);
 
-// What they ask for. transparent: the picture has no background, and so no ground. confined_to: confining_folder().
+// Reads the options. transparent: the picture has no background, and so no ground. confined_to: confining_folder().
 // Throws UsageError, and Error(kInput) for files.
 ods::LightWishes read_wishes(const LightOptions& light, bool transparent, const std::string& confined_to);
 
@@ -33,7 +34,7 @@ struct PlannedLight {
   ods::LightPlan plan;
 };
 
-// Supplies light as the options ask, and whatever the scene lacks; a note says what. Scenes of ours have their own
-// light (is_ours). planned: for the others, made with these wishes. Throws as read_wishes() does.
+// Supplies the light that the options specify, and the light that the scene lacks, with a note. Built-in scenes have
+// their own light (is_ours). planned: for other scenes, made with these wishes. Throws as read_wishes() does.
 void light_scene(ods::Scene& scene, const LightOptions& light, ods::LightWishes wishes, bool is_ours,
                  const std::string& confined_to, PlannedLight planned);

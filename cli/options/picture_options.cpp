@@ -23,36 +23,62 @@ const ods::NamedSize& size_by_name(const std::string& name) {
                                ods::did_you_mean(name, ods::names_of(ods::named_sizes()))));
 }
 
-void add_size_option(Options& options, ods::RenderOptions& picture, Layout& layout) {
-  auto set = [&](const std::string& name) {
-    const ods::NamedSize& size = size_by_name(name);
-    picture.width = size.eye.width;
-    picture.height = size.eye.height;
-    layout = size.layout.value_or(layout);
-    if (!size.layout) picture.eyes = ods::Eyes::kMonoEye;
-  };
-  options.custom("--size", "NAME", "", set,
-                 "set width, height, layout and eyes to a named size (ods sizes lists them)");
+std::optional<int> PictureForm::given_width() const {
+  return width || !size ? width : size->eye.width;
+}
+
+std::optional<int> PictureForm::given_height() const {
+  if (height) return height;
+  if (width) return 0;  // not the height of another width
+  return size ? std::optional(size->eye.height) : std::nullopt;
+}
+
+std::optional<ods::Eyes> PictureForm::given_eyes() const {
+  if (eyes || !size) return eyes;
+  return size->layout ? ods::Eyes::kBothEyes : ods::Eyes::kMonoEye;
+}
+
+std::optional<Layout> PictureForm::given_layout() const {
+  if (layout || !size) return layout;
+  return size->layout.value_or(Layout::kTopBottom);
+}
+
+void add_size_option(Options& options, PictureForm& form) {
+  options.custom(
+      "--size", "NAME", "", [&form](const std::string& name) { form.size = &size_by_name(name); },
+      "set width, height, layout and eyes to a named size (ods sizes lists them)");
   options.offer("--size", ods::names_of(ods::named_sizes()));
 }
 
-void add_picture_options(Options& options, ods::RenderOptions& picture, ods::SaveOptions& save) {
-  add_size_option(options, picture, save.layout);
-  options.number("--width", picture.width, 1, 32768, "width of one eye in pixels");
-  options.number("--height", picture.height, 0, 32768,
-                 "height of one eye in pixels; 0: follows from the width and projection (lat-long: half the width)");
-  options.choice("--eyes", picture.eyes, ods::kEyesTable, "which eyes to make");
-  add_layout_option(options, save.layout, "how both eyes share the file (default for vr180: side-by-side)");
-  options.flag("--sidecar", save.sidecar,
-               "also write the camera to picture.camera.json, which --from of other commands reads");
+void add_picture_options(Options& options, PictureForm& form, bool& sidecar, const std::string& usual_width) {
+  add_size_option(options, form);
+  options.number("--width", form.width, 1, 32768, "width of one eye in pixels", usual_width);
+  options.number("--height", form.height, 0, 32768,
+                 "height of one eye in pixels; 0: follows from the width and projection (lat-long: half the width)",
+                 "0");
+  options.choice("--eyes", form.eyes, ods::kEyesTable, "which eyes to make", "both");
+  add_layout_option(options, form.layout, "how both eyes share the file (default for vr180: side-by-side)", "--layout",
+                    "top-bottom");
+  options.flag("--sidecar", sidecar,
+               "also write the camera to picture.camera.json, which --camera-file of other commands reads");
 }
 
-void finish_picture_options(const Options& options, const ods::ProjectionSetting& projection,
-                            ods::RenderOptions& picture, ods::SaveOptions& save) {
-  const bool sized = options.given("--size");
-  if (options.given("--width") && !options.given("--height")) picture.height = 0;
-  if (!options.given("--width") && !sized) picture.width -= picture.width % ods::width_step(projection);
-  if (!options.given("--layout") && !sized) save.layout = ods::default_layout(projection);
+void use_form(const PictureForm& form, int usual_width, CameraOptions& camera, ods::RenderOptions& picture,
+              ods::SaveOptions& save) {
+  const ods::ProjectionSetting projection = changed(camera.stereo.projection, camera.changes.projection);
+  picture.width = form.given_width().value_or(usual_width - usual_width % ods::width_step(projection));
+  picture.height = form.given_height().value_or(0);
+  picture.eyes = form.given_eyes().value_or(ods::Eyes::kBothEyes);
+  save.layout = form.given_layout().value_or(ods::default_layout(projection));
+  finish_camera_options(camera, picture.width, picture.height);
+}
+
+void add_display_options(Options& options, DisplayOptions& display) {
+  options.number("--exposure", display.exposure, -30.0f, 30.0f,
+                 "exposure in stops; .hdr and .exr stay scene-linear and ignore it", "0");
+  options.choice("--tone", display.tone, ods::kToneCurveTable,
+                 "tone curve for scene-linear light; .hdr and .exr ignore it",
+                 std::string(ods::tone_curve_name(ods::SaveOptions().tone)));
 }
 
 ods::FrameNames video_names(const std::string& output) {
@@ -61,7 +87,8 @@ ods::FrameNames video_names(const std::string& output) {
 }
 
 void save_as_it_was(const ods::StoredPicture& picture, const ods::ProjectionSetting& projection,
-                    const std::string& output, std::optional<Layout> wished, bool has_tone, ods::SaveOptions& save) {
+                    const std::string& output, std::optional<Layout> wished, const DisplayOptions& display,
+                    ods::SaveOptions& save) {
   const Layout own = picture.layout;
   const bool unfit = own == Layout::kSeparate || (own == Layout::kMultiview && !ods::keeps_layers(output));
   const std::optional<Layout> named = ods::read_name(output).layout;
@@ -69,7 +96,8 @@ void save_as_it_was(const ods::StoredPicture& picture, const ods::ProjectionSett
   save.layout = wished.value_or(is_named ? *named
                                 : unfit  ? ods::default_layout(projection)
                                          : ods::layout_of_converted(own, picture.camera.projection, projection));
-  if (!has_tone && !picture.is_float) save.tone = ods::ToneCurve::kLinear;
+  save.exposure = display.exposure.value_or(save.exposure);
+  save.tone = display.tone.value_or(picture.is_float ? save.tone : ods::ToneCurve::kLinear);
   if (ods::keeps_layers(output)) {
     save.attributes.insert(save.attributes.end(), picture.mattes.begin(), picture.mattes.end());
   }

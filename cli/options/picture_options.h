@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cli/console/options.h"
+#include "cli/options/camera_options.h"
 #include "cli/options/layout_options.h"
 #include "ods/camera/sizes.h"
 #include "ods/files/frames.h"
@@ -14,31 +15,54 @@
 #include "ods/picture/stored_picture.h"
 #include "ods/render/render_options.h"
 
-// --size NAME sets width, height, layout and mono at once. Options take effect in the order in which they were added,
-// so those added after it override it.
-void add_size_option(Options& options, ods::RenderOptions& picture, ods::Layout& layout);
+// A picture's form as the options specify it; fields that are absent follow from the projection and the command's
+// default.
+struct PictureForm {
+  const ods::NamedSize* size = nullptr;  // --size: width, height, layout and eyes at once; the others override it
+  std::optional<int> width, height;      // of one eye; height 0: follows from the width and the projection
+  std::optional<ods::Eyes> eyes;
+  std::optional<ods::Layout> layout;
 
-// Adds --size, --width, --height, --eyes, --layout, --sidecar. They change only the size and eyes of `picture`.
-void add_picture_options(Options& options, ods::RenderOptions& picture, ods::SaveOptions& save);
+  std::optional<int> given_width() const;
+  std::optional<int> given_height() const;
+  std::optional<ods::Eyes> given_eyes() const;
+  std::optional<ods::Layout> given_layout() const;
+};
 
-// Sets what no option gave: a width of whole faces, and the layout that players expect for the projection.
-void finish_picture_options(const Options& options, const ods::ProjectionSetting& projection,
-                            ods::RenderOptions& picture, ods::SaveOptions& save);
+void add_size_option(Options& options, PictureForm& form);
 
-// Whether a file of this name is scene-linear, so that neither exposure nor tone curve applies: exr and hdr.
+// Adds --size, --width, --height, --eyes, --layout, --sidecar. usual_width: for help.
+void add_picture_options(Options& options, PictureForm& form, bool& sidecar, const std::string& usual_width);
+
+// Applies the camera's changes, and sets the size and the eyes of `picture` and the layout of `save`. The usual width
+// becomes one of whole faces; the usual layout is the one that players expect for the projection. Throws as
+// finish_camera_options() does.
+void use_form(const PictureForm& form, int usual_width, CameraOptions& camera, ods::RenderOptions& picture,
+              ods::SaveOptions& save);
+
+// The conversion of scene-linear light for a display; fields that are absent have the command's default.
+struct DisplayOptions {
+  std::optional<float> exposure;  // stops
+  std::optional<ods::ToneCurve> tone;
+};
+
+// Adds --exposure and --tone.
+void add_display_options(Options& options, DisplayOptions& display);
+
+// Returns whether a file of this name is scene-linear, so that neither exposure nor tone curve applies: exr and hdr.
 bool keeps_light(const std::string& path);
 
 // The names of a video's frames. Throws UsageError if the output has no place for their numbers.
 ods::FrameNames video_names(const std::string& output);
 
-// How to save a picture of this projection that is made from another picture, where no option decides: in the layout
-// that the file's name says (x_360_TB.png), else in the other's (layout_of_converted()) if such a file can have it; a
+// Sets how to save a picture of this projection that is made from another picture, unless options do: in the layout by
+// the file's name (x_360_TB.png), else in the other picture's (layout_of_converted()) if such a file can have it; a
 // display-encoded picture keeps its values, a Cryptomatte its names.
 void save_as_it_was(const ods::StoredPicture& picture, const ods::ProjectionSetting& projection,
-                    const std::string& output, std::optional<ods::Layout> wished, bool has_tone,
+                    const std::string& output, std::optional<ods::Layout> wished, const DisplayOptions& display,
                     ods::SaveOptions& save);
 
-// Notes what was guessed about a picture.
+// Notes the guesses about a picture.
 void note_guesses(const std::string& path, const ods::StoredPicture& picture);
 
 // Notes if readers of the file would trust a misleading name: y_LR.png for top-bottom.

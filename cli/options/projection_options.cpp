@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "cli/console/console.h"
 #include "ods/base/names.h"
@@ -36,56 +35,28 @@ void expect(bool useful, const char* option, const std::string& owners, const Pr
       fmt::format("{} is for {}, not for the projection {}", option, owners, ods::projection_name(projection)));
 }
 
-// LON0,LON1[,LAT0,LAT1]
-void parse_range(const std::string& text, ProjectionSetting& projection) {
-  expect(ods::has_range(projection.kind), "--range", ods::kinds_with(ods::has_range), projection);
-  const std::vector<float> numbers = parse_numbers(text);
-  if (numbers.size() != 2 && numbers.size() != 4) {
-    throw UsageError(fmt::format("--range is LEFT,RIGHT or LEFT,RIGHT,BOTTOM,TOP in degrees, not '{}'", text));
-  }
-  projection.longitude = vec2(numbers[0], numbers[1]);
-  if (numbers.size() == 4) projection.latitude = vec2(numbers[2], numbers[3]);
+// Numbers of an option that takes one of these counts of them. Throws UsageError.
+std::vector<float> parse_count(const std::string& text, std::initializer_list<size_t> counts, const char* usage) {
+  std::vector<float> numbers = parse_numbers(text);
+  if (std::ranges::find(counts, numbers.size()) != counts.end()) return numbers;
+  throw UsageError(fmt::format("{}, not '{}'", usage, text));
 }
 
-void parse_look(const std::string& text, ProjectionSetting& projection) {
-  expect(ods::has_lens(projection.kind), "--lens-direction", ods::kinds_with(ods::has_lens), projection);
-  const std::vector<float> numbers = parse_numbers(text);
-  const bool legal = numbers.size() == 2 && range_of(ods::CameraField::kPan).contains(numbers[0]) &&
-                     range_of(ods::CameraField::kTilt).contains(numbers[1]);
-  if (!legal) throw UsageError(fmt::format("--lens-direction is PAN,TILT in degrees, not '{}'", text));
-  projection.pan = numbers[0], projection.tilt = numbers[1];
+vec2 parse_direction(const std::string& text) {
+  constexpr const char* kUsage = "--lens-direction is PAN,TILT in degrees";
+  const std::vector<float> numbers = parse_count(text, {2}, kUsage);
+  const bool legal =
+      range_of(ods::CameraField::kPan).contains(numbers[0]) && range_of(ods::CameraField::kTilt).contains(numbers[1]);
+  if (!legal) throw UsageError(fmt::format("{}, not '{}'", kUsage, text));
+  return {numbers[0], numbers[1]};
 }
 
-void parse_fov(const std::string& text, ProjectionSetting& projection) {
-  expect(ods::has_fov(projection.kind), "--fov", ods::kinds_with(ods::has_fov), projection);
-  const std::vector<float> numbers = parse_numbers(text);
-  if (numbers.size() != 1) throw UsageError(fmt::format("--fov is an angle in degrees, not '{}'", text));
-  projection.fov = numbers[0];
-}
-
-void parse_sensor(const std::string& text, ProjectionSetting& projection) {
-  expect(projection.kind == ods::kFisheyePolynomial, "--sensor", "fisheye-polynomial", projection);
-  const std::vector<float> numbers = parse_numbers(text);
-  if (numbers.size() != 2) throw UsageError(fmt::format("--sensor is WIDTH,HEIGHT in millimetres, not '{}'", text));
-  projection.sensor = vec2(numbers[0], numbers[1]);
-}
-
-void parse_polynomial(const std::string& text, ProjectionSetting& projection) {
-  expect(projection.kind == ods::kFisheyePolynomial, "--lens-polynomial", "fisheye-polynomial", projection);
-  const std::vector<float> numbers = parse_numbers(text);
-  if (numbers.size() != projection.polynomial.size()) {
-    throw UsageError(fmt::format("--lens-polynomial is K0,K1,K2,K3,K4, not '{}'", text));
-  }
-  std::copy(numbers.begin(), numbers.end(), projection.polynomial.begin());
-}
-
-void parse_face(const std::string& name, bool has_other, ProjectionSetting& projection) {
-  expect(!has_other || projection.kind == ods::kPerspective, "--face", "perspective, which it implies", projection);
+ProjectionSetting parse_face(const std::string& name) {
   for (const Face& face : kFaces) {
     if (face.name != name) continue;
-    projection = ods::find_projection("perspective")->setting;
+    ProjectionSetting projection = ods::find_projection("perspective")->setting;
     projection.pan = face.pan, projection.tilt = face.tilt;
-    return;
+    return projection;
   }
   throw UsageError(fmt::format("--face is front, right, back, left, up or down, not '{}'", name));
 }
@@ -99,37 +70,76 @@ ProjectionSetting projection_by_name(const std::string& option, const std::strin
       fmt::format("{} is one of {}, not '{}'{}", option, fmt::join(names, ", "), name, ods::did_you_mean(name, names)));
 }
 
-void add_projection_options(Options& options, ProjectionSetting& projection, const std::string& option) {
+void add_projection_options(Options& options, ProjectionChanges& changes, const std::string& option) {
   options.group("Projection");
-  const auto is_named = std::make_shared<bool>(false);
   options.custom(
       option, "NAME", option == "--projection" ? "lat-long" : "",
-      [&projection, option, is_named](const std::string& text) {
-        projection = projection_by_name(option, text);
-        *is_named = true;
-      },
+      [&changes, option](const std::string& text) { changes.named = projection_by_name(option, text); },
       fmt::format("projection of each eye's picture: {}", fmt::join(ods::names_of(ods::named_projections()), ", ")));
   options.offer(option, ods::names_of(ods::named_projections()));
   options.custom(
-      "--face", "NAME", "",
-      [&projection, is_named](const std::string& text) { parse_face(text, *is_named, projection); },
+      "--face", "NAME", "", [&](const std::string& text) { changes.face = parse_face(text); },
       "a single cube face: front, right, back, left, up or down");
   options.custom(
-      "--range", "LEFT,RIGHT[,BOTTOM,TOP]", "", [&](const std::string& text) { parse_range(text, projection); },
+      "--range", "LEFT,RIGHT[,BOTTOM,TOP]", "",
+      [&](const std::string& text) {
+        changes.range = parse_count(text, {2, 4}, "--range is LEFT,RIGHT or LEFT,RIGHT,BOTTOM,TOP in degrees");
+      },
       "the part of the sphere that a lat-long or cylinder shows, degrees");
   options.custom(
-      "--fov", "DEGREES", "", [&](const std::string& text) { parse_fov(text, projection); },
+      "--fov", "DEGREES", "",
+      [&](const std::string& text) { changes.fov = parse_count(text, {1}, "--fov is an angle in degrees")[0]; },
       "field of view: of a fisheye edge to edge [180], of a perspective view horizontally [90]");
   options.custom(
-      "--lens-polynomial", "K0,K1,K2,K3,K4", "", [&](const std::string& text) { parse_polynomial(text, projection); },
+      "--lens-polynomial", "K0,K1,K2,K3,K4", "",
+      [&](const std::string& text) {
+        changes.polynomial = parse_count(text, {5}, "--lens-polynomial is K0,K1,K2,K3,K4");
+      },
       "fisheye-polynomial: at R millimetres from the middle of the sensor it looks -(K0 + K1 R + K2 R^2 + K3 R^3 + K4 "
       "R^4) radians off axis, as in Cycles");
   options.custom(
-      "--sensor", "WIDTH,HEIGHT", "", [&](const std::string& text) { parse_sensor(text, projection); },
+      "--sensor", "WIDTH,HEIGHT", "",
+      [&](const std::string& text) {
+        const std::vector<float> size = parse_count(text, {2}, "--sensor is WIDTH,HEIGHT in millimetres");
+        changes.sensor = vec2(size[0], size[1]);
+      },
       "fisheye-polynomial: size of the sensor, millimetres [36,24]");
   options.custom(
-      "--lens-direction", "PAN,TILT", "", [&](const std::string& text) { parse_look(text, projection); },
+      "--lens-direction", "PAN,TILT", "", [&](const std::string& text) { changes.direction = parse_direction(text); },
       fmt::format("where it points ({}), degrees right and up; the eyes stay level", ods::kinds_with(ods::has_lens)));
+}
+
+ProjectionSetting changed(ProjectionSetting projection, const ProjectionChanges& changes) {
+  if (changes.named) projection = *changes.named;
+  if (changes.face) {
+    expect(!changes.named || projection.kind == ods::kPerspective, "--face", "perspective, which it implies",
+           projection);
+    projection = *changes.face;
+  }
+  if (changes.range) {
+    const std::vector<float>& range = *changes.range;
+    expect(ods::has_range(projection.kind), "--range", ods::kinds_with(ods::has_range), projection);
+    projection.longitude = vec2(range[0], range[1]);
+    if (range.size() == 4) projection.latitude = vec2(range[2], range[3]);
+  }
+  if (changes.fov) {
+    expect(ods::has_fov(projection.kind), "--fov", ods::kinds_with(ods::has_fov), projection);
+    projection.fov = *changes.fov;
+  }
+  const bool is_polynomial = projection.kind == ods::kFisheyePolynomial;
+  if (changes.polynomial) {
+    expect(is_polynomial, "--lens-polynomial", "fisheye-polynomial", projection);
+    std::ranges::copy(*changes.polynomial, projection.polynomial.begin());
+  }
+  if (changes.sensor) {
+    expect(is_polynomial, "--sensor", "fisheye-polynomial", projection);
+    projection.sensor = *changes.sensor;
+  }
+  if (changes.direction) {
+    expect(ods::has_lens(projection.kind), "--lens-direction", ods::kinds_with(ods::has_lens), projection);
+    projection.pan = changes.direction->x, projection.tilt = changes.direction->y;
+  }
+  return projection;
 }
 
 // One circle for both eyes, or one for each.

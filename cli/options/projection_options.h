@@ -3,17 +3,33 @@
 //
 // The options that state a picture's projection, shared by the commands that make or read one.
 #pragma once
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/console/options.h"
 #include "ods/camera/projection.h"
 #include "ods/picture/metadata/stereo_format.h"
 
-// option: the name of the one that names the projection.
-void add_projection_options(Options& options, ods::ProjectionSetting& projection,
-                            const std::string& option = "--projection");
+// The options that change a projection; fields that are absent do not change it.
+struct ProjectionChanges {
+  std::optional<ods::ProjectionSetting> named;  // by --projection
+  std::optional<ods::ProjectionSetting> face;   // by --face: perspective, with its direction
+  std::optional<std::vector<float>> range;      // --range: 2 or 4 numbers
+  std::optional<float> fov;
+  std::optional<std::vector<float>> polynomial;  // --lens-polynomial
+  std::optional<ods::vec2> sensor;
+  std::optional<ods::vec2> direction;  // --lens-direction: pan and tilt
+  bool any() const { return named || face || range || fov || polynomial || sensor || direction; }
+};
 
-// Throws UsageError, whose message says that `option` was given the name.
+// option: the name of the one that names the projection.
+void add_projection_options(Options& options, ProjectionChanges& changes, const std::string& option = "--projection");
+
+// Throws UsageError for an option that the resulting projection does not have.
+ods::ProjectionSetting changed(ods::ProjectionSetting projection, const ProjectionChanges& changes);
+
+// Throws UsageError with a message that names `option` and the value.
 ods::ProjectionSetting projection_by_name(const std::string& option, const std::string& name);
 
 // Finds the height of one eye's picture if it is 0, or else the aspect of a perspective view. Throws UsageError if the
@@ -24,9 +40,9 @@ void finish_projection(ods::ProjectionSetting& projection, int width, int& heigh
 // opens the file.
 void add_lens_options(Options& options, ods::FormatHint& known);
 
-// What these options imply: a fisheye, and two halves if they look ahead and back.
+// Sets the format that these options imply: a fisheye, and two halves if the lenses look ahead and back.
 void finish_lens_options(ods::FormatHint& known);
 
-// What a picture, frames (the first that exists) or a video that a command reads shows: as ods::identified(), whose
-// doubts become notes. `known` alone if there is nothing to look at; opening it says what is wrong.
+// Identifies the format of a picture, frames (the first that exists) or a video that a command reads, by
+// ods::identified(), whose doubts become notes. Returns `known` if there is no file; opening it then reports the error.
 ods::FormatHint identified_input(const std::string& path, const ods::FormatHint& known);

@@ -40,7 +40,7 @@ static void add_shape_options(Options& options, SceneSource& source) {
                  "the axis of the file that points up. auto: y, as in glTF, unless things stand on a floor with z up");
 }
 
-// None: auto.
+// Nullopt: auto.
 static std::optional<float> parse_unit(const std::string& word) {
   if (word == "auto") return std::nullopt;
   if (const auto unit = ods::find_in(ods::kUnitTable, word)) return ods::row_in(ods::kUnitTable, *unit).metres;
@@ -61,26 +61,22 @@ static void add_blender_options(Options& options, SceneSource& source) {
   options.number(
       "--bake", source.blender.bake, 0, 8192,
       "for these files: bake what nodes of materials compute into pictures this many pixels wide; 0: do not bake");
-  options.number("--blender-limit", source.blender.seconds, 0.1f, 1e6f, "the seconds that Blender may take");
+  options.number("--blender-limit", source.blender.seconds, 0.1f, 1e6f,
+                 "the seconds that Blender, or Assimp in its place, may take to convert the file");
 }
 
-void add_scene_argument(Options& options, SceneSource& source,
-                        const std::function<void(const ForeignScene&)>& foreign) {
+void add_scene_argument(Options& options, SceneSource& source) {
   options.group("Scene");
   add_blender_options(options, source);
   add_confine_option(options, source);
+  options.text(
+      "--scene", "NAME|NUMBER", source.scene,
+      "which of the file's scenes, by its name or its number, counted from 0; by default the file's own choice");
   options.argument(
-      scene_kind(),
-      [&source, foreign](const std::string& name) {
-        source.name = name;
-        read_foreign(source);
-        if (source.foreign && foreign) foreign(*source.foreign);
-      },
+      scene_kind(), source.name,
       "a .glb or .gltf file, a .blend file or another that Blender reads (.fbx, .obj, .usd, ...), or a built-in scene "
       "(ods scenes lists them)");
   options.offer("SCENE", ods::names_of(ods::builtin_scenes()));
-  options.number("--scene", source.scene, 0, 1000000,
-                 "number of the scene in the file, counted from 0; by default the file's default scene");
   options.text(
       "--variant", "NAME", source.variant,
       "which of the file's material variants to show (ods info lists them); by default each mesh's own material");
@@ -114,6 +110,7 @@ void read_foreign(SceneSource& source) {
     throw UsageError(
         fmt::format("--confine does not hold for '{}': Blender reads all files that it names", source.name));
   }
+  source.blender.scene = source.scene;
   source.foreign = convert_foreign_scene(source.name, source.blender);
 }
 
@@ -147,7 +144,7 @@ static void set_lamp_unit(Scene& scene, const SceneSource& source) {
 // Built-in scenes are in metres and have a view point.
 static void settle_scene(Scene& scene, const SceneSource& source, ods::Settled* result, const ods::LookAround& look) {
   std::optional<float> unit = parse_unit(source.unit);
-  if (!unit && source.foreign && source.foreign->is_blender_file) unit = 1.0f;
+  if (!unit && source.foreign && source.foreign->is_blender_file) unit = source.foreign->unit;
   if (ods::find_builtin(source.name)) return ods::scale_scene(scene, unit.value_or(1.0f));
   const ods::SettleOptions options{unit, !source.has_places, source.taken_for, ods::camera_choice(source.camera)};
   const ods::Settled settled = ods::settle(scene, options, look);
@@ -166,8 +163,11 @@ static void settle_scene(Scene& scene, const SceneSource& source, ods::Settled* 
 // The scene as --up has it.
 static Scene load_upright(const SceneSource& source) {
   const std::string& file = source.foreign ? source.foreign->file : source.name;
+  const bool is_number = std::ranges::all_of(source.scene, [](char c) { return c >= '0' && c <= '9'; }) &&
+                         !source.scene.empty() && source.scene.size() < 8;
   ods::SceneOptions options{
-      .scene = source.scene.value_or(-1),
+      .scene = is_number && !source.foreign ? std::atoi(source.scene.c_str()) : -1,
+      .scene_name = is_number || source.foreign ? "" : source.scene,
       .confine = source.foreign ? "" : confining_folder(source),
       .variant = source.variant,
       .camera = ods::camera_choice(source.camera) == ods::CameraChoice::kNamed ? source.camera : "",
@@ -180,7 +180,7 @@ static Scene load_upright(const SceneSource& source) {
   return ods::load_scene(file, options);
 }
 
-// Of a scene of another program, what Cycles sees in it: all closed glass is solid.
+// Treats a scene of another program as Cycles does: all closed glass is solid.
 static Scene load(const SceneSource& source) {
   Scene scene = load_upright(source);
   if (!source.foreign) return scene;
@@ -224,6 +224,16 @@ static void check_content(const Scene& scene, const std::string& name) {
   }
 }
 
+// Such as files are in whose program had the other of Collada's two senses of transparency.
+static void warn_of_invisible(const Scene& scene) {
+  const bool is_invisible = std::ranges::all_of(scene.instances, [&](const ods::Instance& instance) {
+    const int material = scene.meshes[static_cast<size_t>(instance.mesh)].material;
+    const ods::Material& its = scene.materials[static_cast<size_t>(material)];
+    return its.alpha_mode != ods::kAlphaOpaque && its.base_color.w == 0.0f;
+  });
+  if (is_invisible) warn("all surfaces of the scene are entirely transparent: the picture shows none of it");
+}
+
 static void note_sheet_glass(const Scene& scene) {
   std::vector<ods::SheetGlass> glass = find_sheet_glass(scene);
   std::erase_if(glass, [](const ods::SheetGlass& each) { return each.closed_meshes == 0; });
@@ -238,7 +248,10 @@ static void note_sheet_glass(const Scene& scene) {
 
 ods::LightWishes wishes_for(SceneSource& source, bool transparent) {
   read_foreign(source);
-  if (source.foreign && source.light.environment.empty()) source.light.environment = source.foreign->environment;
+  if (source.foreign && source.light.environment.empty()) {
+    source.light.environment = source.foreign->environment;
+    if (source.light.background.empty()) source.light.background = source.foreign->background;
+  }
   return read_wishes(source.light, transparent, confining_folder(source));
 }
 
@@ -251,6 +264,7 @@ Scene open_lit_scene(const SceneSource& given, bool transparent) {
     planned = {survey, ods::plan_light(rays, survey, wishes)};
   });
   check_content(scene, source.name);
+  warn_of_invisible(scene);
   note_sheet_glass(scene);
   light_scene(scene, source.light, wishes, ods::find_builtin(source.name) != nullptr, confined_to, std::move(planned));
   return scene;

@@ -3,7 +3,6 @@
 //
 // The options that choose a scene and its light, shared by the commands that read one.
 #pragma once
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,8 +15,8 @@
 #include "ods/stage/upright.h"
 
 struct SceneSource {
-  std::string name;          // a file or a built-in scene
-  std::optional<int> scene;  // which of the file's scenes; none: its default scene
+  std::string name;   // a file or a built-in scene
+  std::string scene;  // which of the file's scenes, by name or number; empty: its default scene
   LightOptions light;
   std::vector<std::string> catchers;
   std::string confine;  // --confine
@@ -26,17 +25,14 @@ struct SceneSource {
   bool portable = false;
   std::string unit = "auto";
   BlenderOptions blender;
-  std::optional<ForeignScene> foreign;  // what became of the scene of another program: read_foreign()
+  std::optional<ForeignScene> foreign;  // the converted scene of another program: read_foreign()
   ods::TakenFor taken_for = ods::TakenFor::kAuto;
   ods::UpAxis up = ods::UpAxis::kAuto;
   std::string camera;       // as CameraOptions::view_point
   bool has_places = false;  // other options give places in the scene: an object is not shown as a model then
 };
 
-// A scene of another program is converted as soon as it is read from the command line; `foreign` is then called, and
-// options that are added later change what that sets.
-void add_scene_argument(Options& options, SceneSource& source,
-                        const std::function<void(const ForeignScene&)>& foreign = {});
+void add_scene_argument(Options& options, SceneSource& source);
 // Adds the scene as an option, for commands that work without one.
 void add_scene_option(Options& options, SceneSource& source, const char* help);
 
@@ -54,10 +50,10 @@ ods::LightWishes wishes_for(SceneSource& source, bool transparent);
 
 // Reads the scene, turns the named objects into catchers, makes glass solid if asked to, and notes what the renderer
 // does not support. A file's scene is measured: it gets its size in metres and a place for the viewer
-// (ods/stage/place.h), and what was assumed is noted; settled, if not null, gets the result, and look is called as
+// (ods/stage/place.h), and the assumptions are noted; settled, if not null, gets the result, and look is called as
 // ods::settle() does (neither for built-in scenes).
 ods::Scene open_scene(const SceneSource& source, ods::Settled* settled = nullptr, const ods::LookAround& look = {});
 
-// Likewise for rendering, with light: light_scene(). Notes glass that would look different if it were solid. Throws
-// Error(kInput) if there is nothing to render.
+// Opens a scene for rendering, with light: light_scene(). Notes glass that would look different if it were solid.
+// Throws Error(kInput) if there is nothing to render.
 ods::Scene open_lit_scene(const SceneSource& source, bool transparent);

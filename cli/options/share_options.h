@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which of many frames a process makes, of a command that makes one file of each.
+// The frames that a process makes, for a command that makes one file of each.
 #pragma once
 #include <string>
 #include <vector>

@@ -53,12 +53,12 @@ void add_time_options(Options& options, TimeOptions& time) {
                "the same objects");
   options.text("--frames", "LIST|all", time.frames,
                "frames to render: 1-100, 1-100x2 (every other one), 1,5,10-20, or all. Frame N shows the scene at N / "
-               "fps seconds. "
+               "fps seconds; of a .blend, frame N of its timeline. "
                "ods render writes a file per frame: -o shot.####.exr or shot.%04d.exr");
   options.text("--only", "LIST|I/N", time.only,
                "make only these frames, or the I-th of N shares of them, as one of several processes; exposure and "
                "denoising still consider all frames");
-  options.number("--fps", time.fps, 0.01f, 1000.0f, "frames per second");
+  options.number("--fps", time.asked_fps, 0.01f, 1000.0f, "frames per second", "30");
   options.number("--duration", time.duration, 0.01f, 1e6f,
                  "length of the video and of camera moves, seconds; by default the animation's length, or 10");
   options.custom(
@@ -71,9 +71,10 @@ void add_time_options(Options& options, TimeOptions& time) {
   options.custom(
       "--fly-to", "X,Y,Z;X,Y,Z...", "", [&](const std::string& word) { read_flight(word, time.move); },
       "fly the camera from its position through these points, on a smooth curve, in the whole duration");
-  options.number("--shutter", time.shutter, 0.0f, 360.0f,
+  options.number("--shutter", time.asked_shutter, 0.0f, 360.0f,
                  "motion blur: shutter angle in degrees, centred on the frame's time; 360 is a whole frame, 180 is "
-                 "usual, 0 is none");
+                 "usual, 0 is none",
+                 "0");
   options.choice("--grain", time.grain, kGrainTable,
                  "noise pattern: the same in every frame, or different in each; by default changing if --turntable, "
                  "--fly-to or the file moves the camera, else fixed");
@@ -126,7 +127,8 @@ static void turn_object(TimeOptions& time, ods::Scene& scene) {
   if (move.turns == 0.0 || move.pivot || !move.fly_to.empty()) return;
   if (!scene.viewing || !scene.viewing->is_object) return;
   const std::vector<int> frames = video_frames(time);
-  const double end = *std::max_element(frames.begin(), frames.end()) / static_cast<double>(time.fps) + 1.0;
+  const double end =
+      (*std::max_element(frames.begin(), frames.end()) - time.file.first) / static_cast<double>(time.fps) + 1.0;
   if (std::abs(move.turns) / move.seconds * std::max(end, move.seconds) > ods::kMostTurns) {
     throw UsageError(fmt::format("--turntable turns an object {:g} times at most", ods::kMostTurns));
   }
@@ -137,11 +139,17 @@ static void turn_object(TimeOptions& time, ods::Scene& scene) {
 }
 
 static Grain usual_grain(const TimeOptions& time, const CameraOptions& camera, const ods::Scene& scene) {
-  return ods::moves(time.move) || file_moves_camera(camera, scene) ? Grain::kChanging : Grain::kFixed;
+  return ods::moves(time.move) || is_moved_by_file(scene_camera(camera), scene) ? Grain::kChanging : Grain::kFixed;
 }
 
 void start_clock(TimeOptions& time, const CameraOptions& camera, ods::Scene& scene) {
   ods::Animation& animation = scene.animation;
+  // A still shows the frame at which the file was saved.
+  if (time.file.count > 0 && !time.time && !asks_for_video(time)) {
+    time.time = static_cast<float>(time.file.saved - time.file.first) / time.fps;
+    note(fmt::format("frame {} of {} to {}, at which the file was saved; --time SECONDS or --frames LIST chooses",
+                     time.file.saved, time.file.first, time.file.first + time.file.count - 1));
+  }
   const bool timed = time.time || asks_for_video(time);
   const std::vector<std::string> names = ods::names_of(animation.clips);
   if (!timed && time.animation.empty()) {
@@ -153,17 +161,30 @@ void start_clock(TimeOptions& time, const CameraOptions& camera, ods::Scene& sce
     throw UsageError(fmt::format("--animation: the scene has none called '{}'{} (ods info lists them)", time.animation,
                                  ods::did_you_mean(time.animation, names)));
   }
-  const double length = ods::length_of(animation);
+  // The time during which the file's frames are shown, the last one included.
+  const double length =
+      time.file.count > 0 ? time.file.count / static_cast<double>(time.fps) : ods::length_of(animation);
   if (!time.grain) time.grain = usual_grain(time, camera, scene);
   time.move.seconds = time.duration ? static_cast<double>(*time.duration) : length > 0.0 ? length : 10.0;
   turn_object(time, scene);
 }
 
+// The frames that the options list. If the file counts its frames, it must have some of them.
+static std::vector<int> named_frames(const TimeOptions& time) {
+  std::vector<int> frames = ods::parse_frames(time.frames);
+  const int last = time.file.first + time.file.count - 1;
+  const auto is_there = [&](int frame) { return frame >= time.file.first && frame <= last; };
+  if (time.file.count > 0 && std::ranges::none_of(frames, is_there)) {
+    throw UsageError(fmt::format("--frames: the file has frames {} to {}", time.file.first, last));
+  }
+  return frames;
+}
+
 std::vector<int> video_frames(const TimeOptions& time) {
-  if (names_frames(time)) return ods::parse_frames(time.frames);
+  if (names_frames(time)) return named_frames(time);
   const double count = std::round(time.move.seconds * static_cast<double>(time.fps));
   if (count > 1e6) throw UsageError("the video would have more than a million frames; --frames says which to render");
   std::vector<int> frames(static_cast<size_t>(std::max(count, 1.0)));
-  std::iota(frames.begin(), frames.end(), 0);
+  std::iota(frames.begin(), frames.end(), time.file.first);
   return frames;
 }

@@ -8,13 +8,14 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/bridge/foreign_scene.h"
 #include "cli/console/options.h"
 #include "cli/options/camera_options.h"
 #include "ods/base/names.h"
 #include "ods/camera/camera_move.h"
 #include "ods/scene/scene.h"
 
-// Whether all frames of a video have the same noise, or each frame its own.
+// The noise of a video's frames: the same for all, or its own for each.
 enum class Grain { kFixed, kChanging };
 inline constexpr ods::NameRow<Grain> kGrainTable[] = {
     {Grain::kFixed, "fixed"},
@@ -27,22 +28,25 @@ constexpr std::string_view grain_name(Grain noise) {
 }
 
 struct TimeOptions {
-  std::optional<float> time;  // seconds
-  std::string animation;      // empty: what ods::play() chooses
-  std::string frames;         // empty or "all": the whole duration
-  std::string only;           // those of the frames that this process makes, or its share, "3/8"; empty: all
-  float fps = 30.0f;
-  std::optional<float> duration;  // seconds; of a video, or of the camera's move
+  FileFrames file;                 // the frames of the scene's file; frame `first` is at 0 seconds
+  std::optional<float> time;       // seconds
+  std::string animation;           // empty: ods::play() chooses
+  std::string frames;              // empty or "all": the whole duration
+  std::string only;                // the frames that this process makes, or its share, "3/8"; empty: all
+  std::optional<float> asked_fps;  // --fps
+  float fps = 30.0f;               // that, or the converted scene's, or this
+  std::optional<float> duration;   // seconds; of a video, or of the camera's move
   ods::CameraMove move;
-  float shutter = 0.0f;        // shutter angle, degrees: 360 is the time between two frames
+  std::optional<float> asked_shutter;  // --shutter
+  float shutter = 0.0f;  // that, or the converted scene's: shutter angle, degrees; 360 is the time between two frames
   std::optional<Grain> grain;  // empty: start_clock() chooses
   bool skip_existing = false;
-  bool is_video = false;  // true: the command makes a video, whatever other options say
+  bool is_video = false;  // the command makes a video, independent of other options
 };
 
 void add_time_options(Options& options, TimeOptions& time);
 
-// Whether the options ask for a video, frame by frame.
+// Returns whether the options specify a video, frame by frame.
 bool asks_for_video(const TimeOptions& time);
 
 // Checks the options as a whole. Throws UsageError and ods::Error.
@@ -56,9 +60,10 @@ void start_clock(TimeOptions& time, const CameraOptions& camera, ods::Scene& sce
 // Checks the value of --only. Throws UsageError and ods::Error(kUsage).
 void check_only(const std::string& only);
 
-// Those of `all` that --only names, by their numbers (a farm may name some beyond the end) or as one of N shares that
-// lie one behind the other. All of them without --only. Throws UsageError if a list names none.
+// Returns the frames of `all` that --only names, by their numbers (a farm may name some beyond the end) or as one of N
+// consecutive shares. Returns all without --only. Throws UsageError if a list does not name any of them.
 std::vector<int> own_frames(const std::string& only, const std::vector<int>& all);
 
-// The frames of the video; frame f is at f / fps seconds. Precondition: start_clock() has run. Throws ods::Error.
+// The frames of the video; frame f is at (f - file.first) / fps seconds. Precondition: start_clock() has run. Throws
+// UsageError if the file does not have any of the frames that the options name, and ods::Error.
 std::vector<int> video_frames(const TimeOptions& time);

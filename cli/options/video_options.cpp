@@ -38,7 +38,7 @@ void parse_encoder(const std::string& name, VideoWishes& wishes) {
 
 // The target's packing, with the options applied.
 ods::Packing packing_for(const VideoWishes& wishes, Container container, Extent size) {
-  ods::Packing packing = ods::packing_for(wishes.target, size, wishes.rate.value());
+  ods::Packing packing = ods::packing_for(wishes.target_or_usual(), size, wishes.rate.value());
   const auto change = [&](VideoCodec codec) {
     if (packing.codec == codec) return;
     packing.codec = codec;
@@ -51,7 +51,7 @@ ods::Packing packing_for(const VideoWishes& wishes, Container container, Extent 
     for (const ods::EncoderFacts& facts : ods::known_encoders()) {
       if (facts.name == wishes.encoder) change(facts.codec);
     }
-  } else if (container == Container::kWebm && wishes.target != ods::VideoTarget::kMaster) {
+  } else if (container == Container::kWebm && wishes.target_or_usual() != ods::VideoTarget::kMaster) {
     change(VideoCodec::kVp9);
   }
   packing.bits = wishes.bits.value_or(packing.bits);
@@ -94,7 +94,7 @@ void check_quality(const ods::EncodeOptions& options) {
 }
 
 // Warns about a video that does not exist yet, as ods probe would see it, and notes the name by which players would
-// know it.
+// recognise it.
 void warn_of_names(const VideoWishes& wishes, const ods::VideoPlan& plan) {
   ods::VideoFile video;
   ods::VideoTrack track;
@@ -167,7 +167,8 @@ void add_video_options(Options& options, VideoWishes& wishes) {
 
 void add_packing_options(Options& options, VideoWishes& wishes) {
   options.choice("--target", wishes.target, ods::kVideoTargetTable,
-                 "preset for a destination; the options below override it");
+                 "preset for a destination; the options below override it",
+                 std::string(ods::name_in(ods::kVideoTargetTable, ods::VideoTarget::kVrPlayers)));
   options.choice("--codec", wishes.codec, ods::kVideoCodecTable, "video codec; by default the target's");
   options.custom(
       "--encoder", "NAME", "", [&](const std::string& name) { parse_encoder(name, wishes); },
@@ -183,7 +184,7 @@ void add_packing_options(Options& options, VideoWishes& wishes) {
   add_apple_option(options, wishes.for_apple);
 }
 
-// A codec that is not written, or not into this container: what replaces it is for players.
+// A codec that cannot be written, or not into this container, is replaced by a codec for players.
 static void warn_of_less(const VideoWishes& wishes, const std::string& path, const ods::VideoStream& stream) {
   std::string loss, cure;
   if (stream.bits > 8 && !wishes.bits && !stream.words.is_hdr()) {
@@ -196,15 +197,15 @@ static void warn_of_less(const VideoWishes& wishes, const std::string& path, con
   if (!loss.empty()) warn(fmt::format("'{}' has{}, the new video less, for players:{} keeps it", path, loss, cure));
 }
 
-VideoWishes wishes_like(VideoWishes wishes, const ods::VideoInput& video, const ods::VideoStream& stream,
-                        bool has_target) {
+VideoWishes wishes_like(VideoWishes wishes, const ods::VideoInput& video, const ods::VideoStream& stream) {
   wishes.rate = stream.rate;
   const auto own = ods::packing_like(stream, container_for(wishes.output));
-  if (own && !has_target && !wishes.codec && wishes.encoder.empty()) {
+  const bool is_open = !wishes.target && !wishes.codec && wishes.encoder.empty();
+  if (own && is_open) {
     wishes.codec = own->codec;
     wishes.bits = wishes.bits.value_or(own->bits);
     wishes.chroma = wishes.chroma.value_or(own->chroma);
-  } else if (!own && !has_target && !wishes.codec && wishes.encoder.empty()) {
+  } else if (is_open) {
     warn_of_less(wishes, video.path, stream);
   }
   wishes.keep.path = video.path;

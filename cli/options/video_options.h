@@ -12,7 +12,7 @@
 
 struct VideoWishes {
   std::string output;
-  ods::VideoTarget target = ods::VideoTarget::kVrPlayers;
+  std::optional<ods::VideoTarget> target;  // by default players of VR videos
   std::optional<ods::VideoCodec> codec;
   std::optional<int> bits, crf;
   std::optional<ods::Chroma> chroma;
@@ -21,6 +21,12 @@ struct VideoWishes {
   bool for_apple = false;
   ods::KeepOptions keep;
   ods::FrameRate rate;
+
+  ods::VideoTarget target_or_usual() const { return target.value_or(ods::VideoTarget::kVrPlayers); }
+  bool says_how_to_encode() const {
+    return target || codec || bits || crf || chroma || bitrate || for_apple || !encoder.empty() || !preset.empty() ||
+           !sound.empty();
+  }
 };
 
 // Parses 30, 12.5, 30000/1001; 29.97 and the like mean 30000/1001 and the like, as usual. Throws UsageError.
@@ -31,23 +37,22 @@ void add_video_options(Options& options, VideoWishes& wishes);
 // Adds the packing options alone, to the group that is open.
 void add_packing_options(Options& options, VideoWishes& wishes);
 
-// What was not asked for is as in the video from which the new one is made: codec, bits, chroma, rate, and all that it
-// has beside its pictures; what of that cannot be kept becomes a warning. has_target: --target was given.
-VideoWishes wishes_like(VideoWishes wishes, const ods::VideoInput& video, const ods::VideoStream& stream,
-                        bool has_target);
+// Copies what the options leave open from the video that is converted: codec, bit depth, chroma, rate, audio and
+// metadata. Warns about what cannot be kept.
+VideoWishes wishes_like(VideoWishes wishes, const ods::VideoInput& video, const ods::VideoStream& stream);
 
 // Chosen by a video's name. Throws UsageError.
 ods::Container container_for(const std::string& path);
 
-// How to encode a video of that size. Throws UsageError if the options do not fit together, ods::Error if this machine
-// cannot encode it. Checks that the file can be written, but writes nothing.
+// Returns the settings to encode a video of that size. Throws UsageError if the options do not fit together, ods::Error
+// if this machine cannot encode it. Checks that the file can be written, but writes nothing.
 ods::EncodeOptions encode_options(const VideoWishes& wishes, ods::Extent size, int threads);
 
-// Describes the video that eyes of this size will give; warns of what players do not expect. Throws UsageError for a
-// layout that videos cannot have.
+// Describes the video made from eyes of this size; warns about properties that players do not expect. Throws UsageError
+// for a layout that videos cannot have.
 ods::VideoPlan expect_video(ods::Layout layout, size_t eyes, ods::Extent eye, const ods::ProjectionSetting& projection);
 
-// Says what users should know before the video is made: levels, names, and its sound for this number of frames.
+// Notes what users should know before the video is made: levels, names, and its sound for this number of frames.
 void say_what_players_need(const VideoWishes& wishes, const ods::VideoPlan& plan, const ods::EncodeOptions& options);
 void say_length_of_sound(const ods::EncodeOptions& options, size_t frames);
 

@@ -4,21 +4,20 @@
 
 #include <fmt/format.h>
 
-#include "cli/comfort/first_look.h"
 #include "cli/console/console.h"
 #include "cli/options/eye_options.h"
 #include "cli/options/picture_options.h"
 #include "ods/comfort/merge_from_depth.h"
 #include "ods/scene/builtin/builtin.h"
-#include "ods/scene/motion.h"
 #include "ods/scene/sheet_glass.h"
 #include "ods/sequence/looks.h"
+#include "ods/stage/judge_scene.h"
 #include "ods/stage/place.h"
 
 namespace {
 
-// Warns about a camera that the user or the file has placed where there is nothing to see. Where it stands by our own
-// choice it is in free space.
+// Warns about a camera that the user or the file has placed where there is nothing to see. Our own choice is in free
+// space.
 void check_view(const RenderJob& job, const ods::Scene& scene, ods::vec3 eye) {
   const bool own_choice = !job.camera.position &&
                           ods::camera_choice(job.camera.view_point) != ods::CameraChoice::kNamed &&
@@ -47,66 +46,46 @@ void note_straight_light(const RenderJob& job, const ods::Scene& scene) {
   note(fmt::format("light passes solid glass ('{}'{}) unbent; --caustics path refracts it", solids.front(), others));
 }
 
+}  // namespace
+
 bool is_looked_at(const RenderJob& job) {
   return job.time.is_video || job.part || !keeps_light(job.output);
 }
 
-bool is_made_for_it(const RenderJob& job) {
-  const auto& [environment, lamp, background, unlit, lamp_unit] = job.scene.light;
-  return ods::find_builtin(job.scene.name) && environment.empty() && lamp.empty() && background.empty() && !unlit;
+void say_where(const RenderJob& job, ods::FrameRenderer& renderer, const ods::SequenceFrame& first) {
+  const ods::StereoCamera camera = renderer.set(first).camera();
+  note_camera(job.camera, renderer.scene(), camera);
+  check_view(job, renderer.scene(), camera.position);
+  note_straight_light(job, renderer.scene());
 }
 
-// As Exposures::judged. Also for a scene-linear file whose noise is judged: somebody will look at it, too.
-float judged_exposure(const RenderJob& job, const ods::Scene& scene, ods::FrameRenderer& renderer,
-                      const std::vector<ods::SequenceFrame>& all) {
-  const bool shown = is_looked_at(job);
-  if (job.exposure || !(shown || job.render.noise > 0.0f) || is_made_for_it(job) || all.empty()) {
-    return job.exposure.value_or(job.brighter);
+void say_look(const RenderJob& job, const ods::SequenceOptions& options, const ods::FirstLook& look) {
+  if (options.merge_limit) note(merge_by_depth_text(*options.camera.stereo.merge_map));
+  const bool is_shown = is_looked_at(job);
+  switch (look.reason) {
+    case ods::ExposureReason::kGiven:
+      return;
+    case ods::ExposureReason::kPainted:
+      if (is_shown)
+        note("exposure 0 and no tone curve, since the colours are shown as they are painted (--exposure, --tone)");
+      return;
+    case ods::ExposureReason::kDark:
+      return warn(
+          "there is nothing to see: no light reaches the camera (--env 1 lights the scene, --position X,Y,Z moves it)");
+    case ods::ExposureReason::kFrames:
+      return note(
+          fmt::format("exposure {:+} stops, as the frames that exist (--restart chooses it again)", look.exposure));
+    case ods::ExposureReason::kLight: {
+      if (!is_shown)
+        return note(fmt::format("noise is judged at {:+} stops, as the picture will be looked at", look.exposure));
+      const std::string more = job.brighter == 0.0f ? "" : fmt::format(" and --brighter {}", job.brighter);
+      note(fmt::format("exposure {:+} stops, from a first look at the light{} (--exposure {})", look.exposure, more,
+                       look.exposure));
+    }
   }
-  if (scene.as_painted) {
-    if (shown)
-      note("exposure 0 and no tone curve, since the colours are shown as they are painted (--exposure, --tone)");
-    return 0.0f;
-  }
-  const std::optional<float> stops = ods::suitable_exposure(renderer, all);
-  if (!stops) {
-    warn("there is nothing to see: no light reaches the camera (--env 1 lights the scene, --position X,Y,Z moves it)");
-    return job.brighter;
-  }
-  const float exposure = brightened(*stops, job.brighter);
-  if (!shown) {
-    note(fmt::format("noise is judged at {:+} stops, as the picture will be looked at", exposure));
-    return exposure;
-  }
-  const std::string more = job.brighter == 0.0f ? "" : fmt::format(" and --brighter {}", job.brighter);
-  note(fmt::format("exposure {:+} stops, from a first look at the light{} (--exposure {})", exposure, more, exposure));
-  return exposure;
 }
 
-}  // namespace
-
-void say_where(const RenderJob& job, const TimeOptions& time, ods::Scene& scene, const ods::SequenceFrame& first) {
-  ods::set_time(scene, first.time);
-  const ods::StereoCamera camera = ods::moved(place_camera_again(job.camera, scene), time.move, first.time);
-  note_camera(job.camera, scene, camera);
-  check_view(job, scene, camera.position);
-  note_straight_light(job, scene);
-}
-
-Exposures choose_exposure(const RenderJob& job, const ods::Scene& scene, ods::FrameRenderer& renderer,
-                          const std::vector<ods::SequenceFrame>& all) {
-  const float judged = judged_exposure(job, scene, renderer, all);
-  return {is_looked_at(job) || job.exposure ? judged : job.brighter, judged};
-}
-
-void settle_merge(RenderJob& job, ods::FrameRenderer& renderer, const std::vector<ods::SequenceFrame>& all) {
-  if (!job.camera.merge_limit) return;
-  ods::Image map = ods::comfortable_merge(renderer, all, *job.camera.merge_limit);
-  note(merge_by_depth_text(map));
-  ods::use_merge_map(job.camera.stereo, std::move(map));
-}
-
-// One line for all frames, and none where the job is a part of one: the others would say it again.
+// One line for all frames, and none for a part of a picture: the others would repeat it.
 void warn_of_strain(const RenderJob& job, ods::FrameRenderer& renderer, const std::vector<ods::SequenceFrame>& all) {
   constexpr double kLongSamples = 2e7;  // in all pixels: rendering takes more than a few seconds
   const double samples =
@@ -114,10 +93,10 @@ void warn_of_strain(const RenderJob& job, ods::FrameRenderer& renderer, const st
   if (samples < kLongSamples || job.part || ods::eye_list(job.render.eyes).size() < 2) return;
   for (const size_t i : ods::looks_at(all, ods::kLooks)) {
     const ods::Shot shot = renderer.set(all[i]);
-    const std::string line =
-        strain_line(renderer.renderer(), renderer.scene(), shot.camera(), ods::ComfortLevel::kError);
+    const ods::JudgedPicture judged = ods::judge_scene(renderer.renderer(), renderer.scene(), shot.camera());
+    const std::string line = ods::strain_line(judged.verdict, ods::ComfortLevel::kError);
     if (line.empty()) continue;
-    return warn(line + (job.camera.merge_limit ? "" : ", or --merge auto or a smaller --ipd") +
+    return warn(line + (job.camera.changes.merge_limit ? "" : ", or --merge auto or a smaller --ipd") +
                 "; ods comfort has more");
   }
 }

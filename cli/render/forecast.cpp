@@ -14,8 +14,8 @@
 
 namespace {
 
-constexpr double kShort = 10.0;   // seconds that need no forecast
-constexpr double kLong = 3600.0;  // seconds from which somebody may want something faster
+constexpr double kShort = 10.0;   // seconds below which there is no forecast
+constexpr double kLong = 3600.0;  // seconds from which faster settings are suggested
 
 // On the average. Small pictures are less smooth than large ones, so their files are larger for their size.
 ods::SmallFrame look_at(const RenderJob& job, ods::FrameRenderer& renderer,

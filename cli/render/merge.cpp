@@ -8,10 +8,11 @@
 #include <chrono>
 #include <filesystem>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "cli/render/library_options.h"
 #include "cli/render/merge_job.h"
+#include "cli/render/plan.h"
 #include "ods/render/part_file.h"
 
 namespace fs = std::filesystem;
@@ -38,28 +39,27 @@ void remove_parts(const MergeJob& job) {
   if (together) fs::remove(merged, error);  // if nothing else is in it
 }
 
-void merge_and_save(MergeJob& job, ProgressLines& lines) {
+void merge_and_save(const MergeOptions& given, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
+  MergeJob job = open_parts(given);
   const auto report = [&](double done) {
     lines.report(0.9 * done, seconds_since(start), {"merge", 0, 0, job.render.output});
   };
-  const auto files = ods::finish_picture(finish_of(job.render), job.render.render, job.camera,
+  const auto files = ods::finish_picture(plan(job.render).sequence.finish, job.render.render, job.camera,
                                          picture_of(job, {report, {}}), job.render.output);
   lines.report(1.0, seconds_since(start), {"merge", 0, 0, job.render.output});
   lines.clear();
   for (const std::string& file : files) announce_file(file);
-  if (job.remove_parts) remove_parts(job);
+  if (given.remove_parts) remove_parts(job);
 }
 
-void merge(int argc, char** argv) {
-  MergeJob job;
-  if (!read_merge_job(job, argc, argv)) return;
-  run_long_job(job.render.progress, job.render.render.threads,
-               [&](ProgressLines& lines) { merge_and_save(job, lines); });
+void merge(const MergeOptions& given) {
+  if (are_merged(given)) return note(fmt::format("'{}' exists already, and its parts are gone", given.render.output));
+  run_long_job(given.render.progress, given.render.render.threads,
+               [&](ProgressLines& lines) { merge_and_save(given, lines); });
 }
 
 }  // namespace
 
-int ods_merge(int argc, char** argv) {
-  return run_command([=] { merge(argc, argv); });
-}
+extern const Command kMerge =
+    make_command<parse_merge, merge>("merge", "merge the parts of a picture that several machines rendered");

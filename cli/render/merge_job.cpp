@@ -13,13 +13,13 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
-#include "cli/render/frame_settings.h"
-#include "cli/render/library_options.h"
+#include "cli/render/plan.h"
 #include "ods/denoise/oidn.h"
 #include "ods/files/frames.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/save.h"
 #include "ods/render/part_file.h"
+#include "ods/sequence/identity.h"
 
 namespace {
 
@@ -32,7 +32,7 @@ constexpr const char* kMergeSummary =
     "Merges the parts of a picture that ods render --part made, on any machines: the result has the same bits as one\n"
     "rendering of all samples. It also makes a picture of what an interrupted rendering left.";
 
-// The files that the words name; a pattern stands for those that exist.
+// Returns the files that the arguments name; a pattern matches existing files.
 std::vector<std::string> files_of(const std::vector<std::string>& words) {
   std::vector<std::string> files;
   for (const std::string& word : words) {
@@ -50,7 +50,7 @@ std::vector<std::string> files_of(const std::vector<std::string>& words) {
 
 ods::Settings settings_of(const ods::SampledPicture& part) {
   ods::Settings settings = part.settings;
-  std::erase_if(settings, [](const ods::Setting& setting) { return setting.name == kPartSetting; });
+  std::erase_if(settings, [](const ods::Setting& setting) { return setting.name == ods::kPartSetting; });
   return settings;
 }
 
@@ -70,8 +70,8 @@ std::string missing(const std::map<int, std::string>& parts, int count) {
   return ods::frames_text(numbers);
 }
 
-// Finds the parts' numbers and what picture they make.
-void open_parts(MergeJob& job, bool incomplete) {
+// Finds the parts' numbers and the picture that they make.
+void order_parts(MergeJob& job, bool incomplete) {
   std::map<int, std::string> parts;
   std::string first;
   for (const std::string& path : job.parts) {
@@ -110,14 +110,14 @@ void open_pictures(MergeJob& job, bool incomplete) {
     job.picture.options.statistics |= job.picture.options.noise > 0.0f;  // such samples have them, too
     job.parts.clear();
   } else {
-    open_parts(job, incomplete);
+    order_parts(job, incomplete);
   }
   const ods::Sidecar sidecar = ods::read_sidecar(job.picture.camera, first, ignored);
   job.camera = sidecar.camera;
   job.layout = sidecar.layout;
 }
 
-// Opens what the words name. Until the wait is over, what is missing may be late.
+// Opens the files that the arguments name. Until the wait is over, missing files may be late.
 void open_words(MergeJob& job, const std::vector<std::string>& words, bool incomplete) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<float>(job.render.wait);
   bool said = false;
@@ -135,50 +135,38 @@ void open_words(MergeJob& job, const std::vector<std::string>& words, bool incom
   }
 }
 
-// Whether an earlier run has merged and removed the parts: a farm may run a task twice.
-bool are_merged(const MergeJob& job, const std::vector<std::string>& words) {
-  const auto is_gone = [](const std::string& word) {
-    const auto names = ods::frame_names(word);
-    std::error_code ignored;
-    if (!names) return !std::filesystem::exists(word, ignored);
-    return !std::filesystem::exists(std::filesystem::path(names->before).parent_path(), ignored) ||
-           ods::frames_on_disk(*names).empty();
-  };
-  return job.remove_parts && ods::is_saved(job.render.output) && std::ranges::all_of(words, is_gone);
-}
-
-void add_options(Options& options, MergeJob& job, std::optional<ods::Layout>& layout, bool& incomplete) {
-  RenderJob& render = job.render;
-  options.arguments(ValueKind::input_file("PART"), job.parts, "the parts; # in a name stands for any number");
+void add_options(Options& options, MergeOptions& given) {
+  RenderJob& render = given.render;
+  options.arguments(ValueKind::input_file("PART"), given.parts, "the parts; # in a name stands for any number");
   options.group("Output");
   options.text("-o,--output", ValueKind::output_file(), render.output,
                "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
-  options.flag("--remove-parts", job.remove_parts, "remove the parts when the picture is saved");
-  options.flag("--incomplete", incomplete, "make the picture even if parts are missing; it is noisier");
+  options.flag("--remove-parts", given.remove_parts, "remove the parts when the picture is saved");
+  options.flag("--incomplete", given.incomplete, "make the picture even if parts are missing; it is noisier");
   add_wait_option(options, render.wait, "parts");
-  add_layout_option(options, layout, "how both eyes share the file; by default as rendered", "--layout");
+  add_layout_option(options, given.layout, "how both eyes share the file; by default as rendered", "--layout");
   options.flag("--sidecar", render.save.sidecar, "also write the camera as JSON beside the picture");
   options.flag("--statistics", render.render.statistics,
                "also write each pixel's variance and number of samples (.exr)");
   options.choice("--denoise", render.denoise, ods::kDenoiserTable, "as in ods render");
-  options.number("--exposure", render.save.exposure, -30.0f, 30.0f,
+  options.number("--exposure", given.display.exposure, -30.0f, 30.0f,
                  "exposure in stops, by default as rendered; .hdr and .exr stay scene-linear and ignore it");
-  options.choice("--tone", render.save.tone, ods::kToneCurveTable,
+  options.choice("--tone", given.display.tone, ods::kToneCurveTable,
                  "tone curve, by default as rendered; .hdr and .exr ignore it");
   options.group("Console");
   options.number("--threads", render.render.threads, 0, 1024, "number of threads; 0: all processors");
   add_progress_options(options, render.progress);
 }
 
-// How the parts' light found its way over several surfaces.
+// The parts' method for indirect light.
 ods::Indirect indirect_of(const ods::SampledPicture& picture) {
   for (const ods::Setting& setting : picture.settings) {
-    if (setting.name == "--indirect") return ods::find_in(ods::kIndirectTable, setting.value).value_or(ods::Indirect{});
+    if (setting.name == "`indirect`") return ods::find_in(ods::kIndirectTable, setting.value).value_or(ods::Indirect{});
   }
   return {};
 }
 
-// What the picture's files are made of, beside its samples.
+// The inputs of the picture's files, besides its samples.
 void finish_options(MergeJob& job, std::optional<ods::Layout> layout) {
   RenderJob& render = job.render;
   const ods::RenderOptions wished = render.render;
@@ -200,33 +188,49 @@ void finish_options(MergeJob& job, std::optional<ods::Layout> layout) {
 // Sums that nothing is made of are left where they are.
 void leave_out_layers(MergeJob& job) {
   ods::RenderOptions& options = job.picture.options;
-  const ods::RenderOptions needed = options_to_finish(job.render);
-  options.layers &= needed.layers, options.statistics &= needed.statistics;
+  const ods::RenderOptions needed = plan(job.render).sampled;
+  options.layers &= needed.layers;
+  options.statistics &= needed.statistics;
 }
 
 }  // namespace
 
-bool read_merge_job(MergeJob& job, int argc, char** argv) {
-  Options options("merge", kMergeSummary, kMergeExamples);
-  std::optional<ods::Layout> layout;
-  bool incomplete = false;
-  add_options(options, job, layout, incomplete);
-  if (!options.parse(argc, argv)) return false;
-  const std::string& output = job.render.output;
-  if (output.empty()) throw UsageError("no output file: add -o picture.exr");
-  if (job.parts.empty()) throw UsageError("no parts: name the files that ods render --part has made");
-  const std::vector<std::string> words = job.parts;
-  if (are_merged(job, words)) return note(fmt::format("'{}' exists already, and its parts are gone", output)), false;
-  open_words(job, words, incomplete);
-  if (job.remove_parts && job.parts.empty())
+MergeOptions parse_merge(Options& options) {
+  MergeOptions given;
+  options.describe(kMergeSummary, kMergeExamples);
+  add_options(options, given);
+  options.parse();
+  if (given.render.output.empty()) throw UsageError("no output file: add -o picture.exr");
+  if (given.parts.empty()) throw UsageError("no parts: name the files that ods render --part has made");
+  return given;
+}
+
+bool are_merged(const MergeOptions& given) {
+  const auto is_gone = [](const std::string& word) {
+    const auto names = ods::frame_names(word);
+    std::error_code ignored;
+    if (!names) return !std::filesystem::exists(word, ignored);
+    return !std::filesystem::exists(std::filesystem::path(names->before).parent_path(), ignored) ||
+           ods::frames_on_disk(*names).empty();
+  };
+  return given.remove_parts && ods::is_saved(given.render.output) && std::ranges::all_of(given.parts, is_gone);
+}
+
+MergeJob open_parts(const MergeOptions& given) {
+  MergeJob job;
+  job.render = given.render;
+  open_words(job, given.parts, given.incomplete);
+  if (given.remove_parts && job.parts.empty()) {
     throw UsageError("--remove-parts: there are no parts, but unfinished samples");
-  finish_options(job, layout);
+  }
+  finish_options(job, given.layout);
   if (!job.parts.empty()) leave_out_layers(job);
-  if (!options.given("--exposure")) job.render.save.exposure = job.picture.exposure;
-  if (!options.given("--tone")) job.render.save.tone = job.picture.tone;
+  ods::SaveOptions& save = job.render.save;
+  save.exposure = given.display.exposure.value_or(job.picture.exposure);
+  save.tone = given.display.tone.value_or(job.picture.tone);
   const ods::RenderOptions& picture = job.picture.options;
   const std::vector<int> eyes = ods::eye_list(picture.eyes);
-  ods::check_output(output, job.render.save, eyes, {picture.width, picture.height}, &job.camera.projection);
-  note_misleading_name(output, job.render.save, eyes.size(), job.camera.projection);
-  return true;
+  ods::check_output(job.render.output, save, eyes, {picture.width, picture.height}, &job.camera.projection);
+  note_misleading_name(job.render.output, save, eyes.size(), job.camera.projection);
+  return job;
 }

@@ -3,11 +3,22 @@
 //
 // The options of ods merge.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/render/render_job.h"
 #include "ods/render/unfinished.h"
+
+// The options of ods merge.
+struct MergeOptions {
+  std::vector<std::string> parts;  // as given; # matches any number
+  RenderJob render;                // how the picture is finished
+  std::optional<ods::Layout> layout;
+  DisplayOptions display;
+  bool remove_parts = false;  // when the picture is saved
+  bool incomplete = false;    // make the picture even if parts are missing
+};
 
 struct MergeJob {
   std::vector<std::string> parts;  // files, in the order of the parts' numbers; none: there are samples
@@ -16,9 +27,12 @@ struct MergeJob {
   ods::StereoCamera camera;
   ods::Layout layout = ods::Layout::kTopBottom;  // as rendered
   RenderJob render;                              // how the picture is finished
-  bool remove_parts = false;                     // when it is saved
 };
 
-// False if help was requested, or if nothing is left to do: the parts are gone, since they were merged. Opens the
-// files. Throws UsageError and ods::Error, if the parts do not make a picture.
-bool read_merge_job(MergeJob& job, int argc, char** argv);
+MergeOptions parse_merge(Options& options);
+
+// Returns whether an earlier run has merged and removed the parts: a farm may run a task twice.
+bool are_merged(const MergeOptions& given);
+
+// Opens the parts. Throws UsageError and ods::Error if they do not make a picture.
+MergeJob open_parts(const MergeOptions& given);

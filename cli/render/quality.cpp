@@ -10,7 +10,6 @@
 #include "cli/console/console.h"
 #include "cli/options/picture_options.h"
 #include "cli/render/render_job.h"
-#include "ods/denoise/oidn.h"
 #include "ods/render/render_options.h"
 
 namespace {
@@ -42,7 +41,8 @@ double parse_time_limit(const std::string& word) {
 
 }  // namespace
 
-void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
+void add_quality_options(Options& options, RenderJob& job) {
+  Quality& quality = job.quality;
   quality.preset = kPresets[1];
   options.group("Quality");
   std::string sizes;
@@ -55,7 +55,7 @@ void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
       "--quality", names, std::string(quality.preset.name), [&](size_t i) { quality.preset = kPresets[i]; },
       "set width, --samples and --noise together" + sizes);
   options.custom(
-      "--noise", "LEVEL|none", "", [&](const std::string& word) { job.render.noise = parse_noise(word); },
+      "--noise", "LEVEL|none", "", [&](const std::string& word) { quality.noise = parse_noise(word); },
       "stop sampling parts of the picture below this noise, in Cycles' measure (its default is 0.01). none: every "
       "pixel "
       "gets all samples");
@@ -81,13 +81,12 @@ void add_quality_options(Options& options, RenderJob& job, Quality& quality) {
   options.number("--threads", job.render.threads, 0, 1024, "number of threads; 0: all processors");
 }
 
-void finish_quality(const Options& options, const Quality& quality, RenderJob& job) {
+void finish_quality(RenderJob& job) {
+  const Quality& quality = job.quality;
   const QualityPreset& preset = quality.preset;
-  if (!options.given("--width") && !options.given("--size")) job.render.width = preset.width;
-  if (job.denoise == ods::Denoiser::kOidn) ods::check_oidn();
   job.render.samples = quality.samples.value_or(preset.samples);
   const bool exact = preset.exact || job.part || keeps_light(job.output);
   job.render.indirect = quality.indirect.value_or(exact ? ods::Indirect::kPath : ods::Indirect::kCache);
   job.render.caustics = quality.caustics.value_or(preset.exact ? ods::Caustics::kPath : ods::Caustics::kStraight);
-  if (!options.given("--noise")) job.render.noise = job.part ? 0.0f : preset.noise;
+  job.render.noise = quality.noise.value_or(job.part ? 0.0f : preset.noise);
 }

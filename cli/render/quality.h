@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How clean a picture becomes, and at what price: the options that ods render and ods video share.
+// The quality and cost of a picture: the options that ods render and ods video share.
 #pragma once
 #include <optional>
 #include <string_view>
@@ -20,14 +20,15 @@ struct QualityPreset {
   bool exact;  // no light cache, no straight caustics
 };
 
-// The preset, and the options that take precedence over it besides --width and --noise.
+// The preset, and the options that override it besides --width.
 struct Quality {
   QualityPreset preset;
   std::optional<int> samples;
+  std::optional<float> noise;
   std::optional<ods::Indirect> indirect;
   std::optional<ods::Caustics> caustics;
 };
 
-// Options in a group of their own, and what remains to be done after parsing.
-void add_quality_options(Options& options, RenderJob& job, Quality& quality);
-void finish_quality(const Options& options, const Quality& quality, RenderJob& job);
+// Adds the options in a group of their own. finish_quality() applies them and the preset to job.render.
+void add_quality_options(Options& options, RenderJob& job);
+void finish_quality(RenderJob& job);

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // ods render: renders a scene as a stereo 360 picture, or as the frames of a video.
+#include <fmt/format.h>
+
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/render/render_frames.h"
@@ -10,15 +13,19 @@
 
 namespace {
 
-void render(int argc, char** argv) {
-  RenderJob job;
-  if (!read_render_job(job, argc, argv)) return;
+void render(const RenderJob& given) {
+  if (given.parts > 0) throw UsageError("--parts is for ods submit; --part 1/8 renders one of 8 parts");
+  for (const char* option : {"--exposure", "--brighter"}) {
+    if (gives(given, option) && !given.part && keeps_light(given.output)) {
+      note(fmt::format("{} does not change .exr and .hdr, which are scene-linear", option));
+    }
+  }
+  const RenderJob job = settled(given);
   run_long_job(job.progress, job.render.threads,
                [&](ProgressLines& lines) { job.rig.empty() ? render_job(job, lines) : render_views(job, lines); });
 }
 
 }  // namespace
 
-int ods_render(int argc, char** argv) {
-  return run_command([=] { render(argc, argv); });
-}
+extern const Command kRender =
+    make_command<parse_render, render>("render", "render a scene as a stereo 360 picture or frames");

@@ -4,9 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
-#include <set>
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
@@ -14,12 +12,11 @@
 #include "cli/frames/waiting.h"
 #include "cli/options/picture_options.h"
 #include "cli/render/first_look.h"
-#include "cli/render/forecast.h"
-#include "cli/render/library_options.h"
+#include "cli/render/plan.h"
 #include "cli/render/render_still.h"
 #include "ods/camera/layout.h"
 #include "ods/files/frames.h"
-#include "ods/sequence/render_video.h"
+#include "ods/sequence/shared_frames.h"
 
 using Frame = ods::SequenceFrame;
 
@@ -27,37 +24,23 @@ namespace {
 
 // All frames of a video, or the one picture, whether or not they exist.
 std::vector<Frame> all_frames(const RenderJob& job, const TimeOptions& time, const ods::SequenceOptions& sequence) {
-  if (!asks_for_video(time)) return {{0, static_cast<double>(time.time.value_or(0.0f)), job.output, job.render.seed}};
+  if (!asks_for_video(time)) return {{0, double{time.time.value_or(0.0f)}, job.output, job.render.seed}};
   video_names(job.output);  // throws
-  return ods::make_frames(sequence, video_frames(time), job.output, time.grain == Grain::kChanging);
+  return ods::make_frames(sequence, video_frames(time), job.output);
 }
 
-// Indices of those that are to be rendered.
+// Indices of the frames to render.
 std::vector<size_t> choose_frames(const TimeOptions& time, const std::vector<Frame>& all) {
   std::vector<int> numbers;
   for (const Frame& frame : all) numbers.push_back(frame.number);
   const std::vector<int> chosen = own_frames(time.only, numbers);
-  const std::set<int> own(chosen.begin(), chosen.end());
-  std::vector<size_t> frames;
-  for (size_t i = 0; i < all.size(); i++) {
-    if (!own.contains(all[i].number)) continue;
-    if (time.skip_existing && ods::is_saved(all[i].path)) {
-      ods::remove_dead_claim(all[i].path);
-    } else {
-      frames.push_back(i);
-    }
+  std::vector<size_t> frames = ods::choose_frames(all, chosen, time.skip_existing);
+  if (asks_for_video(time)) {
+    say_existing(chosen.size() - frames.size(), chosen.size());
+  } else if (frames.empty()) {
+    note(fmt::format("'{}' exists already", all.front().path));
   }
-  const size_t skipped = own.size() - frames.size();
-  if (skipped > 0 && asks_for_video(time)) note(fmt::format("{} of {} frames exist already", skipped, own.size()));
-  if (skipped > 0 && !asks_for_video(time)) note(fmt::format("'{}' exists already", all.front().path));
   return frames;
-}
-
-void check_outputs(const RenderJob& job) {
-  const std::string path = asks_for_video(job.time) ? video_names(job.output).path(0) : job.output;
-  const std::vector<int> eyes = ods::eye_list(job.render.eyes);
-  ods::check_output(path, job.save, eyes, {job.render.width, job.render.height}, &job.camera.stereo.projection);
-  note_misleading_name(path, job.save, eyes.size(), job.camera.stereo.projection);
 }
 
 void tell_speed(const RenderJob& job, size_t frames, const std::string& file, double samples, double seconds) {
@@ -70,148 +53,97 @@ void tell_speed(const RenderJob& job, size_t frames, const std::string& file, do
     warn("few samples fit into --time-limit: expect specks; more time or a smaller --width makes a cleaner picture");
 }
 
-std::vector<ods::SharedFrame> files_of(const std::vector<Frame>& frames) {
-  std::vector<ods::SharedFrame> files;
-  for (const Frame& frame : frames) files.push_back({frame.number, frame.path});
-  return files;
+// The settings that the scene determines before its first picture: the merge, the exposure, the tone curve.
+void look_first(const RenderJob& job, ods::FrameRenderer& renderer, const std::vector<Frame>& all) {
+  say_where(job, renderer, all.front());
+  const ods::FirstLook look = ods::look_first(renderer, all);
+  ods::SequenceOptions options = renderer.options();
+  say_look(job, options, look);
+  warn_of_strain(job, renderer, all);
+  ods::SaveOptions& save = options.finish.save;
+  save.exposure = is_looked_at(job) || job.exposure ? look.exposure : job.brighter;
+  if (renderer.scene().as_painted && !gives(job, "--tone")) save.tone = ods::ToneCurve::kLinear;
+  renderer.set_options(std::move(options));
 }
 
-// report: gets the frames' place in the order of work. The frames must outlive the result.
-ods::SequenceProgress progress_of(const std::vector<Frame>& all, const std::vector<size_t>& missing,
-                                  const StepReport& report) {
-  ods::SequenceProgress progress;
-  progress.report = [&all, &missing, report](double done, size_t index) {
-    const auto place = std::ranges::find(missing, index) - missing.begin() + 1;
-    report(done, {"render", static_cast<int>(place), static_cast<int>(missing.size()), all[index].path});
-  };
-  progress.waiting = say_waiting("frame");
-  return progress;
-}
-
-// Renders the one picture; `shared`: unless another process does. Returns how many were made here.
-size_t render_picture(const RenderJob& job, ods::FrameRenderer& renderer, const Frame& frame, bool shared,
-                      const StepReport& report, const std::function<void(const ods::Rendered&)>& saved) {
+// Renders the one picture, unless a process that shares it does. Returns how many were made here.
+size_t render_picture(const RenderJob& job, ods::FrameRenderer& renderer, const Frame& frame,
+                      const ods::SequenceProgress& progress) {
   size_t made = 0;
   const auto render = [&](size_t) {
-    saved(render_still(job, renderer, frame, [&](double done) { report(done, {"render", 1, 0, frame.path}); }));
+    progress.saved(render_still(job, renderer, frame, [&](double done) { progress.report(done, {1, 1, frame.path}); }));
     made++;
   };
-  if (shared) {
-    ods::make_shared_frames(files_of({frame}), render, say_waiting("part"));
+  if (job.time.skip_existing) {
+    ods::make_shared_frames({{frame.number, frame.path}}, render, progress.waiting);
   } else {
     render(0);
   }
   return made;
 }
 
-void say_room(const RenderJob& job, size_t frames) {
-  if (asks_for_video(job.time)) say_disk_room(job.output, frames, largest_frame(job.output, job.render, job.save));
-}
-
-// What the scene decides before its first picture: what the renderer reads from then on.
-void look_first(RenderJob& job, const TimeOptions& time, ods::Scene& scene, ods::SequenceOptions& sequence,
-                ods::FrameRenderer& renderer, const std::vector<Frame>& all) {
-  say_where(job, time, scene, all.front());
-  settle_merge(job, renderer, all);
-  warn_of_strain(job, renderer, all);
-  const auto [saved, judged] = choose_exposure(job, scene, renderer, all);
-  job.save.exposure = saved;
-  if (scene.as_painted && !gives(job, "--tone")) job.save.tone = ods::ToneCurve::kLinear;
-  sequence.finish.save = job.save;
-  sequence.render.noise_exposure = judged;
-}
-
-}  // namespace
-
-void render_job(const RenderJob& wanted, ProgressLines& lines) {
-  RenderJob job = wanted;
-  check_outputs(job);
-  ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
-  TimeOptions time = job.time;
-  start_clock(time, job.camera, scene);
-  ods::SequenceOptions sequence = sequence_of(job, time);
-  const std::vector<Frame> all = all_frames(job, time, sequence);
-  const std::vector<size_t> missing = choose_frames(time, all);
-  if (missing.empty()) return;
-  say_room(job, missing.size());
-  ods::FrameRenderer renderer(sequence, scene);
-  look_first(job, time, scene, sequence, renderer, all);
-  const auto start = std::chrono::steady_clock::now();
-  std::string first;
-  double samples = 0.0;
-  const auto saved = [&](const ods::Rendered& frame) {
-    lines.clear();
-    first = frame.files.front();
-    samples += frame.samples;
-    for (const std::string& file : frame.files) announce_file(file);
-  };
-  const auto report = [&](double done, const ProgressStep& step) { lines.report(done, seconds_since(start), step); };
-  size_t rendered = 0;
-  if (asks_for_video(time)) {
-    ods::SequenceProgress progress = progress_of(all, missing, report);
-    progress.saved = saved;
-    rendered = render_sequence(renderer, all, missing, time.skip_existing, progress);
-  } else {
-    rendered = render_picture(job, renderer, all.front(), time.skip_existing, report, saved);
-  }
-  if (rendered > 0) tell_speed(job, rendered, first, samples, seconds_since(start));
-}
-
-// A video of what does not move needs a length.
-static void check_length(const ods::Scene& scene, const TimeOptions& time) {
+// A video of a still scene needs a length.
+void check_length(const ods::Scene& scene, const TimeOptions& time) {
   const bool is_still = ods::length_of(scene.animation) == 0.0 && !ods::moves(time.move);
   if (!is_still || !time.frames.empty() || time.duration) return;
   throw UsageError(
       "the scene has no animation: add --duration SECONDS, or move the camera with --turntable or --fly-to");
 }
 
-std::vector<int> frames_of(const RenderJob& job) {
-  TimeOptions time = job.time;
-  if (!time.frames.empty() && time.frames != "all") return video_frames(time);
-  ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
-  start_clock(time, job.camera, scene);
-  check_length(scene, time);
-  return video_frames(time);
+}  // namespace
+
+void check_outputs(const RenderJob& job) {
+  const std::string path = asks_for_video(job.time) ? video_names(job.output).path(0) : job.output;
+  const std::vector<int> eyes = ods::eye_list(job.render.eyes);
+  ods::check_output(path, job.save, eyes, {job.render.width, job.render.height}, &job.camera.stereo.projection);
+  note_misleading_name(path, job.save, eyes.size(), job.camera.stereo.projection);
 }
 
-RenderedFrames render_frames(const RenderJob& wanted, const StepReport& report,
-                             const std::function<void(const std::vector<int>& frames)>& planned) {
-  RenderJob job = wanted;
+void say_existing(size_t existing, size_t chosen) {
+  if (existing > 0) note(fmt::format("{} of {} frames exist already", existing, chosen));
+}
+
+TimeOptions video_time(const RenderJob& job, ods::Scene& scene) {
+  TimeOptions time = job.time;
+  start_clock(time, job.camera, scene);
+  check_length(scene, time);
+  return time;
+}
+
+std::vector<int> frames_of(const RenderJob& job) {
+  if (!job.time.frames.empty() && job.time.frames != "all") return video_frames(job.time);
+  ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
+  return video_frames(video_time(job, scene));
+}
+
+void render_job(const RenderJob& job, ProgressLines& lines) {
   check_outputs(job);
   ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
   TimeOptions time = job.time;
   start_clock(time, job.camera, scene);
-  check_length(scene, time);
-  const std::vector<int> numbers = video_frames(time);
-  planned(numbers);
-  ods::SequenceOptions sequence = sequence_of(job, time);
-  const std::vector<Frame> all = all_frames(job, time, sequence);
-  wait_for_frames(files_of(all), "frame", job.wait);
+  const bool is_video = asks_for_video(time);
+  ods::FrameRenderer renderer(plan(job, time).sequence, scene);
+  const std::vector<Frame> all = all_frames(job, time, renderer.options());
   const std::vector<size_t> missing = choose_frames(time, all);
-  ods::FrameRenderer renderer(sequence, scene);
-  if (!missing.empty()) say_where(job, time, scene, all.front()), settle_merge(job, renderer, all);
-  if (!missing.empty() && time.only.empty()) warn_of_strain(job, renderer, all);
-  const float exposure = choose_exposure(job, scene, renderer, all).judged;
-  sequence.render.noise_exposure = exposure;
-  if (missing.empty()) return {numbers, exposure, scene.as_painted};
-  const bool shared = !time.only.empty();
-  note(fmt::format("to render: {} frame{}, {}x{} per eye, at most {} samples per pixel", missing.size(),
-                   missing.size() == 1 ? "" : "s", job.render.width, job.render.height, job.render.samples));
-  if (shared) {
-    say_room(job, missing.size());
-  } else {
-    std::vector<Frame> frames;
-    for (const size_t index : missing) frames.push_back(all[index]);
-    say_forecast(job, renderer, frames);
-  }
-  ods::SequenceProgress progress = progress_of(all, missing, report);
+  if (missing.empty()) return;
+  if (is_video) say_disk_room(job.output, missing.size(), largest_frame(job.output, job.render, job.save));
+  look_first(job, renderer, all);
+  const auto start = std::chrono::steady_clock::now();
+  std::string first;
+  double samples = 0.0;
+  ods::SequenceProgress progress;
   progress.saved = [&](const ods::Rendered& frame) {
-    if (shared) std::ranges::for_each(frame.files, announce_file);
+    lines.clear();
+    first = frame.files.front();
+    samples += frame.samples;
+    for (const std::string& file : frame.files) announce_file(file);
   };
-  if (job.raw) {
-    render_raw_sequence(renderer, all, missing, progress);
-  } else {
-    render_sequence(renderer, all, missing, shared, progress);
-  }
-  return {numbers, exposure, scene.as_painted};
+  progress.report = [&](double done, const ods::FrameAtWork& at) {
+    lines.report(done, seconds_since(start), {"render", at.place, is_video ? at.count : 0, at.path});
+  };
+  progress.waiting = say_waiting(is_video ? "frame" : "part");
+  const ods::Sink sink = time.skip_existing ? ods::Sink::kShared : ods::Sink::kFiles;
+  const size_t rendered = is_video ? ods::render_sequence(renderer, all, missing, sink, progress)
+                                   : render_picture(job, renderer, all.front(), progress);
+  if (rendered > 0) tell_speed(job, rendered, first, samples, seconds_since(start));
 }

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The frames of a video, each a file.
+// The picture or the frames of ods render.
 #pragma once
-#include <functional>
 #include <vector>
 
 #include "cli/console/progress.h"
@@ -14,18 +13,14 @@
 // frames (ods/sequence/sequence.h).
 void render_job(const RenderJob& job, ProgressLines& lines);
 
-// The frames that the job asks for. Loads the scene if their number depends on it. Throws UsageError if nothing moves
-// and no length was given.
+// Checks that the files can be written; notes a misleading name.
+void check_outputs(const RenderJob& job);
+
+// Starts the clock of the scene for a video. Throws UsageError if nothing moves and no length was given.
+TimeOptions video_time(const RenderJob& job, ods::Scene& scene);
+
+// The frames that the job asks for. Loads the scene if their number depends on it. Throws as video_time().
 std::vector<int> frames_of(const RenderJob& job);
 
-struct RenderedFrames {
-  std::vector<int> numbers;  // of all frames, including those that existed
-  float exposure = 0.0f;     // stops, to show them with
-  bool as_painted = false;   // Scene::as_painted
-};
-
-// Renders a video's frames for a caller that processes them further; prints their names only with --only, when they are
-// all that is made. Passes these numbers to `planned` before rendering the first. Throws UsageError if nothing moves
-// and no length was given.
-RenderedFrames render_frames(const RenderJob& job, const StepReport& report,
-                             const std::function<void(const std::vector<int>& frames)>& planned);
+// Notes how many of the chosen frames exist.
+void say_existing(size_t existing, size_t chosen);

@@ -5,12 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "cli/options/picture_options.h"
+#include "ods/denoise/oidn.h"
 #include "ods/files/frames.h"
 #include "ods/stage/exposure.h"
 
@@ -26,7 +25,7 @@ constexpr const char* kRenderExamples =
     "  ods render scene.glb -o part_3.exr --part 3/8   for ods merge 'part_#.exr'\n"
     "  ods render scene.glb -o 'views/####.exr' --rig rig.json";
 
-// None: auto.
+// Nullopt: auto.
 std::optional<float> parse_exposure(const std::string& word) {
   if (word == "auto") return std::nullopt;
   const std::vector<float> numbers = parse_numbers(word);
@@ -38,7 +37,7 @@ void add_picture_options(Options& options, RenderJob& job) {
   options.group("Picture");
   options.text("-o,--output", ValueKind::output_file(), job.output,
                "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
-  add_picture_options(options, job.render, job.save);
+  add_picture_options(options, job.form, job.save.sidecar, "2048");
   options.text("--rig", ValueKind::input_file(), job.rig,
                "render the views of this rig (made by ods rig), for ods stitch");
   options.flag("--statistics", job.render.statistics,
@@ -73,22 +72,12 @@ void add_long_options(Options& options, RenderJob& job) {
 
 // Parts are exact shares of a fixed number of samples.
 void check_long_job(const Options& options, const RenderJob& job) {
-  const bool is_part = job.part.has_value();
-  for (const char* own : {"--restart", "--save-unfinished", "--part", "--parts"}) {
-    if (!options.given(own)) continue;
-    if (asks_for_video(job.time)) {
-      throw UsageError(fmt::format("{} is for one picture; frames continue with --skip-existing", own));
-    }
-    if (!job.rig.empty()) throw UsageError(fmt::format("{} cannot be used with --rig", own));
-  }
-  if (!is_part) return;
-  for (const char* other : {"--noise", "--time-limit", "--save-unfinished"}) {
-    if (options.given(other)) throw UsageError(fmt::format("{} cannot be used with --part", other));
-  }
-  for (const char* other : {"--denoise", "--layout"}) {
-    if (options.given(other))
-      throw UsageError(fmt::format("{} cannot be used with --part: it is for ods merge", other));
-  }
+  const std::vector<std::string> own = {"--restart", "--save-unfinished", "--part", "--parts"};
+  if (asks_for_video(job.time)) options.refuse(own, "is for one picture; frames continue with --skip-existing");
+  if (!job.rig.empty()) options.refuse(own, "cannot be used with --rig");
+  if (!job.part) return;
+  options.refuse({"--noise", "--time-limit", "--save-unfinished"}, "cannot be used with --part");
+  options.refuse({"--denoise", "--layout"}, "cannot be used with --part: it is for ods merge");
   if (!ods::keeps_layers(job.output)) throw UsageError("--part needs an .exr, which ods merge reads");
   if (job.render.part.count > job.render.samples) {
     throw UsageError(
@@ -99,18 +88,12 @@ void check_long_job(const Options& options, const RenderJob& job) {
 // A rig has its own cameras and size.
 void check_rig(const Options& options, const RenderJob& job) {
   if (job.rig.empty()) return;
-  for (const char* own : {"--width", "--height", "--size", "--eyes", "--layout", "--position", "--camera", "--yaw",
-                          "--pitch", "--roll", "--ipd", "--projection", "--frames", "--shutter"}) {
-    if (options.given(own)) throw UsageError(fmt::format("{} cannot be used with --rig", own));
-  }
+  options.refuse({"--width", "--height", "--size", "--eyes", "--layout", "--position", "--camera", "--yaw", "--pitch",
+                  "--roll", "--ipd", "--projection", "--frames", "--shutter"},
+                 "cannot be used with --rig");
 }
 
 }  // namespace
-
-void take_foreign(RenderJob& job, const ForeignScene& scene) {
-  take_camera(job.camera, scene);
-  if (scene.fps) job.time.fps = *scene.fps;
-}
 
 bool gives(const RenderJob& job, std::string_view option) {
   return std::ranges::any_of(job.given, [&](const GivenWord& word) { return word.name == option; });
@@ -125,60 +108,47 @@ void add_exposure_option(Options& options, RenderJob& job) {
                  "stops added to the exposure, given or auto: 1 is twice as bright, -1 half");
 }
 
-float brightened(float exposure, float brighter) {
-  const double sum = std::clamp(double{exposure} + double{brighter}, -double{ods::kMostStops}, double{ods::kMostStops});
-  return static_cast<float>(std::round(1e4 * sum) / 1e4);
-}
-
 void add_wait_option(Options& options, float& seconds, const char* noun) {
   options.number("--wait", seconds, 0.0f, 3600.0f,
                  fmt::format("seconds to wait for {} of other machines that a shared disk does not show yet", noun));
 }
 
-void finish_render_job(const Options& options, const Quality& quality, RenderJob& job) {
+void finish_render_options(Options& options, RenderJob& job) {
   check_time_options(job.time);
   if (!job.time.only.empty() && !asks_for_video(job.time) && job.rig.empty()) {
     throw UsageError("--only chooses among frames, or among the views of --rig; this is one picture");
   }
   job.given = options.given_words();
-  if (job.exposure) job.exposure = brightened(*job.exposure, std::exchange(job.brighter, 0.0f));
+  if (job.exposure) job.exposure = ods::brightened(*job.exposure, std::exchange(job.brighter, 0.0f));
   job.scene.has_places =
       !job.rig.empty() || job.camera.position || job.time.move.pivot || !job.time.move.fly_to.empty();
   job.scene.camera = job.camera.view_point;
-  finish_quality(options, quality, job);
-  job.has_layout = options.given("--layout") || options.given("--size");
-  finish_picture_options(options, job.camera.stereo.projection, job.render, job.save);
-  finish_camera_options(job.camera, job.render.width, job.render.height);
+  job.time.fps = job.time.asked_fps.value_or(job.time.fps);
+  job.time.shutter = job.time.asked_shutter.value_or(0.0f);
+  finish_quality(job);
 }
 
-bool read_render_job(RenderJob& job, int argc, char** argv, bool for_farm) {
-  Quality quality;
-  Options options("render", "Renders a scene as a stereo 360 picture, or as the frames of a video.", kRenderExamples);
-  add_scene_argument(options, job.scene, [&](const ForeignScene& scene) { take_foreign(job, scene); });
+RenderJob parse_render(Options& options) {
+  RenderJob job;
+  options.describe("Renders a scene as a stereo 360 picture, or as the frames of a video.", kRenderExamples);
+  add_scene_argument(options, job.scene);
   add_light_options(options, job.scene.light);
   add_picture_options(options, job);
-  add_camera_options(options, job.camera, job.scene.blender);
+  add_camera_options(options, job.camera);
   add_time_options(options, job.time);
-  add_quality_options(options, job, quality);
+  add_quality_options(options, job);
   add_long_options(options, job);
   options.group("Console");
   add_progress_options(options, job.progress);
-  if (!options.parse(argc, argv)) return false;
+  options.parse();
   if (job.output.empty()) throw UsageError("no output file: add -o picture.png");
   if (job.keep_parts && job.parts == 0) throw UsageError("--keep-parts needs --parts N");
-  if (job.parts > 0 && !for_farm) throw UsageError("--parts is for ods submit; --part 1/8 renders one of 8 parts");
   const auto part_names = job.part ? ods::frame_names(job.output) : std::nullopt;
   if (part_names) job.output = part_names->path(job.part->number);
-  for (const char* word : {"--exposure", "--brighter"}) {
-    if (options.given(word) && !job.part && keeps_light(job.output))
-      note(fmt::format("{} does not change .exr and .hdr, which are scene-linear", word));
-  }
   if (job.render.transparent && !ods::has_alpha(job.output)) {
     throw UsageError("--transparent needs a format with alpha: .exr, .png, .tif or .webp");
   }
-  if (job.render.transparent && options.given("--background")) {
-    throw UsageError("--background and --transparent exclude each other");
-  }
+  if (job.render.transparent) options.refuse({"--background"}, "cannot be used with --transparent");
   if (!job.scene.catchers.empty() && !job.render.transparent) {
     throw UsageError("--shadow-catcher needs --transparent");
   }
@@ -189,7 +159,20 @@ bool read_render_job(RenderJob& job, int argc, char** argv, bool for_farm) {
   }
   job.render.layers = ods::keeps_layers(job.output);
   check_rig(options, job);
-  finish_render_job(options, quality, job);
+  finish_render_options(options, job);
   check_long_job(options, job);
-  return true;
+  return job;
+}
+
+RenderJob settled(RenderJob job) {
+  if (job.denoise == ods::Denoiser::kOidn) ods::check_oidn();
+  read_foreign(job.scene);
+  if (const std::optional<ForeignScene>& foreign = job.scene.foreign) {
+    job.time.fps = job.time.asked_fps.value_or(foreign->fps.value_or(job.time.fps));
+    job.time.file = foreign->frames;
+    job.time.shutter = job.time.asked_shutter.value_or(foreign->shutter);
+  }
+  take_base(job.camera, job.scene.foreign, job.scene.blender);
+  use_form(job.form, job.quality.preset.width, job.camera, job.render, job.save);
+  return job;
 }

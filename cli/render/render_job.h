@@ -8,6 +8,7 @@
 
 #include "cli/console/progress.h"
 #include "cli/options/camera_options.h"
+#include "cli/options/picture_options.h"
 #include "cli/options/scene_source.h"
 #include "cli/options/time_options.h"
 #include "cli/render/quality.h"
@@ -19,45 +20,43 @@ struct RenderJob {
   SceneSource scene;
   CameraOptions camera;
   TimeOptions time;
-  ods::RenderOptions render;
-  ods::SaveOptions save;
-  std::optional<ods::Denoiser> denoise;  // none: for all files but those that keep the scene's light
-  std::optional<float> exposure;         // stops; none: FrameRenderer::find_exposure() chooses
-  float brighter = 0.0f;                 // stops, added to what it chooses
-  bool has_layout = false;               // given by an option
-  bool object_layer = false;             // an .exr gets the names of what its pixels show
+  Quality quality;
+  PictureForm form;
+  ods::RenderOptions render;             // its size and eyes after settled()
+  ods::SaveOptions save;                 // its layout after settled()
+  std::optional<ods::Denoiser> denoise;  // absent: the default for all files but those that keep the scene's light
+  std::optional<float> exposure;         // stops; none: ods::look_first() chooses
+  float brighter = 0.0f;                 // stops, added to the chosen exposure
+  bool object_layer = false;             // an .exr gets the names of the objects that its pixels show
   std::string output;
   std::string rig;                // a slit rig: render its views instead of the camera's picture
   std::optional<ods::Part> part;  // of the samples
   int parts = 0;                  // --parts, for ods submit
-  bool keep_parts = false;        // likewise: when they are merged
+  bool keep_parts = false;        // the parts stay after they are merged
   float wait = 0.0f;              // seconds: for files that other machines have written
   bool raw = false;               // render a video's frames for the denoiser, which another process runs
   bool force = false;             // render a video's frames although the disk cannot hold them
   std::vector<GivenWord> given;   // the command line
-  bool restart = false;           // a still picture does not go on from what an interrupted run has kept
+  bool restart = false;           // a still picture does not resume from the samples of an interrupted run
   bool save_unfinished = false;   // an interrupted one is saved as it is
   ProgressMode progress = ProgressMode::kAuto;
 };
 
-// Whether the command line gave an option.
+// Returns whether the command line gave an option.
 bool gives(const RenderJob& job, std::string_view option);
 
 // Adds --exposure auto|STOPS and --brighter STOPS.
 void add_exposure_option(Options& options, RenderJob& job);
 
-// The exposure with --brighter, within what --exposure takes: rounded, so that printed it is the same number.
-float brightened(float exposure, float brighter);
-
-// What a scene of another program says of camera and time: the default of the options.
-void take_foreign(RenderJob& job, const ForeignScene& scene);
-
-// What remains to be done after parsing, for ods video, too.
-void finish_render_job(const Options& options, const Quality& quality, RenderJob& job);
+// The part of parsing that ods video shares.
+void finish_render_options(Options& options, RenderJob& job);
 
 // Adds --wait SECONDS.
 void add_wait_option(Options& options, float& seconds, const char* noun);
 
-// False if help was requested. for_farm: ods submit reads the line, which may have --parts. Throws UsageError and
+RenderJob parse_render(Options& options);
+
+// Returns the job with the settings that depend on files: has a scene of another program converted, whose camera and
+// frame rate are the defaults, reads the camera's file and maps, and finds size and layout. Throws UsageError and
 // ods::Error.
-bool read_render_job(RenderJob& job, int argc, char** argv, bool for_farm = false);
+RenderJob settled(RenderJob job);

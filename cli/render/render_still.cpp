@@ -7,14 +7,14 @@
 #include <optional>
 #include <utility>
 
-#include "cli/comfort/first_look.h"
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
-#include "cli/render/library_options.h"
+#include "cli/render/plan.h"
 #include "cli/render/unfinished_picture.h"
 #include "ods/picture/cryptomatte.h"
 #include "ods/render/part_file.h"
 #include "ods/render/render_target.h"
+#include "ods/scene/things.h"
 
 namespace {
 
@@ -27,7 +27,7 @@ const char* stopping_words() {
 std::optional<ods::ObjectLayer> objects_of(const RenderJob& job, const ods::FrameRenderer& renderer,
                                            const ods::StereoCamera& camera, const ods::RenderOptions& options) {
   if (!job.object_layer) return {};
-  const Things things = things_of(renderer.scene());
+  const ods::Things things = ods::things_of(renderer.scene());
   std::vector<float> numbers;
   for (const std::string& name : things.names) numbers.push_back(name.empty() ? 0.0f : ods::matte_number(name));
   ods::ObjectLayer layer{{}, things.names};
@@ -41,26 +41,28 @@ std::optional<ods::ObjectLayer> objects_of(const RenderJob& job, const ods::Fram
   return layer;
 }
 
-ods::Rendered finish(const RenderJob& job, const ods::StereoCamera& camera, const ods::RenderOptions& options,
+// `unfinished` identifies the samples.
+ods::Rendered finish(const RenderJob& job, const ods::FinishOptions& finish, UnfinishedPicture& unfinished,
                      ods::PictureSamples samples, std::optional<ods::ObjectLayer> objects) {
   const auto taken = static_cast<double>(ods::count_samples(samples));
-  if (job.part) return {{ods::save_part(job.output, sampled_picture(job, options, camera), samples)}, taken};
-  return {ods::finish_picture(finish_of(job), job.render, camera, ods::develop(std::move(samples), options), job.output,
-                              {}, std::move(objects)),
-          taken};
+  if (job.part) return {{ods::save_part(job.output, unfinished.about(), samples)}, taken};
+  return {
+      ods::finish_picture(finish, job.render, unfinished.camera(),
+                          ods::develop(std::move(samples), unfinished.options()), job.output, {}, std::move(objects)),
+      taken};
 }
 
-[[noreturn]] void end_early(const RenderJob& job, const ods::StereoCamera& camera, const ods::RenderOptions& options,
-                            ods::PictureSamples& samples, std::optional<ods::ObjectLayer> objects,
-                            const UnfinishedPicture& unfinished, const GentleStop& stop) {
+[[noreturn]] void end_early(const RenderJob& job, const ods::FinishOptions& finishing, ods::PictureSamples& samples,
+                            std::optional<ods::ObjectLayer> objects, UnfinishedPicture& unfinished,
+                            const GentleStop& stop) {
   if (unfinished.is_kept()) {
     const std::string& path = unfinished.path();
-    note(fmt::format("what is rendered is kept in '{}': the same command goes on{}, --restart starts over", path,
+    note(fmt::format("progress is saved in '{}': the same command resumes{}, --restart starts over", path,
                      job.save_unfinished ? "" : fmt::format(", ods merge '{}' -o FILE saves it as it is", path)));
   }
   if (job.save_unfinished) {
-    for (const std::string& file : finish(job, camera, options, std::move(samples), std::move(objects)).files)
-      announce_file(file);
+    const ods::Rendered rendered = finish(job, finishing, unfinished, std::move(samples), std::move(objects));
+    for (const std::string& file : rendered.files) announce_file(file);
   }
   stop.end();
 }
@@ -72,15 +74,17 @@ ods::Rendered render_still(const RenderJob& job, ods::FrameRenderer& renderer, c
   const ods::Shot shot = renderer.set(frame);
   const ods::StereoCamera& camera = shot.camera();
   ods::RenderOptions options = shot.options;
-  const ods::RenderOptions sampled = options_to_finish(job);
-  options.layers = sampled.layers, options.statistics = sampled.statistics;
+  const ods::RenderOptions sampled = plan(job).sampled;
+  options.layers = sampled.layers;
+  options.statistics = sampled.statistics;
   ods::check_picture_memory(options);
-  UnfinishedPicture unfinished(job, options, camera);
+  const ods::FinishOptions& finishing = renderer.options().finish;
+  UnfinishedPicture unfinished(job, options, camera, finishing.save);
   ods::PictureSamples samples = unfinished.begin();
   std::optional<ods::ObjectLayer> objects = objects_of(job, renderer, camera, options);
   {
     const GentleStop stop(stopping_words());
-    const double share = denoiser_of(job) == ods::Denoiser::kNone ? 1.0 : ods::kShareOfRendering;
+    const double share = finishing.denoiser == ods::Denoiser::kNone ? 1.0 : ods::kShareOfRendering;
     ods::Progress progress;
     progress.report = [&](double done) { report(share * done); };
     progress.cancelled = [&] { return stop.requested(); };
@@ -89,10 +93,10 @@ ods::Rendered render_still(const RenderJob& job, ods::FrameRenderer& renderer, c
                                  [&](const ods::PictureSamples& now) { unfinished.keep(now); });
     } catch (const ods::Error& error) {
       if (error.kind() != ods::ErrorKind::kCancelled) throw;
-      end_early(job, camera, options, samples, std::move(objects), unfinished, stop);
+      end_early(job, finishing, samples, std::move(objects), unfinished, stop);
     }
   }
-  ods::Rendered rendered = finish(job, camera, options, std::move(samples), std::move(objects));
+  ods::Rendered rendered = finish(job, finishing, unfinished, std::move(samples), std::move(objects));
   unfinished.remove();
   return rendered;
 }

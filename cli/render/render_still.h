@@ -10,7 +10,7 @@
 #include "cli/render/render_job.h"
 #include "ods/sequence/frame_renderer.h"
 
-// Renders job.output, a frame of its own. Ends the process if a signal interrupts it, after keeping what is rendered.
+// Renders job.output, a single frame. Ends the process if a signal interrupts it, after saving the samples.
 ods::Rendered render_still(const RenderJob& job, ods::FrameRenderer& renderer, const ods::SequenceFrame& frame,
                            const std::function<void(double done)>& report);
 

@@ -7,21 +7,19 @@
 #include <filesystem>
 
 #include "cli/console/console.h"
-#include "cli/render/frame_settings.h"
+#include "cli/render/plan.h"
 #include "ods/picture/metadata/sidecar.h"
-
-ods::SampledPicture sampled_picture(const RenderJob& job, const ods::RenderOptions& options,
-                                    const ods::StereoCamera& camera) {
-  const ods::Sidecar sidecar{camera, {options.width, options.height}, job.save.layout, ods::eye_list(options.eyes)};
-  return {sample_settings(job), ods::write_sidecar(sidecar), job.save.exposure, job.save.tone, options};
-}
+#include "ods/sequence/identity.h"
 
 UnfinishedPicture::UnfinishedPicture(const RenderJob& job, const ods::RenderOptions& options,
-                                     const ods::StereoCamera& camera)
-    : job_(job), options_(options), camera_(camera), path_(job.output + ".unfinished") {}
+                                     const ods::StereoCamera& camera, const ods::SaveOptions& save)
+    : job_(job), options_(options), camera_(camera), save_(save), path_(job.output + ".unfinished") {}
 
 const ods::SampledPicture& UnfinishedPicture::about() {
-  if (!about_) about_ = sampled_picture(job_, options_, camera_);
+  if (about_) return *about_;
+  const ods::Sidecar sidecar{camera_, {options_.width, options_.height}, save_.layout, ods::eye_list(options_.eyes)};
+  const ods::Settings identity = sample_identity(identified(job_), double{job_.time.time.value_or(0.0f)});
+  about_ = {identity, ods::write_sidecar(sidecar), save_.exposure, save_.tone, options_};
   return *about_;
 }
 
@@ -35,7 +33,7 @@ ods::PictureSamples UnfinishedPicture::begin() {
   if (!ods::fit(samples, options_)) {
     throw UsageError(fmt::format("'{}' was made with other options: its layers differ; {}", path_, ods::kRestartCure));
   }
-  note(fmt::format("goes on with what '{}' has", path_));
+  note(fmt::format("resuming from '{}'", path_));
   kept_ = true;
   return samples;
 }

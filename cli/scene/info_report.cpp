@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "cli/console/console.h"
+#include "cli/console/print.h"
 
 using ods::SceneInfo, ods::vec3, ods::ViewPoint;
 
@@ -25,7 +25,7 @@ nlohmann::ordered_json to_json(vec3 p) {
 }  // namespace
 
 void print_text(const SceneInfo& info, const SceneFindings& found, vec3 position) {
-  auto row = [](const char* name, const std::string& value) { std::printf("%-14s %s\n", name, value.c_str()); };
+  auto row = [](const char* name, const std::string& value) { put_out(fmt::format("{:<14} {}\n", name, value)); };
   const vec3 size = info.bounds.high - info.bounds.low;
   row("scene", info.name);
   row("triangles", fmt::format("{} stored in {} meshes, {} in {} instances", info.triangles, info.meshes,
@@ -129,5 +129,5 @@ void print_json(const SceneInfo& info, const SceneFindings& found, vec3 position
         {{"name", each.name}, {"state", each.state}, {"how", each.how}, {"required", each.required}});
   }
   // Names in files need not be valid UTF-8.
-  std::puts(json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+  put_json(json);
 }

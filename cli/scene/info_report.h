@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods info prints.
+// The output of ods info.
 #pragma once
 #include <optional>
 
 #include "ods/scene/info.h"
 #include "ods/stage/place.h"
 
-// What was found out about a file's scene; kNothing: nothing was asked.
+// The findings about a file's scene; kNothing: it was not examined.
 struct SceneFindings {
   ods::Settled settled;
   std::optional<ods::Viewing> viewing;

@@ -13,8 +13,8 @@ struct MergedPicture {
   ods::StereoCamera camera;    // with the merge
   ods::Conversion conversion;
 
-  // limit: minutes of arc. Notes what the depth allows. The picture passes through a file beside `output`. Throws
-  // UsageError: there is no depth; ods::Error as save_picture() and open_picture().
+  // limit: minutes of arc. Notes the stereo that the depth allows. The picture passes through a file beside `output`.
+  // Throws UsageError if there is no depth; ods::Error as save_picture() and open_picture() do.
   MergedPicture(const ods::PictureRows& stitched, const ods::StereoCamera& camera, float limit,
                 const std::string& output);
   MergedPicture(const MergedPicture&) = delete;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/options/camera_source.h"
 #include "cli/options/eye_options.h"
@@ -13,7 +14,7 @@
 #include "cli/slits/rig_report.h"
 #include "cli/slits/rig_scripts.h"
 #include "ods/render/cpu/render.h"
-#include "ods/stage/comfortable_merge.h"
+#include "ods/stage/judge_scene.h"
 #include "ods/stitch/slit_error.h"
 
 namespace {
@@ -21,7 +22,9 @@ namespace {
 constexpr const char* kRigExamples =
     "  ods rig --width 4096 --nearest 0.8 -o rig.json\n"
     "  ods rig --scene room --max-error 0.25 -o rig.json --for blender,povray   scripts for these, beside it\n"
-    "  ods rig --from picture.camera.json --slits 360      reports its error";
+    "  ods rig --camera-file picture.camera.json --slits 360      reports its error";
+
+constexpr float kMaxError = 0.5f;
 
 struct RigJob {
   CameraSource source;
@@ -29,7 +32,7 @@ struct RigJob {
   ods::SlitOptions slits;
   std::optional<int> count;
   std::optional<float> nearest;
-  float max_error = 0.5f;
+  std::optional<float> max_error;  // pixels; by default kMaxError
   std::string output;
   std::vector<ods::RigTarget> targets;
 };
@@ -37,7 +40,7 @@ struct RigJob {
 void add_slit_options(Options& options, RigJob& job) {
   options.group("Slits");
   options.number("--max-error", job.max_error, 0.001f, 1000.0f,
-                 "largest error of the nearest object, pixels; sets the number of slits");
+                 "largest error of the nearest object, pixels; sets the number of slits", fmt::format("{}", kMaxError));
   options.number("--nearest", job.nearest, 0.01f, 1e6f,
                  "distance to the nearest object, metres; by default 1, or measured in --scene");
   add_scene_option(options, job.scene, "measure --nearest in this scene, from its camera");
@@ -52,10 +55,13 @@ void add_slit_options(Options& options, RigJob& job) {
                  "the slits is enough");
 }
 
-bool read_options(RigJob& job, int argc, char** argv) {
-  Options options("rig",
-                  "Plans perspective cameras for other renderers; ods stitch combines their views into an ODS picture.",
-                  kRigExamples);
+RigJob parse_rig(Options& options) {
+  RigJob job;
+  job.source.camera.may_follow_depth = true;
+  job.source.camera.stereo = {};  // no merge: each step from one pitch of the views to the next would show it
+  options.describe(
+      "Plans perspective cameras for other renderers; ods stitch combines their views into an ODS picture.",
+      kRigExamples);
   options.text("-o,--output", ValueKind::output_file(), job.output,
                "the rig as JSON, for ods stitch; by default only prints the plan");
   add_script_option(options, job.targets);
@@ -63,16 +69,16 @@ bool read_options(RigJob& job, int argc, char** argv) {
   add_camera_source(options, job.source);
   options.group("Console");
   add_console_options(options);
-  if (!options.parse(argc, argv)) return false;
-  if (job.count && options.given("--max-error")) throw UsageError("--slits and --max-error exclude each other");
+  options.parse();
+  if (job.count && job.max_error) throw UsageError("--slits and --max-error exclude each other");
   if (!job.targets.empty() && job.output.empty()) throw UsageError("--for writes next to the rig: add -o rig.json");
   if (job.nearest && !job.scene.name.empty()) throw UsageError("--nearest and --scene exclude each other");
-  if (job.source.camera.merge_limit && job.scene.name.empty()) {
+  if (job.source.camera.changes.merge_limit && job.scene.name.empty()) {
     throw UsageError(
         "--merge auto follows from depth, and a rig has none: add --scene SCENE, or stitch views with depth "
         "by ods stitch --merge auto");
   }
-  return true;
+  return job;
 }
 
 // The nearest depth, as the eyes see it.
@@ -96,23 +102,20 @@ std::pair<ods::Sidecar, float> survey(RigJob& job) {
   job.scene.camera = job.source.camera.view_point;
   ods::Scene scene = open_scene(job.scene);
   file.camera = place_camera(job.source.camera, scene);
-  if (job.source.camera.merge_limit) {
-    ods::Image map =
-        ods::merge_map_of(ods::shares_seen(ods::CpuRenderer(scene), file.camera, *job.source.camera.merge_limit));
+  if (const std::optional<float> limit = job.source.camera.changes.merge_limit) {
+    ods::Image map = ods::merge_map_of(ods::shares_seen(ods::CpuRenderer(scene), file.camera, *limit));
     note(merge_by_depth_text(map));
     ods::use_merge_map(file.camera, std::move(map));
   }
   return {file, measure(scene, file.camera)};
 }
 
-void rig(int argc, char** argv) {
-  RigJob job;
-  job.source.camera.may_follow_depth = true;
-  job.source.camera.stereo = {};  // no merge: each step from one pitch of the views to the next would show it
-  if (!read_options(job, argc, argv)) return;
+void rig(RigJob job) {
   const auto [file, nearest] = survey(job);
   if (!job.scene.name.empty()) note(fmt::format("the nearest surface is {:.3g} m away", nearest));
-  job.slits.slits = job.count ? *job.count : ods::slits_for(file.camera, file.eye, job.slits, nearest, job.max_error);
+  job.slits.slits = job.count
+                        ? *job.count
+                        : ods::slits_for(file.camera, file.eye, job.slits, nearest, job.max_error.value_or(kMaxError));
   const std::string fault = slit_fault(file.camera, file.eye, job.slits);
   if (!fault.empty()) throw UsageError(fault);
   ods::SlitRig made = make_slit_rig(file.camera, file.eye, file.eyes, job.slits);
@@ -123,6 +126,4 @@ void rig(int argc, char** argv) {
 
 }  // namespace
 
-int ods_rig(int argc, char** argv) {
-  return run_command([=] { rig(argc, argv); });
-}
+extern const Command kRig = make_command<parse_rig, rig>("rig", "plan perspective cameras for other renderers");

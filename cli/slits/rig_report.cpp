@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "cli/console/print.h"
 #include "ods/stitch/slit_error.h"
 
 namespace {
@@ -16,7 +17,7 @@ void print_errors(const ods::SlitRig& rig, float nearest) {
   for (const float distance : distances) {
     line += fmt::format("   {:>31}", fmt::format("at {:.3g} m: across  up/down  step", distance));
   }
-  fmt::print("{}\n", line);
+  put_out(fmt::format("{}\n", line));
   for (const float elevation : {90.0f, 60.0f, 30.0f, 0.0f, -30.0f, -60.0f, -90.0f}) {
     const ods::vec2 seen = rig.camera.projection.latitude;
     if (elevation < seen.x || elevation > seen.y) continue;
@@ -28,7 +29,7 @@ void print_errors(const ods::SlitRig& rig, float nearest) {
           fmt::format("   {:>31}", fmt::format("{:.3f}  {:.3f}  {:.3f} ({:.2f}')", pixels(error.across),
                                                pixels(error.along), pixels(error.step), ods::arc_minutes(error.step)));
     }
-    fmt::print("{}\n", line);
+    put_out(fmt::format("{}\n", line));
   }
 }
 
@@ -42,11 +43,11 @@ void print_detail(const ods::SlitRig& rig) {
     columns += fmt::format("{:7.2f}", detail.across);
     minutes += fmt::format("{:7.2f}", ods::arc_minutes(detail.angle));
   }
-  fmt::print(
+  put_out(fmt::format(
       "width of a view's pixel in columns of the picture; above 1, less horizontal detail than when rendered "
       "directly\n"
       "{}\n{}\n{}\n",
-      elevations, columns, minutes);
+      elevations, columns, minutes));
 }
 
 std::string cost_text(const ods::SlitRig& rig) {
@@ -60,17 +61,17 @@ std::string cost_text(const ods::SlitRig& rig) {
 }  // namespace
 
 void print_plan(const ods::SlitRig& rig, float nearest) {
-  fmt::print("{}\n", cost_text(rig));
+  put_out(fmt::format("{}\n", cost_text(rig)));
   print_errors(rig, nearest);
   print_detail(rig);
   if (rig.options.depth != ods::ViewDepth::kNone) {
-    fmt::print("these are errors at occlusion edges; depth corrects the surfaces themselves\n");
+    put_out(fmt::format("these are errors at occlusion edges; depth corrects the surfaces themselves\n"));
   }
   ods::SlitOptions every = rig.options;
   every.slits = rig.eye.width;
   if (!slit_fault(rig.camera, rig.eye, every).empty()) return;
   const ods::SlitRig all = make_slit_rig(rig.camera, rig.eye, rig.eyes, every);
   const ods::SlitError error = largest_slit_error(all, nearest);
-  fmt::print("a slit for every column would be off by {:.3f} pixels at most: {}\n",
-             picture_pixels(all, std::max(error.whole, error.step)), cost_text(all));
+  put_out(fmt::format("a slit for every column would be off by {:.3f} pixels at most: {}\n",
+                      picture_pixels(all, std::max(error.whole, error.step)), cost_text(all)));
 }

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "cli/console/console.h"
+#include "cli/options/untested_targets.h"
 #include "ods/base/names.h"
 #include "ods/files/atomic_file.h"
 #include "ods/stitch/slit_file.h"
@@ -33,9 +34,8 @@ static std::vector<RigTarget> parse_targets(const std::string& words) {
 void add_script_option(Options& options, std::vector<RigTarget>& targets) {
   options.custom(
       "--for", "LIST", "", [&](const std::string& words) { targets = parse_targets(words); },
-      fmt::format("write scripts that render the views, next to the rig, for any of: {}; untested in their programs: "
-                  "usd, unity, unreal",
-                  fmt::join(ods::names_of(ods::kRigTargetTable), ", ")));
+      fmt::format("write scripts that render the views, next to the rig, for any of: {}; {}",
+                  fmt::join(ods::names_of(ods::kRigTargetTable), ", "), untested_targets(ods::kRigTargetTable)));
 }
 
 void write_rig(const ods::SlitRig& rig, const std::vector<RigTarget>& targets, const std::string& output) {

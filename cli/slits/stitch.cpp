@@ -3,10 +3,11 @@
 //
 // ods stitch: combines the views of a rig into its picture, or the views of every frame into a video's frames.
 #include <chrono>
-#include <iostream>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
+#include "cli/console/print.h"
 #include "cli/options/picture_options.h"
 #include "cli/slits/stitch_frames.h"
 #include "ods/files/claim.h"
@@ -27,7 +28,7 @@ void run(const StitchJob& job, ProgressLines& lines) {
     has_rig_marks(rig, job.views);
     const std::vector<ods::ViewFault> faults = missing_views(rig, job.views, true);
     tell_faults(faults, note);
-    if (!faults.empty()) std::cout << view_ranges(rig, job.views, faults) << std::endl;
+    if (!faults.empty()) put_out(view_ranges(rig, job.views, faults) + "\n");
     return;
   }
   const bool is_video = !job.frames.empty();
@@ -43,14 +44,11 @@ void run(const StitchJob& job, ProgressLines& lines) {
   lines.clear();
 }
 
-void stitch(int argc, char** argv) {
-  StitchJob job;
-  if (!read_stitch_job(job, argc, argv)) return;
+void stitch(const StitchJob& job) {
   run_long_job(job.progress, job.threads, [&](ProgressLines& lines) { run(job, lines); });
 }
 
 }  // namespace
 
-int ods_stitch(int argc, char** argv) {
-  return run_command([=] { stitch(argc, argv); });
-}
+extern const Command kStitch =
+    make_command<parse_stitch, stitch>("stitch", "combine the views of those cameras into a picture");

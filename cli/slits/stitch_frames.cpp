@@ -88,7 +88,8 @@ void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ViewFil
   if (!color_fault.empty()) warn("the views: " + color_fault);
   ods::SaveOptions save = job.save;
   save.layout = job.layout.value_or(rig.layout);
-  if (!job.has_tone && shows_codes) save.tone = ods::ToneCurve::kLinear;
+  save.exposure = job.display.exposure.value_or(save.exposure);
+  save.tone = job.display.tone.value_or(shows_codes ? ods::ToneCurve::kLinear : save.tone);
   std::optional<MergedPicture> merged;
   if (job.merge_limit && rig.eyes.size() == 2) merged.emplace(stitched.rows, rig.camera, *job.merge_limit, output);
   const std::vector<std::string> files = merged ? save_picture(merged->conversion.rows, &merged->camera, save, output)

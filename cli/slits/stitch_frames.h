@@ -13,7 +13,7 @@
 // Warns about unknown keys.
 ods::SlitRig open_rig(const std::string& path);
 
-// Reports the first few faults through `say`.
+// Passes the first few faults to `say`.
 void tell_faults(const std::vector<ods::ViewFault>& faults, const std::function<void(const std::string&)>& say);
 
 // Stitches the views into the output, and prints the file names if the job wants that. Throws UsageError and
@@ -21,5 +21,5 @@ void tell_faults(const std::vector<ods::ViewFault>& faults, const std::function<
 void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ods::ViewFiles& views,
                     const std::string& output, const StepReport& report);
 
-// The same for every frame of a video, with a folder of views per frame. Returns the frame numbers.
+// Checks the views of every frame of a video, with a folder of views per frame. Returns the frame numbers.
 std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, const StepReport& report);

@@ -29,9 +29,9 @@ static void set_merge(const std::string& word, StitchJob& job) {
     throw UsageError("--merge of ods stitch is auto or auto,MINUTES: any other is planned by ods rig");
 }
 
-bool read_stitch_job(StitchJob& job, int argc, char** argv) {
-  Options options("stitch", "Combines the views of a rig (made by ods rig) into a stereo 360 picture.",
-                  kStitchExamples);
+StitchJob parse_stitch(Options& options) {
+  StitchJob job;
+  options.describe("Combines the views of a rig (made by ods rig) into a stereo 360 picture.", kStitchExamples);
   options.argument(ValueKind::input_file("RIG"), job.rig_file, "the rig file written by ods rig");
   options.argument(ValueKind::input_file("VIEWS"), job.views.names,
                    "the views' file names, with #### for the view's number; %V is the eye");
@@ -39,9 +39,7 @@ bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   options.text("-o,--output", ValueKind::output_file(), job.output,
                "output file: .exr .png .jpg .tif .webp .hdr; .exr keeps layers and depth");
   add_layout_option(options, job.layout, "how both eyes share the file; by default as in the rig");
-  options.number("--exposure", job.save.exposure, -30.0f, 30.0f,
-                 "exposure in stops; .hdr and .exr stay scene-linear and ignore it");
-  options.choice("--tone", job.save.tone, ods::kToneCurveTable, "tone curve, for scene-linear views");
+  add_display_options(options, job.display);
   options.custom(
       "--merge", "auto[,MINUTES]", "", [&](const std::string& word) { set_merge(word, job); },
       "reduce the eye distance towards the poles by the views' depth, as ods convert does; any other merge is the "
@@ -67,8 +65,7 @@ bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   options.number("--threads", job.threads, 0, 1024, "number of threads; 0: all processors");
   options.group("Console");
   add_progress_options(options, job.progress);
-  if (!options.parse(argc, argv)) return false;
-  job.has_tone = options.given("--tone");
+  options.parse();
   if (job.output.empty() && !job.list_missing) throw UsageError("no output file: add -o picture.exr");
   if (job.skip_existing && job.frames.empty()) throw UsageError("--skip-existing needs --frames");
   if (!job.only.empty() && job.frames.empty()) throw UsageError("--only needs --frames");
@@ -79,5 +76,5 @@ bool read_stitch_job(StitchJob& job, int argc, char** argv) {
   }
   check_only(job.only);
   job.given = options.given_words();
-  return true;
+  return job;
 }

@@ -9,6 +9,7 @@
 
 #include "cli/console/options.h"
 #include "cli/console/progress.h"
+#include "cli/options/picture_options.h"
 #include "ods/picture/save.h"
 #include "ods/stitch/view_files.h"
 
@@ -17,12 +18,12 @@ struct StitchJob {
   ods::ViewFiles views;
   std::string output;
   std::string report;
-  ods::SaveOptions save;              // except its layout
+  ods::SaveOptions save;  // except its layout
+  DisplayOptions display;
   std::optional<ods::Layout> layout;  // none: default_layout() of the rig's projection
   std::string frames;
   std::string only;                  // as TimeOptions::only
   std::optional<float> merge_limit;  // --merge auto, minutes of arc
-  bool has_tone = false;
   bool partial = false;
   bool says_files = true;
   bool says_unmarked = true;  // print a note if views do not identify their rig
@@ -34,5 +35,4 @@ struct StitchJob {
   ProgressMode progress = ProgressMode::kAuto;
 };
 
-// False if help was requested. Throws UsageError.
-bool read_stitch_job(StitchJob& job, int argc, char** argv);
+StitchJob parse_stitch(Options& options);

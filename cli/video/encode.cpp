@@ -6,6 +6,7 @@
 
 #include <chrono>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
@@ -43,8 +44,9 @@ ods::Layout video_layout(const std::string& word) {
   throw UsageError("--to-layout of a video must be top-bottom or side-by-side");
 }
 
-bool read_options(EncodeJob& job, int argc, char** argv) {
-  Options options("encode", kEncodeSummary, kEncodeExamples);
+EncodeJob parse_encode(Options& options) {
+  EncodeJob job;
+  options.describe(kEncodeSummary, kEncodeExamples);
   options.argument(ValueKind::input_file("FRAMES"), job.pattern,
                    "the frames' file names, in quotes: 'shot.####.exr'; any picture format");
   options.group("Frames");
@@ -67,8 +69,8 @@ bool read_options(EncodeJob& job, int argc, char** argv) {
   options.group("Console");
   options.number("--threads", job.threads, 0, 1024, "number of threads; 0: all processors");
   add_progress_options(options, job.progress);
-  if (!options.parse(argc, argv)) return false;
-  return true;
+  options.parse();
+  return job;
 }
 
 void encode_to_file(const EncodeJob& job, ProgressLines& lines) {
@@ -76,7 +78,7 @@ void encode_to_file(const EncodeJob& job, ProgressLines& lines) {
   encode_options(job.video, {256, 256}, job.threads);  // fails early: examining the frames takes time
   const ods::FrameFiles files = ods::find_frames(job.pattern, job.frames);
   const ods::FormatHint seen = identified_input(job.pattern, job.known);
-  const bool needs_convert = !seen.lenses.empty() || seen.bars.any();  // what stands in a frame is encoded as it is
+  const bool needs_convert = !seen.lenses.empty() || seen.bars.any();  // encoding does not convert frames
   const ods::VideoPlan plan = ods::plan_video(files, needs_convert ? job.known : seen, job.layout);
   const ods::EncodeOptions options = encode_options(job.video, plan.size, job.threads);
   ods::check_packing(plan, options.packing);
@@ -94,14 +96,10 @@ void encode_to_file(const EncodeJob& job, ProgressLines& lines) {
                    duration_text(seconds_since(start))));
 }
 
-void encode(int argc, char** argv) {
-  EncodeJob job;
-  if (!read_options(job, argc, argv)) return;
+void encode(const EncodeJob& job) {
   run_long_job(job.progress, job.threads, [&](ProgressLines& lines) { encode_to_file(job, lines); });
 }
 
 }  // namespace
 
-int ods_encode(int argc, char** argv) {
-  return run_command([=] { encode(argc, argv); });
-}
+extern const Command kEncode = make_command<parse_encode, encode>("encode", "encode frames as a stereo 360 video");

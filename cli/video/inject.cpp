@@ -4,6 +4,7 @@
 // ods inject: writes 360 metadata into a video or a picture, without encoding it again.
 #include <fmt/format.h>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/apple_option.h"
@@ -29,9 +30,10 @@ constexpr const char* kInjectSummary =
     "the\n"
     "old one when it is complete.";
 
-bool read_options(InjectJob& job, ProgressMode& mode, int argc, char** argv) {
-  Options options("inject", kInjectSummary, kInjectExamples);
+InjectJob parse_inject(Options& options) {
+  InjectJob job;
   std::string layout;
+  options.describe(kInjectSummary, kInjectExamples);
   options.argument(ValueKind::input_file("FILE"), job.file, "the file: mp4, mov, mkv, webm; jpg, png, tif, exr");
   options.text("-o,--output", ValueKind::output_file(), job.output, "write this file and leave FILE unchanged");
   options.group("Metadata");
@@ -50,28 +52,26 @@ bool read_options(InjectJob& job, ProgressMode& mode, int argc, char** argv) {
   add_apple_option(options, job.for_apple);
   options.flag("--remove", job.remove, "remove all 360 and stereo metadata");
   options.group("Console");
-  add_progress_options(options, mode);
-  if (!options.parse(argc, argv)) return false;
-  for (const char* other : {"--layout", "--projection", "--yaw", "--pitch", "--roll", "--ambisonics", "--apple"}) {
-    if (job.remove && options.given(other)) throw UsageError(fmt::format("--remove excludes {}", other));
+  add_progress_options(options, job.progress);
+  options.parse();
+  if (job.remove) {
+    options.refuse({"--layout", "--projection", "--yaw", "--pitch", "--roll", "--ambisonics", "--apple"},
+                   "cannot be used with --remove");
   }
   job.is_mono = layout == "mono";
   if (!layout.empty() && !job.is_mono) job.layout = layout_by_name("--layout", layout);
   if (job.output.empty()) job.output = job.file;
-  return true;
+  return job;
 }
 
-void inject(int argc, char** argv) {
-  InjectJob job;
-  ProgressMode mode = ProgressMode::kAuto;
-  if (!read_options(job, mode, argc, argv)) return;
+void inject(const InjectJob& job) {
   const bool is_video = ods::is_video(job.file);
-  run_long_job(mode, 0, [&](ProgressLines& lines) { is_video ? inject_video(job, lines) : inject_picture(job); });
+  run_long_job(job.progress, 0,
+               [&](ProgressLines& lines) { is_video ? inject_video(job, lines) : inject_picture(job); });
   announce_file(job.output);
 }
 
 }  // namespace
 
-int ods_inject(int argc, char** argv) {
-  return run_command([=] { inject(argc, argv); });
-}
+extern const Command kInject =
+    make_command<parse_inject, inject>("inject", "write 360 and stereo metadata into a video or picture");

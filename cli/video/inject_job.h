@@ -19,8 +19,9 @@ struct InjectJob {
   std::optional<int> track;  // of a video
   bool ambisonics = false;   // videos only
   bool for_apple = false;    // videos only
+  ProgressMode progress = ProgressMode::kAuto;
 };
 
-// Both throw UsageError, and what the library throws.
+// Both throw UsageError and ods::Error.
 void inject_video(const InjectJob& job, ProgressLines& lines);
 void inject_picture(const InjectJob& job);

@@ -26,7 +26,7 @@ ods::FormatHint known_format(const InjectJob& job) {
   return known;
 }
 
-// Where only the shape would tell, the pixels must agree.
+// If only the shape identifies the picture, the pixels must agree.
 ods::FormatHint looked_at(const InjectJob& job, ods::FormatHint known) {
   const std::optional<Wordless> seen = look_at_pixels(known, job.file);
   if (seen && !seen->reading) {

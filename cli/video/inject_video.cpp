@@ -55,7 +55,7 @@ bool asks_for_something(const InjectJob& job) {
          job.for_apple;
 }
 
-// Where only the shape would tell, the frames must agree.
+// If only the shape identifies the video, the frames must agree.
 void take_what_frames_show(const InjectJob& job, const ods::VideoTrack& track, SphericalMetadata& known,
                            std::vector<std::string>& guesses) {
   const std::optional<Wordless> seen = look_at_frames(known, track, job.file);
@@ -84,7 +84,8 @@ void settle_conflicts(const InjectJob& job, const SphericalMetadata& known, cons
                    fmt::format("'{}' contradicts itself: {}. Decide: {}", job.file, texts, options));
 }
 
-// The metadata that the video gets; what was not requested stays as it is. Prints what the format cannot express.
+// Returns the metadata that the video gets; metadata that were not requested stay. Prints what the format cannot
+// express.
 SphericalMetadata wished_metadata(const InjectJob& job, ods::Container container, const ods::VideoTrack& track,
                                   std::vector<std::string>& guesses) {
   SphericalMetadata known;
@@ -146,7 +147,7 @@ void inject_video(const InjectJob& job, ProgressLines& lines) {
   if (!job.remove) metadata = wished_metadata(job, video.container, track, guesses);
   const auto start = std::chrono::steady_clock::now();
   const auto progress = [&](double done) {
-    const double kSoon = 1.0;  // seconds: shorter jobs need no progress
+    const double kSoon = 1.0;  // seconds: shorter jobs do not show progress
     if (const double seconds = seconds_since(start); seconds > kSoon)
       lines.report(done, seconds, {"inject", 0, 0, job.output});
   };

@@ -4,6 +4,7 @@
 // ods probe: shows a video's or a picture's metadata, and how players will interpret it.
 #include <fmt/format.h>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/options.h"
 #include "cli/video/probe_report.h"
@@ -46,7 +47,7 @@ void probe_right_eye(PictureReport& report, const std::string& path, std::vector
   }
 }
 
-// What ods inject would do.
+// Describes what ods inject would do.
 void add_wordless(const std::optional<Wordless>& seen, std::vector<std::string>& warnings) {
   if (!seen) return;
   warnings.push_back(fmt::format("its metadata and name do not say what it shows, and {}{}", seen->text,
@@ -83,24 +84,31 @@ ProbeReport probe(const std::string& path) {
   return report;
 }
 
-void run(int argc, char** argv) {
+struct ProbeJob {
   std::string path;
   bool json = false;
-  Options options("probe", kProbeSummary, kProbeExamples);
-  options.argument(ValueKind::input_file("FILE"), path, "a video or a picture");
+};
+
+ProbeJob parse_probe(Options& options) {
+  ProbeJob job;
+  options.describe(kProbeSummary, kProbeExamples);
+  options.argument(ValueKind::input_file("FILE"), job.path, "a video or a picture");
   options.group("Console");
-  options.flag("--json", json, "print JSON");
+  options.flag("--json", job.json, "print JSON");
   add_console_options(options);
-  if (!options.parse(argc, argv)) return;
-  ProbeReport report = probe(path);
+  options.parse();
+  return job;
+}
+
+void run_probe(const ProbeJob& job) {
+  ProbeReport report = probe(job.path);
   for (std::vector<std::string>& warnings : report.warnings) {
     for (std::string& warning : warnings) warning = with_options(warning);
   }
-  json ? print_json(report) : print_text(report);
+  job.json ? print_json(report) : print_text(report);
 }
 
 }  // namespace
 
-int ods_probe(int argc, char** argv) {
-  return run_command([=] { run(argc, argv); });
-}
+extern const Command kProbe =
+    make_command<parse_probe, run_probe>("probe", "show a file's 360 metadata and how players will interpret it");

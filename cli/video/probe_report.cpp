@@ -4,22 +4,18 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "cli/console/print.h"
+#include "ods/base/text.h"
 
 using Json = nlohmann::ordered_json;
 using ods::SphericalMetadata;
 
 namespace {
 
-// Text from a file may contain anything, including terminal escapes.
-std::string printable(std::string text) {
-  for (char& c : text) c = static_cast<unsigned char>(c) < ' ' || c == 0x7f ? '.' : c;
-  return text;
-}
-
 void row(std::string_view name, const std::string& value) {
-  fmt::print("{:<18} {}\n", name, printable(value));
+  put_out(fmt::format("{:<18} {}\n", name, ods::one_line(value)));
 }
 
 std::string said(const std::optional<SphericalMetadata>& metadata) {
@@ -41,13 +37,14 @@ std::string sound_text(const ods::SoundTrack& track) {
 }
 
 void print_views(const ProbeReport& report, size_t index) {
-  fmt::print("\nA player that\n");
+  put_out(fmt::format("\nA player that\n"));
   for (const ods::PlayerView& view : report.views[index]) {
-    fmt::print("{:<18} takes it for {}: {}\n", view.player == "ods" ? "is ods" : view.player,
-               printable(view.takes_it_for), printable(view.reason));
+    put_out(fmt::format("{:<18} takes it for {}: {}\n", view.player == "ods" ? "is ods" : view.player,
+                        ods::one_line(view.takes_it_for), ods::one_line(view.reason)));
   }
-  if (!report.warnings[index].empty()) fmt::print("\n");
-  for (const std::string& warning : report.warnings[index]) fmt::print("warning: {}\n", printable(warning));
+  if (!report.warnings[index].empty()) put_out(fmt::format("\n"));
+  for (const std::string& warning : report.warnings[index])
+    put_out(fmt::format("warning: {}\n", ods::one_line(warning)));
 }
 
 void print_video(const ProbeReport& report) {
@@ -101,7 +98,7 @@ Json to_json(const std::optional<SphericalMetadata>& metadata) {
   return json;
 }
 
-// How the pixels may be read; null where words tell it.
+// The possible readings of the pixels; null if metadata or name decide.
 Json readings_to_json(const std::optional<ods::Identity>& identity) {
   if (!identity) return nullptr;
   Json json = Json::array();
@@ -183,5 +180,5 @@ void print_json(const ProbeReport& report) {
   Json json = {{"path", report.path}};
   json[report.video ? "video" : "picture"] = report.video ? video_to_json(report) : picture_to_json(report);
   // File names need not be valid UTF-8.
-  std::puts(json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+  put_json(json);
 }

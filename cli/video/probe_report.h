@@ -17,14 +17,14 @@ struct PictureReport {
   std::string right_eye;  // of a VR photo: "64x32", or its fault
 };
 
-// Of a video or a picture.
+// The report on a video or a picture.
 struct ProbeReport {
   std::string path;
   std::optional<ods::VideoFile> video;
   std::optional<PictureReport> picture;
   std::vector<std::vector<ods::PlayerView>> views;  // per video track, or of the picture
-  std::vector<std::vector<std::string>> warnings;   // likewise
-  std::vector<std::optional<ods::Identity>> seen;   // likewise: what its pixels show, if no word tells
+  std::vector<std::vector<std::string>> warnings;   // per track, or of the picture
+  std::vector<std::optional<ods::Identity>> seen;   // for each file: by its pixels, if nothing else does
 };
 
 void print_text(const ProbeReport& report);

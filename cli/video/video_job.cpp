@@ -7,7 +7,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
-#include "cli/render/library_options.h"
+#include "cli/render/plan.h"
 
 namespace {
 
@@ -24,11 +24,11 @@ constexpr const char* kVideoSummary =
 
 }  // namespace
 
-bool read_video_job(VideoJob& job, int argc, char** argv) {
+VideoJob parse_video(Options& options) {
+  VideoJob job;
   RenderJob& render = job.render;
-  Quality quality;
-  Options options("video", kVideoSummary, kVideoExamples);
-  add_scene_argument(options, render.scene, [&](const ForeignScene& scene) { take_foreign(render, scene); });
+  options.describe(kVideoSummary, kVideoExamples);
+  add_scene_argument(options, render.scene);
   add_light_options(options, render.scene.light);
   add_video_options(options, job.video);
   options.text("--rig", ValueKind::input_file(), job.rig,
@@ -41,27 +41,32 @@ bool read_video_job(VideoJob& job, int argc, char** argv) {
   options.flag("--force", render.force, "render the frames even if the disk cannot hold them");
   add_wait_option(options, render.wait, "frames");
   options.group("Picture");
-  add_picture_options(options, render.render, render.save);
+  add_picture_options(options, render.form, render.save.sidecar, "2048");
   add_exposure_option(options, render);
   options.choice("--tone", job.display.tone, ods::kToneCurveTable, "tone curve");
-  add_camera_options(options, render.camera, render.scene.blender);
+  add_camera_options(options, render.camera);
   add_time_options(options, render.time);
-  add_quality_options(options, render, quality);
+  add_quality_options(options, render);
   options.group("Console");
   add_progress_options(options, render.progress);
-  if (!options.parse(argc, argv)) return false;
+  options.parse();
   if (render.time.time) throw UsageError("--time is for single pictures; choose a video's frames with --frames");
   if (render.save.sidecar) throw UsageError("--sidecar is for pictures; a video carries its own metadata");
   render.time.is_video = render.time.skip_existing = true;
-  finish_render_job(options, quality, render);
+  finish_render_options(options, render);
   if (!render.time.only.empty() && job.restart) {
     throw UsageError("--restart and --only exclude each other: other processes may be making frames");
   }
   render.render.layers = false;
-  if (render.raw && (render.time.only.empty() || !job.rig.empty() || !draws_on_neighbours(render))) {
+  if (render.raw && (render.time.only.empty() || !job.rig.empty() || !plan(render).sequence.draws_on_neighbours)) {
     throw UsageError("--raw needs --only, and frames that ods denoises");
   }
-  job.video.rate = parse_rate(fmt::format("{}", render.time.fps));
-  render.time.fps = static_cast<float>(job.video.rate.value());
-  return true;
+  return job;
+}
+
+VideoJob settled(VideoJob job) {
+  if (job.rig.empty()) job.render = settled(job.render);  // else the scene is the names of the views
+  job.video.rate = parse_rate(fmt::format("{}", job.render.time.fps));
+  job.render.time.fps = static_cast<float>(job.video.rate.value());
+  return job;
 }

@@ -16,5 +16,7 @@ struct VideoJob {
   bool keep_frames = false, restart = false;
 };
 
-// False if help was requested. Throws UsageError and ods::Error.
-bool read_video_job(VideoJob& job, int argc, char** argv);
+VideoJob parse_video(Options& options);
+
+// Returns the job with the settings that depend on files, as settled() of RenderJob does.
+VideoJob settled(VideoJob job);

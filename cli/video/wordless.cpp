@@ -22,7 +22,7 @@ std::optional<Wordless> judged(const std::optional<Identity>& identity, bool (*c
 }
 
 bool video_can_say(const Reading& reading) {
-  if (!reading.layout && reading.projection.kind == ods::kPerspective) return false;  // an ordinary film
+  if (!reading.layout && reading.projection.kind == ods::kPerspective) return false;  // an ordinary video
   try {
     if (reading.layout) ods::video_stereo(*reading.layout);
     ods::SphericalMetadata metadata;
@@ -33,7 +33,7 @@ bool video_can_say(const Reading& reading) {
   return true;
 }
 
-// Of a lens the pixels do not tell the field of view.
+// Pixels do not show the field of view of a lens.
 bool picture_can_say(const Reading& reading) {
   return !ods::has_fov(reading.projection.kind);
 }

@@ -7,10 +7,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "cli/comfort/heat.h"
 #include "cli/view/comfort_layer.h"
 #include "ods/comfort/areas.h"
+#include "ods/comfort/heat.h"
 #include "ods/comfort/merge_from_depth.h"
+#include "ods/image/image_file.h"
+#include "ods/image/tone.h"
 
 namespace {
 
@@ -21,26 +23,37 @@ ods::SeenDepth depth_of(const ods::LiveSeen& seen, size_t eye) {
   return {seen.camera, image.eye, ods::nearest_of_blocks(image.depth, kJudgedWidth), {}, {}};
 }
 
+std::string png_of(const ods::Image& image) {
+  ods::FileHeader header;
+  header.width = image.width;
+  header.height = image.height;
+  header.channels = {{"R"}, {"G"}, {"B"}};
+  return ods::image_bytes("heat.png", header, [&](int y, std::span<float> row) {
+    std::transform(image.at(0, y), image.at(0, y) + row.size(), row.data(), ods::srgb_encode);
+  });
+}
+
 }  // namespace
 
 WebAnswer heat_answer(const ods::LiveSeen& seen, int eye) {
   if (!seen.picture) return {.status = 204};
   const size_t index = std::min(static_cast<size_t>(eye), seen.picture->eyes.size() - 1);
-  const Judged judged{depth_of(seen, index), seen.picture->eyes[index].radiance};
-  assert(judged.light.width <= kJudgedWidth);  // the studio's whole picture is never larger
-  return {.type = "image/png", .body = heat_png(judged, ods::judge_comfort(judged.seen))};
+  const ods::Image& light = seen.picture->eyes[index].radiance;
+  assert(light.width <= kJudgedWidth);  // the studio's whole picture is never larger
+  const ods::ComfortVerdict verdict = ods::judge_comfort(depth_of(seen, index));
+  return {.type = "image/png", .body = png_of(ods::heat_of(light, verdict.per_eye[0].levels))};
 }
 
 ods::Json comfort_json(const ods::LiveSeen& seen) {
   if (!seen.picture) return nullptr;
   std::vector<ods::SeenDepth> eyes;
   for (size_t i = 0; i < seen.picture->eyes.size(); i++) eyes.push_back(depth_of(seen, i));
-  const ods::ComfortReport report = ods::judge_comfort(eyes[0]);
+  const ods::ComfortVerdict verdict = ods::judge_comfort(eyes);
   const auto limit = static_cast<float>(ods::kFusionLimit);
   const ods::Image map = ods::merge_map_of(ods::comfortable_shares(eyes, seen.camera, limit));
-  ods::Json json = verdict_json(seen.camera, report, ods::worst_level(report));
-  json["share"] = report.share;
-  json["nearest"] = std::isfinite(report.nearest) ? ods::Json(report.nearest) : ods::Json();
+  ods::Json json = verdict_json(seen.camera, verdict);
+  json["share"] = verdict.share;
+  json["nearest"] = std::isfinite(verdict.nearest) ? ods::Json(verdict.nearest) : ods::Json();
   for (int row = 0; row < map.height; row++) json["auto"].push_back(*map.at(0, row));
   return json;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the studio's server says of comfort. (Of a picture file: comfort_layer.h.)
+// Verdicts on the studio's picture, for its page. comfort_layer.h has those on picture files.
 #pragma once
 #include <string>
 
@@ -9,12 +9,12 @@
 #include "ods/base/json_reader.h"
 #include "ods/studio/live_render.h"
 
-// What the page lays over the studio's picture, of an eye: heat_png() of cli/comfort/heat.h; 204 while there is none.
+// The layer over an eye of the studio's picture, a PNG of heat_of() (ods/comfort/heat.h); 204 until there is a picture.
 WebAnswer heat_answer(const ods::LiveSeen& seen, int eye);
 
-// verdict_json() on the studio's picture, its share of each level, and the merge that its depth allows: 180 shares of
-// the eye distance, from the zenith down. Null while there is no picture.
+// Returns verdict_json() of the studio's picture, its share of each level, and the merge that its depth allows: 180
+// shares of the eye distance, from the zenith down. Null until there is a picture.
 ods::Json comfort_json(const ods::LiveSeen& seen);
 
-// What a click meets: adds `comfort` to the answer.
+// Adds `comfort`, the verdict on the point that a click met, to the answer.
 void add_comfort(ods::Json& pick, const ods::StereoCamera& camera, const ods::LivePick& found, int eye);

@@ -3,50 +3,40 @@
 #include "cli/view/comfort_layer.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "cli/comfort/comfort_report.h"
-#include "cli/comfort/heat.h"
+#include "ods/base/quote.h"
+#include "ods/comfort/heat.h"
 #include "ods/files/file_input.h"
+#include "ods/files/private_folder.h"
+#include "ods/picture/cryptomatte.h"
 #include "ods/picture/save.h"
 #include "ods/view/camera_json.h"
 
-static std::string text_of(const ods::ComfortReport& report) {
-  if (report.places.empty()) return "Nothing strains the eyes";
-  const ods::StrainedPlace& worst = report.places[0];
-  return fmt::format("Most: {}, {:.2f} m away, {}", ods::strain_row(worst.strain).title, worst.distance,
-                     direction_text(worst));
+static std::string text_of(const ods::StrainedPlace* worst) {
+  if (!worst) return "Nothing strains the eyes";
+  return fmt::format("Most: {}, {:.2f} m away, {}", ods::strain_row(worst->strain).title, worst->distance,
+                     ods::direction_text(worst->azimuth, worst->elevation));
 }
 
-ods::Json verdict_json(const ods::StereoCamera& camera, const ods::ComfortReport& report, ods::ComfortLevel level) {
+ods::Json verdict_json(const ods::StereoCamera& camera, const ods::ComfortVerdict& verdict) {
+  const ods::StrainedPlace* const worst = verdict.worst();
   ods::Json json = {{"camera", camera_json(ods::make_camera(camera))},
-                    {"level", comfort_level_name(level)},
-                    {"text", text_of(report)}};
-  if (report.places.empty()) return json;
-  json["worst"] = {{"yaw", report.places[0].azimuth}, {"pitch", report.places[0].elevation}};
+                    {"level", comfort_level_name(verdict.level)},
+                    {"text", text_of(worst)}};
+  if (worst) json["worst"] = {{"yaw", worst->azimuth}, {"pitch", worst->elevation}};
   return json;
 }
 
 ComfortLayer comfort_layer(const ods::ViewItem& item) {
-  ComfortJob job;
-  job.input = ComfortInput::kPicture;
-  job.scene.name = item.path;
-  job.format = item.known;
-  job.heat = "shown";  // so that colours are read, too
-  const Looked looked = look_at_picture(job);
-  std::vector<ods::ComfortReport> reports;
-  for (const Judged& each : looked.eyes) reports.push_back(ods::judge_comfort(each.seen, job.comfort));
+  const std::string scratch = ods::temporary_folder();
+  const ods::JudgedPicture judged = ods::judge_picture(item.path, {{}, item.known, true, scratch});
   ComfortLayer layer;
-  const ods::Json json = verdict_json(looked.camera, reports[0], verdict(job, looked, reports[0]));
-  layer.json = json.dump(-1, ' ', false, ods::Json::error_handler_t::replace);
-  // Image libraries want files.
-  const std::filesystem::path folder = std::filesystem::temp_directory_path();
-  const std::string path = (folder / fmt::format("ods-view-{}-heat-%V.jpg", getpid())).string();
-  const std::vector<std::string> files = ods::save_picture(heat_picture(looked, reports), looked.camera, {}, path);
-  layer.left = ods::take_file(files.front());
-  layer.right = files.size() == 2 ? ods::take_file(files.back()) : layer.left;
+  layer.json = ods::json_document(verdict_json(judged.camera, judged.verdict));
+  const ods::Picture heat = ods::heat_picture(judged);
+  const ods::PictureRows rows = ods::rows_of(heat, false);
+  layer.left = ods::eye_bytes(rows, 0, ods::FileFormat::kJpeg, {});
+  layer.right = rows.eyes.size() == 2 ? ods::eye_bytes(rows, 1, ods::FileFormat::kJpeg, {}) : layer.left;
   return layer;
 }

@@ -3,12 +3,9 @@
 #include "cli/view/desktop.h"
 
 #include <arpa/inet.h>
-#include <fcntl.h>
 #include <ifaddrs.h>
 #include <net/if.h>
-#include <spawn.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -16,9 +13,13 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/console/console.h"
+#include "cli/console/programs.h"
+#include "cli/console/user_folder.h"
 #include "cli/http/certificate.h"
 #include "ods/files/atomic_file.h"
 #include "ods/files/file_input.h"
+#include "ods/files/private_folder.h"
 
 std::vector<std::string> network_addresses() {
   std::vector<std::string> addresses;
@@ -37,25 +38,19 @@ std::vector<std::string> network_addresses() {
 
 void open_in_browser(const std::string& address) {
   if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
-  std::string program = "xdg-open", argument = address;
-  char* const words[] = {program.data(), argument.data(), nullptr};
-  pid_t child = 0;
-  posix_spawn_file_actions_t silent;
-  posix_spawn_file_actions_init(&silent);
-  posix_spawn_file_actions_addopen(&silent, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&silent, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawnp(&child, "xdg-open", &silent, nullptr, words, environ);
-  posix_spawn_file_actions_destroy(&silent);
+  start_for_desktop({"xdg-open", address});
 }
 
 std::string state_folder() {
-  const char* const state = std::getenv("XDG_STATE_HOME");
-  const char* const home = std::getenv("HOME");
-  if (!state && !home) return "";
-  const std::string folder = (state && *state ? std::string(state) : std::string(home) + "/.local/state") + "/ods";
-  std::error_code fault;
-  std::filesystem::create_directories(folder, fault);
-  return fault || chmod(folder.c_str(), S_IRWXU) != 0 ? "" : folder;
+  const std::string folder = user_folder("XDG_STATE_HOME", ".local/state");
+  if (folder.empty()) return "";
+  try {
+    ods::make_own_folder(folder);
+  } catch (const ods::Error& error) {
+    warn(error.what());
+    return "";
+  }
+  return folder;
 }
 
 std::string kept_secret(const std::string& folder) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The machine around ods view: its addresses, its browser, and the folder for what is kept from one time to the next.
+// The machine around ods view: its addresses, its browser, and the folder for files that are kept from run to run.
 #pragma once
 #include <string>
 #include <vector>
@@ -13,7 +13,8 @@ std::vector<std::string> network_addresses();
 // the address.
 void open_in_browser(const std::string& address);
 
-// ~/.local/state/ods, or as XDG_STATE_HOME has it; made, for the user alone. Empty if there is no home.
+// Makes ~/.local/state/ods, or the folder by XDG_STATE_HOME, for the user alone. Returns an empty path if there is no
+// home.
 std::string state_folder();
 
 // The secret of this user's addresses, the same every time, so that a page finds its server again: from the folder, or

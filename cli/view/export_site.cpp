@@ -9,6 +9,7 @@
 
 #include "cli/console/console.h"
 #include "ods/files/atomic_file.h"
+#include "ods/files/atomic_folder.h"
 #include "ods/files/file_input.h"
 #include "ods/view/bundle.h"
 #include "ods/view/page.h"
@@ -17,8 +18,7 @@ using ods::ViewItem;
 
 namespace {
 
-constexpr uint64_t kMostFromDisk = uint64_t{256}
-                                   << 20;  // bytes of a file: what browsers keep as one text is not much more
+constexpr uint64_t kMostFromDisk = uint64_t{256} << 20;  // bytes of a file: browsers limit the length of a text
 
 void copy_file(const std::string& from, const std::string& to) {
   const ods::FileInput file(from);
@@ -49,7 +49,8 @@ void write_script_beside(const std::string& path) {
     return ods::write_file(path + ".js", ods::script_of_file(path, file.read(0, file.size())));
   }
   std::filesystem::remove(path + ".js");
-  note(fmt::format("'{}' is too large for a page from disk: it needs a web server", path));
+  note(fmt::format("'{}' is too large for a page from disk: it needs a web server",
+                   std::filesystem::path(path).filename().native()));
 }
 
 void write_page(const std::string& folder, const std::string& view) {
@@ -62,11 +63,8 @@ void write_page(const std::string& folder, const std::string& view) {
   }
 }
 
-}  // namespace
-
-std::string export_site(const std::vector<ViewItem>& items, const std::string& folder) {
-  const std::string view = view_json(items, false, {});
-  write_page(folder, view);
+// The page and view.json come last: they list the other files.
+void write_site(const std::vector<ViewItem>& items, const std::string& folder) {
   for (size_t i = 0; i < items.size(); i++) {
     std::vector<std::string> files = item_files(items[i], i);
     if (items[i].has_own_file) copy_file(items[i].path, folder + "/" + files[0]);
@@ -78,7 +76,28 @@ std::string export_site(const std::vector<ViewItem>& items, const std::string& f
     }
     for (const std::string& file : files) write_script_beside(folder + "/" + file);
   }
-  const std::string path = folder + "/view.json";
-  ods::write_file(path, view);
-  return path;
+  const std::string view = view_json(items, false, {});
+  write_page(folder, view);
+  ods::write_file(folder + "/view.json", view);
+}
+
+// Messages name files of the draft by their final names.
+std::string said_of(const ods::AtomicFolder& site, std::string text) {
+  for (size_t at = 0; (at = text.find(site.draft(), at)) != std::string::npos; at += site.path().size()) {
+    text.replace(at, site.draft().size(), site.path());
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string export_site(const std::vector<ViewItem>& items, const std::string& folder) {
+  ods::AtomicFolder site(folder);
+  try {
+    write_site(items, site.draft());
+    site.commit();
+  } catch (const ods::Error& error) {
+    throw ods::Error(error.kind(), said_of(site, error.what()));
+  }
+  return folder + "/view.json";
 }

@@ -8,7 +8,8 @@
 
 #include "ods/view/view_item.h"
 
-// Writes the page, view.json and the items' files into the folder, which is made. A file that browsers read is copied,
-// all else becomes a JPEG of each eye. Files of an earlier export are replaced, others stay. view.json comes last: with
-// it the folder is complete. Returns view.json's path. Throws Error(kInput), Error(kOutput).
+// Writes the page, view.json and the items' files into the folder, as a whole or not at all
+// (ods/files/atomic_folder.h). A file that browsers read is copied, all else becomes a JPEG of each eye. Files of an
+// earlier export are replaced, others stay. Returns view.json's path. Throws Error(kInput), Error(kOutput); then the
+// folder is as it was.
 std::string export_site(const std::vector<ods::ViewItem>& items, const std::string& folder);

@@ -3,15 +3,12 @@
 #include "cli/view/render_process.h"
 
 #include <fmt/format.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "cli/console/console.h"
-#include "cli/console/spawn.h"
+#include "cli/console/programs.h"
 #include "ods/files/atomic_file.h"
 
 RenderProcess::~RenderProcess() {
@@ -28,16 +25,21 @@ void RenderProcess::start(std::vector<std::string> words, const std::string& out
   folder_ = std::make_unique<ods::PrivateFolder>(".ods-view-");
   words.insert(words.begin(), kThisProgram);
   words.insert(words.end(), {"--progress", "json", "-o", folder_->path() + "/" + output});
-  status_ = Status();
-  status_.state = "running";
-  reader_ = std::thread([this, words, output] { run(words, output); });  // the process lives as long as this thread
+  program_ = std::make_unique<RunningProgram>(
+      Program{.words = words, .folder = folder_->path(), .take_error = [this](const std::string& l) { take_line(l); }});
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    status_ = Status();
+    status_.state = "running";
+  }
+  reader_ = std::thread([this, output] { run(output); });
 }
 
 void RenderProcess::cancel() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (status_.state != "running") return;
   status_.state = "cancelled";
-  if (child_ != 0) kill(child_, SIGKILL);  // what it has made so far is in our folder
+  program_->end();  // its files so far are in our folder
 }
 
 RenderProcess::Status RenderProcess::status() const {
@@ -59,38 +61,13 @@ void RenderProcess::take_line(const std::string& line) {
   for (size_t at = 0; (at = status_.text.find(ours)) != std::string::npos;) status_.text.erase(at, ours.size());
 }
 
-void RenderProcess::read_lines(int from) {
-  std::string text;
-  char piece[4096];
-  for (ssize_t count = 0; (count = read(from, piece, sizeof(piece))) > 0;) {
-    text.append(piece, static_cast<size_t>(count));
-    for (size_t end = 0; (end = text.find('\n')) != std::string::npos; text.erase(0, end + 1)) {
-      take_line(text.substr(0, end));
-    }
-  }
-  close(from);
+void RenderProcess::run(const std::string& output) {
+  const ProgramResult result = program_->finish();
+  end(output, result.code == 0);
 }
 
-void RenderProcess::run(const std::vector<std::string>& words, const std::string& output) {
-  std::optional<Spawned> program;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (status_.state == "running") program = spawn_for_this_thread(words);
-    if (program) child_ = program->process;
-  }
-  if (!program) return end(output, false);
-  read_lines(program->from);
-  siginfo_t ended;
-  waitid(P_PID, static_cast<id_t>(child_), &ended, WEXITED | WNOWAIT);  // its number stays its own for cancel()
-  int result = 0;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    waitpid(std::exchange(child_, 0), &result, 0);
-  }
-  end(output, WIFEXITED(result) && WEXITSTATUS(result) == 0);
-}
-
-// Gives the picture its name. A picture that took hours is not lost because somebody else took that.
+// Moves the picture to its final name. If that is taken or cannot be written by now, keeps the picture elsewhere: it
+// may have taken hours.
 void RenderProcess::end(const std::string& output, bool is_well) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const bool is_wanted = status_.state == "running";
@@ -103,7 +80,7 @@ void RenderProcess::end(const std::string& output, bool is_well) {
     }
     if (is_wanted && is_well) status_.state = "done", status_.done = 1.0, status_.left = 0.0, status_.output = free;
   } catch (const ods::Error& error) {
-    status_.text = with_options(error.what());
+    status_.text = fmt::format("{}; the picture is '{}/{}'", with_options(error.what()), folder_->keep(), output);
   }
   folder_.reset();
 }

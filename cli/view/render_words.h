@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A camera as the options of ods render: what people can copy from the studio.
+// A camera as options of ods render, to copy from the studio.
 #pragma once
 #include <string>
 #include <vector>
@@ -13,5 +13,5 @@
 // camera has pixels.
 std::vector<std::string> camera_words(const ods::StereoCamera& camera, int width, const std::string& maps);
 
-// Writes those files; returns what their names have behind `maps`. Throws Error(kOutput).
+// Writes those files; returns the parts of their names after `maps`. Throws Error(kOutput).
 std::vector<std::string> save_maps(const ods::StereoCamera& camera, const std::string& maps);

@@ -34,11 +34,12 @@ using ods::Json, ods::JsonReader, ods::LiveFrame;
 namespace {
 
 constexpr std::chrono::milliseconds kPatience{5000};  // for the next frame
+constexpr int kMostWaiting = 16;                      // for one, so that connections are left for the rest of the site
 constexpr int kMostWidth = 16384;
 constexpr const char* kEnvironments[] = {"auto", "studio", "sky", "white", "0"};
 constexpr const char* kQualities[] = {"draft", "preview", "final"};
 
-// What suits the light, as ods render chooses it.
+// The exposure for the light, as ods render chooses it.
 float usual_exposure(const ods::Scene& scene, const ods::StereoCamera& camera) {
   const ods::Picture look = render_cpu(scene, ods::first_look_camera(camera), ods::first_look({}));
   return ods::suitable_exposure({&look, 1}).value_or(0.0f);
@@ -71,7 +72,7 @@ void check_name(const std::string& what, const std::string& name, const Names& n
   }
 }
 
-// The numbers that a projection has, in the page's words.
+// The numbers of a projection, by the page's names.
 Json controls_json(int kind) {
   Json json = Json::array();
   if (ods::has_range(kind)) json.push_back("range");
@@ -82,7 +83,7 @@ Json controls_json(int kind) {
   return json;
 }
 
-// The usual lens of a fisheye-polynomial, as a sidecar says it.
+// The default lens of a fisheye-polynomial, as in a sidecar.
 Json polynomial_lens_json() {
   ods::Sidecar usual;
   usual.camera.projection = ods::find_projection("fisheye-polynomial")->setting;
@@ -105,7 +106,7 @@ Json ranges_json() {
   return json;
 }
 
-// Numbers that nobody has typed, as short as anybody would: the command has them.
+// Rounds values set by sliders or dragging, so that the command shown is short.
 float rounded(float value, double per_unit) {
   return static_cast<float>(std::round(value * per_unit) / per_unit);
 }
@@ -117,21 +118,34 @@ ods::StereoCamera shortened(ods::StereoCamera camera) {
   return camera;
 }
 
+// Counts those who wait for a frame.
+struct Waiting {
+  explicit Waiting(std::atomic<int>& all) : all_(all), count_(++all) {}
+  ~Waiting() { all_--; }
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+  int count() const { return count_; }
+
+ private:
+  std::atomic<int>& all_;
+  int count_;
+};
+
 }  // namespace
 
 WebAnswer json_answer(const Json& json) {
-  return {.type = "application/json", .body = json.dump(-1, ' ', false, Json::error_handler_t::replace)};
+  return {.type = "application/json", .body = ods::json_document(json)};
 }
 
 Studio::Studio(const SceneSource& source, std::function<size_t(const std::string& path)> add_item)
-    : add_item_(std::move(add_item)), drops_((std::filesystem::temp_directory_path() / "ods-view-").native()) {
+    : add_item_(std::move(add_item)) {
   open(source, true);
 }
 
 Studio::Settings Studio::suiting(const SceneSource& source, const ods::Scene& scene) {
   Settings settings;
   CameraOptions camera;
-  if (source.foreign) take_camera(camera, *source.foreign);
+  take_base(camera, source.foreign, source.blender);
   settings.sidecar.camera = shortened(place_camera(camera, scene));
   settings.live.camera = settings.sidecar.camera;
   const bool needs_none = ods::find_builtin(source.name) || scene.as_painted;
@@ -217,9 +231,9 @@ void Studio::read_camera(JsonReader& reader, Settings& settings) const {
   if (std::max(merge, head_tilt) >= static_cast<int>(maps_.size())) {
     throw UsageError("the camera's map is gone: drop its .camera.json once more");
   }
-  if (merge >= 0) sidecar["merge_map"] = {{"width", 1}, {"height", 1}, {"values", {1}}};  // stands for ours
+  if (merge >= 0) sidecar["merge_map"] = {{"width", 1}, {"height", 1}, {"values", {1}}};  // replaces our map
   std::vector<std::string> warnings;
-  settings.sidecar = ods::read_sidecar(sidecar.dump(), "camera", warnings);
+  settings.sidecar = ods::read_sidecar(ods::json_document(sidecar), "camera", warnings);
   ods::StereoCamera& camera = settings.sidecar.camera;
   if (merge >= 0) camera.merge_map = maps_[static_cast<size_t>(merge)];
   if (head_tilt >= 0) camera.head_tilt_map = maps_[static_cast<size_t>(head_tilt)];
@@ -247,7 +261,7 @@ Studio::Settings Studio::read_settings(const std::string& text) const {
     read_text(reader, "variant", settings.variant);
     reader.part("look", [&](JsonReader& look) { read_look(look, settings.look); });
   });
-  // Files are named on the command line only: whoever has the page may not read others.
+  // Files are named on the command line only: users of the page may not read others.
   if (settings.environment != usual_.environment) check_name("light", settings.environment, kEnvironments);
   if (settings.variant != usual_.variant) check_name("variant", settings.variant, scene_->variants);
   return settings;
@@ -273,12 +287,12 @@ WebAnswer Studio::set(const std::string& body) {
   return json_answer({{"revision", revision}, {"command", ods::shell_line(command)}, {"note", note}, {"end", end}});
 }
 
-// The command that renders what the page shows: as its user knows the files, or as they are here, and without the
-// quality and the output. maps: as camera_words().
+// The command that renders the page's view: with the names of files that the user knows, or with their paths here, and
+// without the quality and the output. maps: as camera_words().
 std::vector<std::string> Studio::words(const std::string& maps, bool is_shown) const {
   std::vector<std::string> words = {"render", is_shown ? title() : source_.name};
   const auto add = [&](const char* option, const std::string& value) { words.insert(words.end(), {option, value}); };
-  if (source_.scene) add("--scene", fmt::format("{}", *source_.scene));
+  if (!source_.scene.empty()) add("--scene", source_.scene);
   if (!settings_.variant.empty()) add("--variant", settings_.variant);
   if (source_.solid_glass) words.emplace_back("--solid-glass");
   if (source_.portable) words.emplace_back("--portable");
@@ -320,6 +334,8 @@ WebAnswer Studio::frame(const WebRequest& request) {
     const std::lock_guard<std::mutex> lock(mutex_);
     live = live_;
   }
+  const Waiting waiting(waiting_);
+  if (waiting.count() > kMostWaiting) return {.status = 503, .body = "too many pages wait for frames\n"};
   const std::shared_ptr<const LiveFrame> frame = live->next_frame(number, kPatience);
   const std::string fault = live->fault();
   if (!fault.empty()) {
@@ -332,19 +348,18 @@ WebAnswer Studio::frame(const WebRequest& request) {
     next = {
         {"part", part_name(frame->next->is_patch)}, {"width", frame->next->width}, {"samples", frame->next->samples}};
   }
-  const std::string head = Json({{"number", frame->number},
-                                 {"revision", frame->revision},
-                                 {"part", part_name(frame->is_patch)},
-                                 {"width", frame->eye.width},
-                                 {"height", frame->eye.height},
-                                 {"eyes", 2},
-                                 {"camera", camera_json(make_camera(frame->camera))},
-                                 {"samples", frame->samples},
-                                 {"seconds", frame->seconds},
-                                 {"done", !frame->next},
-                                 {"next", next},
-                                 {"state", "rendering"}})
-                               .dump();
+  const std::string head = ods::json_document({{"number", frame->number},
+                                               {"revision", frame->revision},
+                                               {"part", part_name(frame->is_patch)},
+                                               {"width", frame->eye.width},
+                                               {"height", frame->eye.height},
+                                               {"eyes", 2},
+                                               {"camera", camera_json(make_camera(frame->camera))},
+                                               {"samples", frame->samples},
+                                               {"seconds", frame->seconds},
+                                               {"done", !frame->next},
+                                               {"next", next},
+                                               {"state", "rendering"}});
   std::string body(4, '\0');
   const auto size = static_cast<uint32_t>(head.size());
   for (size_t i = 0; i < 4; i++) body[i] = static_cast<char>(size >> (8 * i) & 0xff);

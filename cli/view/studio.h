@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The studio of ods view: a scene that is rendered while somebody looks, with every option of the camera a control.
+// The studio of ods view: a scene that is rendered while the user looks, with a control for every option of the camera.
 // docs/view.md lists its requests.
 #pragma once
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -22,21 +23,21 @@ WebAnswer json_answer(const ods::Json& json);
 
 class Studio {
  public:
-  // Opens the scene, and notes what was assumed about it. add_item: is called with each picture that has been rendered,
+  // Opens the scene, and notes the assumptions about it. add_item: is called with each picture that has been rendered,
   // and gives it a number. Throws as open_lit_scene().
   Studio(const SceneSource& source, std::function<size_t(const std::string& path)> add_item);
 
   // "studio" of view.json: the controls' defaults, their ranges and names.
   ods::Json description() const;
 
-  // Where the files that are dropped onto the page are to be put, for studio/drop to take them.
+  // The folder for files that are dropped onto the page, where studio/drop takes them.
   const std::string& drop_folder() const { return drops_.path(); }
 
-  // A request below studio/. Throws UsageError and Error(kInput) for what makes no sense, in a line for people.
+  // Answers a request below studio/. Throws UsageError and Error(kInput) for invalid requests, with a line for people.
   WebAnswer answer(const WebRequest& request);
 
  private:
-  // What the page has set.
+  // The settings of the page.
   struct Settings {
     ods::Sidecar sidecar;
     ods::LiveSettings live;
@@ -50,7 +51,7 @@ class Studio {
 
   // A file that was dropped onto the page.
   struct Drop {
-    std::string name;  // as its user knows it
+    std::string name;  // the name that the user knows
     std::string path;  // ours; empty: none
   };
 
@@ -77,16 +78,17 @@ class Studio {
   static void discard(const Drop& drop);
   WebAnswer drop_camera(const std::string& name, const std::string& path);
 
-  mutable std::mutex mutex_;  // of all that follows
+  std::atomic<int> waiting_{0};  // for a frame
+  mutable std::mutex mutex_;     // of all that follows
   SceneSource source_;
   Settings usual_, settings_;
   double duration_ = 0.0;
-  std::shared_ptr<const ods::Scene> scene_;  // lives as long as whoever renders it
+  std::shared_ptr<const ods::Scene> scene_;  // shared with the renderer
   std::shared_ptr<ods::LiveRender> live_;
   RenderProcess process_;
-  std::optional<size_t> item_;  // what it has rendered
+  std::optional<size_t> item_;  // its latest rendering
   std::function<size_t(const std::string& path)> add_item_;
-  std::string saved_;  // the files of the camera, without what their names end in; empty: not yet
+  std::string saved_;  // the camera's files, without the ends of their names; empty: not saved yet
   ods::PrivateFolder drops_;
   int drop_count_ = 0;
   Drop dropped_scene_, dropped_light_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The studio's files: what is dropped onto the page, and the cameras that it saves.
+// The studio's files: files that are dropped onto the page, and the cameras that it saves.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr size_t kMostOfCamera = size_t{64} << 20;  // bytes
 
-// The name of a file, without its folder and without what confuses a terminal.
+// The name of a file, without its folder and without characters that confuse a terminal.
 std::string plain_name(const std::string& given) {
   std::string name = given.substr(given.find_last_of("/\\") + 1);
   std::erase_if(name, [](unsigned char c) { return std::iscntrl(c) != 0; });
@@ -30,18 +30,19 @@ std::string plain_name(const std::string& given) {
 
 }  // namespace
 
-// The scene as its user knows it.
+// The name of the scene that the user knows.
 std::string Studio::title() const {
   return dropped_scene_.path.empty() ? source_.name : dropped_scene_.name;
 }
 
-// What --env takes for a word of the page.
+// The value of --env for a choice of the page.
 std::string Studio::environment_of(const std::string& word) const {
   if (!dropped_light_.path.empty() && word == dropped_light_.name) return dropped_light_.path;
   return word == "auto" ? "" : word;
 }
 
-// A message for the page: names of our own files mean nothing to its user, and say where this machine has what.
+// A message for the page, without names of our own files: they mean nothing to its user, and would reveal paths of this
+// machine.
 std::string Studio::without_paths(std::string text) const {
   text = with_options(text);
   const auto replace = [&](const std::string& path, const std::string& name) {
@@ -76,8 +77,8 @@ WebAnswer Studio::drop_camera(const std::string& name, const std::string& path) 
   return json_answer({{"what", "camera"}, {"settings", settings_json(settings_)}});
 }
 
-// A file that was dropped onto the page: another scene, another light, or a camera. What it names, as a scene names its
-// textures, is read from our own folder only.
+// A file that was dropped onto the page: another scene, another light, or a camera. Files that it names, such as a
+// scene's textures, are read from our own folder only.
 WebAnswer Studio::drop(const WebRequest& request) {
   const std::string name = plain_name(value_of(request, "name"));
   const std::string kind = ods::small_letters(std::filesystem::path(name).extension().string());
@@ -111,7 +112,7 @@ WebAnswer Studio::drop(const WebRequest& request) {
   return json_answer({{"what", "environment"}, {"settings", settings_json(settings_)}});
 }
 
-// What the scene's files are called without their endings.
+// The names of the scene's files without their endings.
 std::string Studio::stem() const {
   return std::filesystem::path(title()).stem().string();
 }
@@ -123,7 +124,7 @@ WebAnswer Studio::save() {
   const std::string made = folder.path() + "/camera";
   std::vector<std::string> ends = save_maps(sidecar.camera, made);
   save_sidecar(sidecar, made + ends.emplace_back(".camera.json"));
-  const auto is_taken = [&](const std::string& name) {  // a file of somebody else stays
+  const auto is_taken = [&](const std::string& name) {  // a file of another program stays
     return std::ranges::any_of(ends, [&](const std::string& end) {
       return std::filesystem::exists(std::filesystem::symlink_status(name + end));
     });

@@ -6,8 +6,10 @@
 
 #include <cstdio>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
+#include "cli/console/print.h"
 #include "cli/http/certificate.h"
 #include "cli/view/desktop.h"
 #include "cli/view/export_site.h"
@@ -37,7 +39,7 @@ std::unique_ptr<HttpServer> listen(WebOptions web, bool any_will_do, ViewSite& s
 }
 
 void explain_network(const std::string& address, int port) {
-  if (stderr_is_terminal() && !console.quiet) std::fputs(qr_code(address).c_str(), stderr);
+  if (stderr_is_terminal() && !console.quiet) put_error(qr_code(address).c_str(), "");
   note(
       "open that address in the headset's browser; it warns, because ods made the certificate itself: choose Advanced, "
       "then Proceed. The page asks for a click to enter the headset");
@@ -77,8 +79,7 @@ void serve(const ViewJob& job) {
   const std::unique_ptr<HttpServer> server = listen(web, !job.port, site);
   const std::string address =
       fmt::format("{}://{}:{}/{}/", job.lan ? "https" : "http", shown_host, server->port(), web.secret);
-  std::puts(address.c_str());
-  std::fflush(stdout);
+  put_path(address);
   if (job.lan) explain_network(address, server->port());
   note("Ctrl-C ends it");
   if (job.browser && !job.lan) open_in_browser(fmt::format("http://{}:{}/{}", shown_host, server->port(), web.opener));
@@ -86,13 +87,13 @@ void serve(const ViewJob& job) {
   server->run();
 }
 
+void view(ViewJob job) {
+  find_scene(job);
+  if (job.folder.empty()) return serve(job);
+  announce_file(export_site(open_items(job), job.folder));
+}
+
 }  // namespace
 
-int ods_view(int argc, char** argv) {
-  return run_command([=] {
-    ViewJob job;
-    if (!read_view_job(job, argc, argv)) return;
-    if (job.folder.empty()) return serve(job);
-    announce_file(export_site(open_items(job), job.folder));
-  });
-}
+extern const Command kView =
+    make_command<parse_view, view>("view", "show pictures and videos in the browser and in the headset");

@@ -34,7 +34,7 @@ constexpr const char* kViewSummary =
 
 constexpr size_t kMostItems = 2000;
 
-// Whether the studio is for it: a file of a scene, or a built-in one that no file has the name of.
+// Returns whether the studio opens it: a scene's file, or a built-in scene whose name no file has.
 bool names_scene(const std::string& path) {
   const std::string extension = ods::small_letters(std::filesystem::path(path).extension().string());
   if (extension == ".glb" || extension == ".gltf" || extension == ".zip" || is_foreign_scene(path)) return true;
@@ -76,8 +76,9 @@ void add_folder(const std::string& folder, const ods::FormatHint& known, std::ve
 
 }  // namespace
 
-bool read_view_job(ViewJob& job, int argc, char** argv) {
-  Options options("view", kViewSummary, kViewExamples);
+ViewJob parse_view(Options& options) {
+  ViewJob job;
+  options.describe(kViewSummary, kViewExamples);
   options.arguments(ValueKind::input_file("FILE"), job.paths,
                     "pictures, videos, and folders of them (%V in a name: one file per eye), or a scene");
   options.group("Input, if it is not detected");
@@ -98,21 +99,24 @@ bool read_view_job(ViewJob& job, int argc, char** argv) {
                "write the viewer and the files into this folder instead");
   options.group("Console");
   add_console_options(options);
-  if (!options.parse(argc, argv)) return false;
+  options.parse();
   if (job.paths.empty()) throw UsageError("name a picture, a video, a folder or a scene: ods view picture_360_TB.png");
   if (job.keep_secret && !job.lan) throw UsageError("--keep-secret is for --lan: other addresses are kept anyway");
+  if (!job.folder.empty() && (job.lan || job.port)) {
+    throw UsageError("--export serves nothing: leave --lan and --port out");
+  }
   finish_lens_options(job.known);
   job.browser = !stay;
+  return job;
+}
+
+void find_scene(ViewJob& job) {
   const auto scene = std::ranges::find_if(job.paths, names_scene);
-  if (scene != job.paths.end()) {
-    job.scene = *scene;
-    job.paths.erase(scene);
-    if (std::ranges::any_of(job.paths, names_scene)) throw UsageError("the studio shows one scene at a time");
-    if (!job.folder.empty()) throw UsageError("--export writes pictures and videos: render the scene first");
-  }
-  if (!job.folder.empty() && (job.lan || job.port))
-    throw UsageError("--export serves nothing: leave --lan and --port out");
-  return true;
+  if (scene == job.paths.end()) return;
+  job.scene = *scene;
+  job.paths.erase(scene);
+  if (std::ranges::any_of(job.paths, names_scene)) throw UsageError("the studio shows one scene at a time");
+  if (!job.folder.empty()) throw UsageError("--export writes pictures and videos: render the scene first");
 }
 
 std::vector<ViewItem> open_items(const ViewJob& job) {

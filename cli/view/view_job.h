@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the command line of ods view asks for.
+// The options of ods view.
 #pragma once
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/console/options.h"
 #include "ods/view/view_item.h"
 
 struct ViewJob {
@@ -20,8 +21,10 @@ struct ViewJob {
   std::optional<int> port;
 };
 
-// False if help was asked for. Throws UsageError.
-bool read_view_job(ViewJob& job, int argc, char** argv);
+ViewJob parse_view(Options& options);
+
+// Moves the scene from the paths to job.scene. Throws UsageError if there are two.
+void find_scene(ViewJob& job);
 
 // The files, and those in folders that can be shown, in the order of their names. Throws Error(kInput) for a file that
 // cannot be shown; of a folder such files are left out, with a note, but one must be left.

@@ -19,7 +19,7 @@ using ods::ViewItem, ods::StoredPicture;
 
 namespace {
 
-// Nothing if it is not asked for.
+// Nullopt if it was not requested.
 std::optional<float> number_of(const WebRequest& request, const std::string& name, float low, float high) {
   const std::string text = value_of(request, name);
   if (text.empty()) return {};
@@ -39,7 +39,7 @@ ods::EyeOptions read_eye_options(const WebRequest& request) {
   return options;
 }
 
-// The paths of its files, without links; empty where there is none.
+// The paths of its files, without links; empty if there is none.
 std::vector<std::string> files_behind(const ViewItem& item) {
   const auto behind = [](const std::string& path) {
     std::error_code fault;
@@ -104,7 +104,7 @@ std::shared_ptr<const StoredPicture> ViewSite::open(const ViewItem& item, const 
 }
 
 std::string ViewSite::kept_jpeg(const std::string& path, const ViewItem& item, std::string (*make)(const ViewItem&)) {
-  std::error_code fault;  // of a pair, which has no file of this name: it is made anew with ods view
+  std::error_code fault;  // of a pair, which does not have a file of this name: it changes with each ods view
   const auto written = std::filesystem::last_write_time(item.path, fault).time_since_epoch().count();
   const std::lock_guard<std::mutex> lock(of_small_);
   auto& [when, jpeg] = small_[path];

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods view answers: the page's files, view.json, and the items by their numbers. No path that a browser sends is
-// ever opened.
+// The answers of ods view: the page's files, view.json, and the items by their numbers. A path that a browser sends is
+// never opened.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -24,13 +24,13 @@ class ViewSite {
   // scene: for the studio; none: no scene is shown. Throws as Studio.
   ViewSite(std::vector<ods::ViewItem> items, const std::optional<SceneSource>& scene);
 
-  // Thread-safe. "" is the page; alive says that we are, and how many pages share; item/N/left.jpg takes exposure,
-  // tone, width, and layout and projection where the page's user knows better; item/N/preview.jpg and
+  // Thread-safe. "" is the page; alive confirms that the server runs, and has the number of pages that share;
+  // item/N/left.jpg takes exposure, tone, width, and a layout and projection chosen in the page; item/N/preview.jpg and
   // item/N/thumbnail.jpg; item/N/comfort.json, comfort-left.jpg and comfort-right.jpg are a ComfortLayer. Throws
-  // UsageError for a query that makes no sense.
+  // UsageError for an invalid query.
   WebAnswer answer(const WebRequest& request);
 
-  // Of the studio, for studio/drop; null if there is none.
+  // The studio, for studio/drop; null if there is none.
   const Studio* studio() const { return studio_.get(); }
 
  private:
@@ -38,14 +38,14 @@ class ViewSite {
   WebAnswer comfort(const ods::ViewItem& item, const std::string& path);
   // A preview or a thumbnail, made when it is first asked for.
   std::string kept_jpeg(const std::string& path, const ods::ViewItem& item, std::string (*make)(const ods::ViewItem&));
-  // Of the latest item that was asked for: both eyes are, one after the other.
+  // The picture of the latest item requested: both eyes are requested, one after the other.
   std::shared_ptr<const ods::StoredPicture> open(const ods::ViewItem& item, const WebRequest& request);
 
   size_t add(const ods::ViewItem& item);
-  // Nothing where its files are no longer those that it was opened with.
+  // Returns nullopt if its files have changed since it was opened.
   std::optional<ods::ViewItem> item_at(size_t number) const;
 
-  mutable std::mutex of_items_;  // what the studio renders becomes one
+  mutable std::mutex of_items_;  // a rendering of the studio becomes an item
   std::vector<ods::ViewItem> items_;
   std::vector<std::vector<std::string>> files_;  // of each, behind all links
   std::unique_ptr<Studio> studio_;

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Has a page that draws by three.js take the views of a rig in Chromium without a window, and writes them to files.
+// Renders the views of a rig with a three.js page in headless Chromium, and writes them to files.
 //
-//   node views.mjs PAGE.html [FOLDER [FIRST LAST]]     FOLDER: views. FIRST, LAST: the views, for a farm
+//   node views.mjs PAGE.html [FOLDER [FIRST LAST]]     FOLDER: views. FIRST, LAST: the range of views, for a farm
 //
-// The page's own folder is served to it, and nothing else of the disk. From the page:
-//   PUT  /views/0001.png   a file into FOLDER (ods-rig.txt, too); it appears complete or not at all
-//   POST /end              the end: of what went well without words, else what went wrong
-// ?first=FIRST&last=LAST is what the page is told. CHROMIUM is the browser, if none of the usual names is one.
+// Serves only the page's own folder to it. Requests of the page:
+//   PUT  /views/0001.png   a file into FOLDER (ods-rig.txt, too); written atomically
+//   POST /end              the end; a body is an error message
+// The page gets ?first=FIRST&last=LAST. CHROMIUM is the browser, if it has none of the usual names.
 import { spawn, spawnSync } from "node:child_process";
 import { createReadStream, existsSync, mkdirSync, mkdtempSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
@@ -18,7 +18,7 @@ import { basename, dirname, extname, join, resolve, sep } from "node:path";
 const browsers = ["chromium-headless-shell", "chromium", "chromium-browser", "google-chrome"];
 const script = "text/javascript";
 const types = { ".html": "text/html", ".js": script, ".mjs": script, ".json": "application/json" };
-const patience = 300; // seconds without a word from the page
+const patience = 300; // seconds without a request from the page
 
 const [page, folder = "views", first, last] = process.argv.slice(2);
 if (!page || (first && !last)) stop(2, "node views.mjs PAGE.html [FOLDER [FIRST LAST]]");
@@ -77,11 +77,11 @@ function browser() {
   return found;
 }
 
-// Without a graphics card Chromium draws by its own SwiftShader, which it has to be allowed. It is a group of
-// processes, before which a script may stand.
+// Without a graphics card Chromium renders with its own SwiftShader, which needs a flag. It is a group of processes,
+// possibly started by a script.
 function open(program, profile, url) {
   const words = ["--headless", "--ignore-gpu-blocklist", "--enable-unsafe-swiftshader", `--user-data-dir=${profile}`];
-  if (process.getuid?.() === 0) words.push("--no-sandbox"); // it refuses root otherwise
+  if (process.getuid?.() === 0) words.push("--no-sandbox"); // otherwise it refuses to run as root
   return spawn(program, [...words, url], { stdio: "ignore", detached: true });
 }
 

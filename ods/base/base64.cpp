@@ -22,7 +22,7 @@ std::string encode_base64(std::string_view bytes) {
   return text;
 }
 
-// -1: not in the alphabet.
+// -1 for characters outside the alphabet.
 static constexpr std::array<int8_t, 256> kValues = [] {
   std::array<int8_t, 256> values{};
   values.fill(-1);

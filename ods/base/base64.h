@@ -10,7 +10,8 @@ namespace ods {
 
 std::string encode_base64(std::string_view bytes);
 
-// Skips white space, which XML has around it. Stops at the first other character outside the alphabet.
+// Decodes Base64. Skips white space, which surrounds it in XML. Stops at the first other character outside the
+// alphabet.
 std::string decode_base64(std::string_view text);
 
 }  // namespace ods

@@ -21,7 +21,7 @@ uint64_t get_number(std::string_view bytes, size_t at, size_t count);
 
 void append_number(std::string& bytes, uint64_t value, size_t count);
 
-// Throws MalformedFile if the value does not fit or the range is out of bounds.
+// Overwrites an integer. Throws MalformedFile if the value does not fit or the range is out of bounds.
 void set_number(std::string& bytes, size_t at, uint64_t value, size_t count);
 
 }  // namespace ods

@@ -7,7 +7,7 @@
 namespace ods {
 
 uint32_t crc32(std::span<const std::byte> bytes, uint32_t start) {
-  if (bytes.empty()) return start;  // libdeflate begins anew if there are no bytes
+  if (bytes.empty()) return start;  // libdeflate restarts the checksum for a null pointer
   return libdeflate_crc32(start, bytes.data(), bytes.size());
 }
 

@@ -10,7 +10,7 @@
 
 namespace ods {
 
-// CRC-32 as in zip, PNG and Matroska. `start`: the CRC of the preceding bytes.
+// CRC-32 as in zip, PNG and Matroska. start: the CRC of the preceding bytes.
 uint32_t crc32(std::span<const std::byte> bytes, uint32_t start = 0);
 inline uint32_t crc32(std::string_view bytes, uint32_t start = 0) {
   return crc32(std::as_bytes(std::span(bytes)), start);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Floats as people typed them.
+// Converts floats to the decimals that people typed.
 #pragma once
 
 namespace ods {

@@ -6,7 +6,7 @@
 
 namespace ods {
 
-// As a gzip file (RFC 1952).
+// Compresses bytes to a gzip file (RFC 1952).
 std::string gzip(std::string_view bytes);
 
 }  // namespace ods

@@ -15,7 +15,7 @@ namespace ods {
 using Json = nlohmann::ordered_json;
 
 // Throws Error(kInput) if the text is not JSON or nests deeper than 16 levels. `name` stands for the text in messages;
-// `noun` is what it should be: "camera".
+// `noun` is the expected content, such as "camera".
 Json parse_json(std::string_view text, const std::string& name, const std::string& noun);
 
 // One object of a file, and its path: "merge_top". All functions throw Error(kInput). A missing key leaves its variable
@@ -27,16 +27,16 @@ class JsonReader {
   JsonReader(const JsonReader&) = delete;
   JsonReader& operator=(const JsonReader&) = delete;
 
-  // "'file' is no noun: place.key wanted"; if the key is null, "place.key wanted, not null".
+  // Throws an Error that names the file, the path of the key and the expected value.
   [[noreturn]] void fail(const std::string& key, const std::string& wanted) const;
 
-  // Checks the file's mark and version: "omnistereo_camera": 1. Rejects versions above `newest`.
+  // Checks the file's format key and version: "omnistereo_camera": 1. Rejects versions above `newest`.
   void version(const std::string& mark, int newest);
 
   // The value of a key; nullptr if it is missing.
   const Json* find(const std::string& key);
 
-  // Whether a key is null, for keys that allow null.
+  // Returns whether a key is null, for keys that allow null.
   bool is_null(const std::string& key);
 
   void number(const std::string& key, float& value, float low, float high);
@@ -45,7 +45,7 @@ class JsonReader {
   bool vector(const std::string& key, glm::vec2& value, float low, float high);  // returns whether the key is present
   bool numbers(const std::string& key, std::vector<float>& values, size_t count, float low, float high);
 
-  // At most 64 characters, short enough for a message. Empty if the key is missing.
+  // Reads a string of at most 64 characters, short enough for a message. Empty if the key is missing.
   std::string word(const std::string& key);
 
   // If the key is present, calls `read(reader)` with its object.

@@ -12,7 +12,8 @@ namespace ods {
 void return_large_blocks() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
-  // A fixed threshold fixes this one, too: at its default of 128 kB, the heap would shrink and grow all the time.
+  // A fixed mmap threshold fixes the trim threshold, too: at its default of 128 kB, the heap would constantly shrink
+  // and grow.
   mallopt(M_TRIM_THRESHOLD, 1 << 25);
 #endif
 }

@@ -7,7 +7,7 @@
 
 namespace ods {
 
-// The middle one in ascending order; of an even number, the upper of the two. Precondition: there are values.
+// The middle value in ascending order, or the upper of the two middle values. Precondition: there are values.
 template <typename Number>
 Number median(std::vector<Number> values) {
   const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);

@@ -16,7 +16,7 @@
 
 namespace ods {
 
-// The number in a file; nothing if it holds none ("max" means no limit).
+// The number in a file. Returns nullopt if it has none ("max" means no limit).
 static std::optional<size_t> read_number(const std::string& path) {
   size_t number = 0;
   std::ifstream stream(path);
@@ -40,7 +40,7 @@ static size_t left_of(size_t limit, size_t used) {
   return limit > used ? limit - used : 0;
 }
 
-// What one control group still allows. Page cache counts as free, because the kernel reclaims it.
+// The bytes that one control group still allows. Page cache counts as free, because the kernel reclaims it.
 static size_t left_in_group(const std::string& folder, bool version_2) {
   const auto limit = read_number(folder + (version_2 ? "/memory.max" : "/memory.limit_in_bytes"));
   const auto used = read_number(folder + (version_2 ? "/memory.current" : "/memory.usage_in_bytes"));
@@ -51,8 +51,8 @@ static size_t left_in_group(const std::string& folder, bool version_2) {
   return left_of(*limit, left_of(*used, cached));
 }
 
-// The process's own group and all its ancestors may have limits. In a container its own group may be
-// mounted at the root.
+// The process's own group and all its ancestors may have limits. In a container, the process's own group may be mounted
+// at the root.
 static size_t left_in_groups(const std::string& root) {
   std::ifstream stream(root + "/proc/self/cgroup");
   size_t left = SIZE_MAX;

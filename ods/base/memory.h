@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How much memory is available. Linux overcommits, and kills processes that use what it promised.
+// Available memory. Linux overcommits, and kills processes that use the memory that it promised.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -13,7 +13,7 @@ namespace ods {
 // known. Reads the system's files below `root`, which tests set.
 size_t available_memory(const std::string& root = "");
 
-// Smaller requests are not checked: for thousands of small pictures the check costs more than it saves.
+// Requests below this are not checked: for thousands of small pictures the check costs more than it saves.
 inline constexpr size_t kSmallMemory = size_t{8} << 20;
 
 // Throws Error(kMemory) if `what` needs more bytes than are available. The message gives both numbers and `advice`.

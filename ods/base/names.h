@@ -8,7 +8,7 @@
 //   inline constexpr NameRow<Tone> kToneTable[] = {{Tone::kNone, "none"}, {Tone::kFilmic, "filmic"}};
 //   static_assert(has_every_member(kToneTable));
 //
-// A set with more facts than names has a row type of its own, with `member` and `name` among its fields.
+// A set with more data than names has its own row type, with `member` and `name` among its fields.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -38,7 +38,7 @@ constexpr const Row& row_in(const Row (&table)[count], MemberOf<Row[count]> memb
   return table[i];
 }
 
-// Empty where the member has no row.
+// The name of a member. Empty if the member has no row.
 template <class Row, size_t count>
 constexpr std::string_view name_in(const Row (&table)[count], MemberOf<Row[count]> member) {
   const Row& row = row_in(table, member);
@@ -61,7 +61,7 @@ constexpr std::array<MemberOf<Row[count]>, count> members_of(const Row (&table)[
   return members;
 }
 
-// The names of all rows, in the order of the table, which may be any range of things with a `name`.
+// The names of all rows, in the order of the table, which may be any range of values with a `name`.
 template <class Rows>
 std::vector<std::string> names_of(const Rows& rows) {
   std::vector<std::string> names;
@@ -69,7 +69,8 @@ std::vector<std::string> names_of(const Rows& rows) {
   return names;
 }
 
-// Whether the numbers 0 .. expected - 1 have a row each and no two rows share a name: for sets that the kernel counts.
+// Returns whether each of the numbers 0 .. expected - 1 has a row and no two rows share a name; for sets whose size the
+// kernel defines.
 template <class Row, size_t count>
 constexpr bool has_each_of(const Row (&table)[count], size_t expected) {
   for (size_t i = 0; i < expected; i++) {
@@ -84,7 +85,8 @@ constexpr bool has_each_of(const Row (&table)[count], size_t expected) {
   return count == expected;
 }
 
-// Whether a value of an enum is one of its members. Compilers print `Tone::kNone` for a member, `(Tone)7` for others.
+// Returns whether a value of an enum is one of its members. Compilers print `Tone::kNone` for a member, `(Tone)7` for
+// others.
 template <auto value>
 constexpr bool is_enumerator() {
   const std::string_view text = __PRETTY_FUNCTION__;
@@ -92,7 +94,7 @@ constexpr bool is_enumerator() {
   return text[at] != '(' && text[at] != '-' && (text[at] < '0' || text[at] > '9');
 }
 
-// How many members an enum has that counts from 0 without gaps.
+// The number of members of an enum that counts from 0 without gaps.
 template <class Enum, size_t from = 0>
 constexpr size_t enumerator_count() {
   if constexpr (is_enumerator<static_cast<Enum>(from)>()) {
@@ -102,8 +104,8 @@ constexpr size_t enumerator_count() {
   }
 }
 
-// Whether a table has one row, with a name of its own, for each member of its enum, which counts from 0 without gaps. A
-// static_assert of it notices a member without a row.
+// Returns whether a table has one row, with a unique name, for each member of its enum, which counts from 0 without
+// gaps. A static_assert of it fails if a member has no row.
 template <class Row, size_t count>
 constexpr bool has_every_member(const Row (&table)[count]) {
   return has_each_of(table, enumerator_count<MemberOf<Row[count]>>());

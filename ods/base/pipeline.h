@@ -3,8 +3,8 @@
 //
 // Produces items one by one, processes them in parallel, and consumes them in order.
 //
-// The items live in our own ring buffer and oneTBB passes only indices, because it does not destroy items in flight
-// when a stage throws.
+// The items are in our own ring buffer and oneTBB passes only indices, because it does not destroy items in flight when
+// a stage throws.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace ods {
 
-// As run_pipeline(), over the slots of a ring of `most` items.
+// Runs the stages of run_pipeline() on the slots of a ring of `most` items.
 void run_ring(size_t most, const std::function<bool(size_t place)>& make, const std::function<void(size_t place)>& work,
               const std::function<void(size_t place)>& take);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a long call reports its progress and learns that it should stop.
+// Progress reports and cancellation of long calls.
 #pragma once
 #include <functional>
 

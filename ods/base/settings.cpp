@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "ods/base/checksum.h"
 #include "ods/base/error.h"
 
 namespace ods {
@@ -23,17 +24,24 @@ static std::string change(const std::string& name, const Setting* was, const Set
   return fmt::format("{} was {}, now {}", name, said(*was), said(*is));
 }
 
+static std::string last_line(std::string_view lines) {
+  return fmt::format("end\t{:08x}\n", crc32(lines));
+}
+
 std::string settings_text(const Settings& settings) {
   std::string text;
   for (const auto& [name, value, path] : settings) {
     text += fmt::format("{}\t{}{}{}\n", name, value, path.empty() ? "" : "\t", path);
   }
-  return text;
+  return text + last_line(text);
 }
 
-Settings parse_settings(const std::string& text) {
+std::optional<Settings> parse_settings(const std::string& text) {
+  const size_t size = text.size() - std::min(text.size(), last_line("").size());
+  const std::string listed = text.substr(0, size);
+  if (text != listed + last_line(listed)) return std::nullopt;
   Settings settings;
-  std::istringstream lines(text);
+  std::istringstream lines(listed);
   for (std::string line; std::getline(lines, line);) {
     std::vector<std::string> fields;
     std::istringstream stream(line);

@@ -56,7 +56,7 @@ static constexpr std::pair<std::string_view, std::string_view> kForeignVideos[] 
     {"FLV\1"sv, "an FLV"sv}, {"\x06\x0e\x2b\x34"sv, "an MXF"sv},     {"\x30\x26\xb2\x75"sv, "a Windows Media"sv},
 };
 
-// A container that ods does not read; what is in it may well be what it reads.
+// The name of a video container that ods does not read. Its streams may well be readable in another container.
 static std::string_view foreign_video(std::string_view start) {
   if (start.starts_with("RIFF") && start.size() >= 12 && start.substr(8, 4) == "AVI ") return "an AVI";
   for (const auto& [bytes, what] : kForeignVideos) {

@@ -8,7 +8,7 @@
 
 namespace ods {
 
-// v normalized; `fallback` if its length is zero or overflows a double.
+// Returns v normalized, or `fallback` if its length is zero or overflows a double.
 inline glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& fallback) {
   const double size = glm::length(v);
   return std::isfinite(size) && size > 1e-100 ? v / size : fallback;

@@ -96,7 +96,7 @@ using Lens = ProjectionSetting;
 using Merge = PoleMergeSetting;
 using enum CameraField;
 
-// In the order of CameraField. Neighbours that share a setting or an attribute are its numbers, in this order.
+// In the order of CameraField. Adjacent rows with the same setting or attribute are its numbers, in this order.
 constexpr CameraFieldRow kFields[] = {
     {kLongitude, "longitude", kAngle, "degrees", "range", "projection.longitude", "ods:longitude",
      pair<&Lens::longitude>, is_part},

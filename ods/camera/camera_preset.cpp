@@ -16,7 +16,7 @@
 namespace ods {
 namespace {
 
-// The values in use: those given, or the defaults.
+// The values in use: given ones, or the defaults.
 class Values {
  public:
   Values(const CameraPreset& preset, const std::map<std::string, std::string>& given)
@@ -62,7 +62,7 @@ class Values {
 
 PoleMergeSetting merge_from(int mode, float start, float end, float exponent = 1.0f) {
   PoleMergeSetting merge;
-  if (start >= end) return merge;  // it ends where it starts: nothing is merged
+  if (start >= end) return merge;  // it ends where it starts, so it merges nothing
   merge.mode = mode, merge.start = start, merge.end = end, merge.exponent = exponent;
   return merge;
 }
@@ -79,8 +79,8 @@ StereoCamera like_google(const Values& values) {
   return plain(values.number("IPD", CameraField::kIpd));
 }
 
-// Their cosine to a power decreases from the horizon on. Handedness -1 is a left-handed world, which POV-Ray's is and
-// ours is not: it gives the same picture there.
+// A power of the cosine decreases from the horizon on. Handedness -1 is a left-handed world, as in POV-Ray and unlike
+// ours; the picture there is the same.
 StereoCamera like_clodo(float ipd, float modulation, float handedness, float angle) {
   if (std::abs(handedness) != 1.0f) throw std::invalid_argument("povray: the handedness is -1 or 1");
   StereoCamera camera = plain(ipd, modulation >= range_of(CameraField::kTopMergeExponent).least
@@ -129,7 +129,7 @@ StereoCamera like_arnold(const Values& values) {
   return camera;
 }
 
-// The page's plug-in: it has latitudes, a linear mode and an exponent.
+// The plug-in of the page, with latitudes, a linear mode and an exponent.
 constexpr PresetParameter kArnoldProto[] = {{"eyeSeparation", "0.065", "distance between the eyes"},
                                             {"eyeToNeckDistance", "0", "metres the eyes stand before the neck"},
                                             {"topMergeMode", "cos", "none, linear, cos"},
@@ -161,7 +161,7 @@ constexpr PresetParameter kCycles[] = {{"interocular_distance", "0.065", "distan
 StereoCamera like_cycles(const Values& values) {
   StereoCamera camera = plain(values.number("interocular_distance", CameraField::kIpd));
   const std::string mode = values.word("convergence_mode", {"PARALLEL", "OFFAXIS", "TOE"});
-  camera.convergence = mode == "PARALLEL" ? kParallel : kToeIn;  // its two other modes are the same in a panorama
+  camera.convergence = mode == "PARALLEL" ? kParallel : kToeIn;  // its two other modes are equivalent in a panorama
   camera.convergence_distance = values.number("convergence_distance", CameraField::kConvergenceDistance);
   const float from = values.number("pole_merge_angle_from", CameraField::kTopMergeStart);
   const float to = values.number("pole_merge_angle_to", CameraField::kTopMergeEnd);

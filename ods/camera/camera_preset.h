@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The cameras of other systems, with the parameters that their users know.
+// The cameras of other systems, with the parameters familiar to their users.
 #pragma once
 #include <map>
 #include <optional>
@@ -16,13 +16,13 @@ namespace ods {
 struct PresetParameter {
   std::string_view name;
   std::string_view value;    // the system's default, lengths in metres
-  std::string_view meaning;  // what the parameter means, or the words that it accepts
+  std::string_view meaning;  // the meaning of the parameter, or the values that it accepts
 };
 
 struct CameraPreset {
   std::string_view name;
   std::string_view system;
-  bool exact;             // the same rays; otherwise close to them, and the note says what differs
+  bool exact;             // the rays are identical; otherwise they are close, and the note names the differences
   std::string_view note;  // includes the source of the formula
   std::span<const PresetParameter> parameters;
 };
@@ -30,8 +30,8 @@ struct CameraPreset {
 std::span<const CameraPreset> camera_presets();
 const CameraPreset* find_camera_preset(std::string_view name);
 
-// The camera that has the system's rays with these parameters; those not given have the system's defaults. Position and
-// orientation remain the camera's own, except that a system's rotation angle becomes its yaw.
+// The camera with the system's rays for these parameters; parameters that are not given have the system's defaults.
+// Position and orientation are not changed, except that a system's rotation angle becomes the camera's yaw.
 // Throws std::invalid_argument with a line to show, if the system has no such parameter or a value is not a number.
 StereoCamera camera_like(const CameraPreset& preset, const std::map<std::string, std::string>& given);
 

@@ -11,9 +11,9 @@ namespace {
 
 struct Level {
   std::string_view name;
-  int64_t pixels;      // of a picture, rounded up to whole blocks
+  int64_t pixels;      // per picture, rounded up to whole blocks
   int64_t pixel_rate;  // per second
-  Extent longest;      // longest sides; none: both at most sqrt(8 pixels)
+  Extent longest;      // maximum sides; if empty, both at most sqrt(8 pixels)
 };
 
 }  // namespace

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What makes the right eye's picture agree with the left one's, in a pair of cameras that were not aligned or set
-// alike. A rotation: the picture as a camera would have taken it that is turned so much further. A raise: what no
-// rotation does, every direction higher by the same angle, as if the rows of a lat-long picture were moved.
+// Makes the right eye's picture match the left one's, for a pair of cameras that were not aligned or set alike. A
+// rotation gives the picture that a camera turned by these angles would have taken. A raise is not a rotation: it moves
+// every direction up by the same angle, as if the rows of a lat-long picture were moved.
 //
-// The direction of a corrected picture is taken from the stored one in these steps: rotated; lowered by `raise`; its
+// The direction of a corrected picture is computed from the stored one in these steps: rotated; lowered by `raise`; its
 // heading and elevation divided by `zoom`.
 #pragma once
 #include "ods/kernel/math.h"
@@ -13,12 +13,12 @@
 namespace ods {
 
 struct EyeCorrection {
-  float yaw = 0.0f;    // degrees to the right, as StereoCamera's
+  float yaw = 0.0f;    // degrees to the right, as in StereoCamera
   float pitch = 0.0f;  // degrees up
   float roll = 0.0f;   // degrees clockwise
   float raise = 0.0f;  // degrees by which the picture moves up
   float zoom = 1.0f;   // > 0; enlarges headings and elevations about the middle of the picture
-  vec3 gain{1.0f};     // of linear red, green and blue, >= 0
+  vec3 gain{1.0f};     // factors of linear red, green and blue, >= 0
   float gamma = 1.0f;  // > 0; linear light is raised to this power before the gain
 
   bool operator==(const EyeCorrection&) const = default;
@@ -27,11 +27,11 @@ struct EyeCorrection {
 bool moves_pixels(const EyeCorrection& correction);
 bool changes_colors(const EyeCorrection& correction);
 
-// Where the stored picture has what a corrected one shows in this direction; both in the camera's frame, any length
-// but 0; the result is a unit vector.
+// The direction in the stored picture that a corrected picture shows in this direction. Both are in the camera's frame;
+// `direction` has any length but 0, the result is a unit vector.
 vec3 stored_direction(const EyeCorrection& correction, vec3 direction);
 
-// Linear light, not negative.
+// Applies gain and gamma to linear light; the result is not negative.
 vec3 corrected_color(const EyeCorrection& correction, vec3 light);
 
 }  // namespace ods

@@ -31,7 +31,7 @@ std::optional<Layout> layout_of(std::string_view word) {
   return std::nullopt;
 }
 
-// --- where the eyes are ---------------------------------------------------------------------------------------------
+// --- positions of the eyes ------------------------------------------------------------------------------------------
 
 std::optional<Layout> layout_with(const EyeArrangement& eyes) {
   for (const LayoutRow& row : kLayoutTable) {

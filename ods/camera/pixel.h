@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where pixels are in their picture.
+// Positions of pixels in their picture.
 #pragma once
 #include <algorithm>
 
@@ -11,7 +11,7 @@
 
 namespace ods {
 
-// The middle of a pixel: 0..1 from the left and from the top.
+// The centre of a pixel: 0..1 from the left and from the top.
 inline vec2 pixel_middle(int x, int y, Extent size) {
   return {(static_cast<float>(x) + 0.5f) / static_cast<float>(size.width),
           (static_cast<float>(y) + 0.5f) / static_cast<float>(size.height)};
@@ -20,7 +20,7 @@ inline vec2 pixel_middle(int x, int y, const Image& image) {
   return pixel_middle(x, y, Extent{image.width, image.height});
 }
 
-// The pixel at a place 0..1 from the left and from the top; of places beyond an edge, the one at the edge.
+// The pixel at a position, 0..1 from the left and from the top. Positions beyond an edge give the pixel at the edge.
 inline glm::ivec2 pixel_at(vec2 uv, Extent size) {
   return {std::clamp(static_cast<int>(uv.x * static_cast<float>(size.width)), 0, size.width - 1),
           std::clamp(static_cast<int>(uv.y * static_cast<float>(size.height)), 0, size.height - 1)};

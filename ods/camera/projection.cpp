@@ -45,7 +45,7 @@ std::span<const NamedProjection> named_projections() {
       {"fisheye-stereographic", "keeps shapes, 180 degrees; looking down, a little planet",
        lens(kFisheyeStereographic, 180.0f, 0.0f), -2.5},
       {"fisheye-polynomial", "a measured lens, as Cycles describes it", of_kind(kFisheyePolynomial), -4.0},
-      // An orthographic camera sees the ball at the radius sin(b) where the ball reflects its ray by 2 b.
+      // An orthographic camera sees the point of the ball that reflects its ray by 2 b at the radius sin(b).
       {"mirror-ball", "a mirrored sphere seen from far away: all directions", lens(kFisheyeEquisolid, 360.0f, 0.0f),
        -1.5},
       {"dome", "a fisheye that looks up", lens(kFisheye, 180.0f, 90.0f), -1.5},
@@ -110,7 +110,7 @@ static std::string range_fault(const ProjectionSetting& setting) {
   return {};
 }
 
-// Minus the polynomial, in radians, and its derivative per millimetre.
+// The negated polynomial, in radians, and its derivative per millimetre.
 static double polynomial_angle(const std::array<float, 5>& k, double r) {
   return -(double{k[0]} + r * (double{k[1]} + r * (double{k[2]} + r * (double{k[3]} + r * double{k[4]}))));
 }
@@ -119,7 +119,7 @@ static double polynomial_slope(const std::array<float, 5>& k, double r) {
   return -(double{k[1]} + r * (2.0 * double{k[2]} + r * (3.0 * double{k[3]} + r * 4.0 * double{k[4]})));
 }
 
-// From the axis to the corner, in the search for the radius where a polynomial reaches an angle.
+// Steps from the axis to the corner, in the search for the radius where a polynomial reaches an angle.
 constexpr int kPolynomialSteps = 4096;
 
 // The radius of the image circle, millimetres: where the angle first reaches half the field of view,

@@ -22,7 +22,7 @@ static constexpr auto kTb = Layout::kTopBottom;
 static constexpr auto kLr = Layout::kSideBySide;
 static constexpr std::nullopt_t kOneEye = std::nullopt;
 
-// 5760x5760 has exactly as many pixels as 7680x4320, 8K.
+// 5760x5760 has exactly as many pixels as 7680x4320 (8K).
 static constexpr NamedSize kSizes[] = {
     quickres("tb-quick-test-512", "ODS TB Quick Test - 512 x 512", {512, 256}, kTb, "off"),
     quickres("tb-test-1024", "ODS TB Test - 1024 x 1024", {1024, 512}, kTb, "off"),

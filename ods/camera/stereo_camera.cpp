@@ -19,12 +19,15 @@ bool same_map(const std::shared_ptr<const Image>& a, const std::shared_ptr<const
   return a == b || (a && b && a->width == b->width && a->height == b->height && a->pixels == b->pixels);
 }
 
-static bool varies_around(const Image& map) {
-  for (int y = 0; y < map.height; y++) {
-    if (std::any_of(map.at(0, y), map.at(0, y) + map.width, [&](float value) { return value != *map.at(0, y); }))
-      return true;
+CameraMap camera_map(const Image& image) {
+  return {image.width, image.height, image.pixels.data()};
+}
+
+bool is_same_around(const CameraMap& map) {
+  for (int i = 0; i < map.width * map.height; i++) {
+    if (map.texels[i] != map.texels[i / map.width * map.width]) return false;
   }
-  return false;
+  return true;
 }
 
 bool same_eyes(const StereoCamera& a, const StereoCamera& b) {
@@ -35,7 +38,7 @@ bool same_eyes(const StereoCamera& a, const StereoCamera& b) {
   const Camera first = make_camera(a), second = make_camera(b);
   const bool same_up = length(first.up - second.up) < 1e-4f, same_right = length(first.right - second.right) < 1e-4f;
   for (const std::shared_ptr<const Image>& map : {merges_by_map ? a.merge_map : nullptr, a.head_tilt_map}) {
-    if (map && !(same_up && (same_right || !varies_around(*map)))) return false;
+    if (map && !(same_up && (same_right || is_same_around(camera_map(*map))))) return false;
   }
   return true;
 }
@@ -48,14 +51,6 @@ static PoleMerge make_merge(const PoleMergeSetting& setting) {
   merge.end = glm::radians(setting.end);
   merge.exponent = setting.exponent;
   return merge;
-}
-
-static CameraMap make_map(const std::shared_ptr<const Image>& image) {
-  CameraMap map;
-  map.width = image ? image->width : 0;
-  map.height = image ? image->height : 0;
-  map.texels = image ? image->pixels.data() : nullptr;
-  return map;
 }
 
 Camera make_camera(const StereoCamera& stereo) {
@@ -82,8 +77,8 @@ Camera make_camera(const StereoCamera& stereo) {
   camera.top = make_merge(stereo.top);
   camera.bottom = make_merge(stereo.bottom);
   camera.projection = make_projection(stereo.projection);
-  camera.merge_map = make_map(stereo.merge_map);
-  camera.head_tilt_map = make_map(stereo.head_tilt_map);
+  camera.merge_map = stereo.merge_map ? camera_map(*stereo.merge_map) : CameraMap{};
+  camera.head_tilt_map = stereo.head_tilt_map ? camera_map(*stereo.head_tilt_map) : CameraMap{};
   return camera;
 }
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The camera as people set it: degrees, metres, defaults. make_camera() turns it into the kernel's record.
+// The camera as users set it: degrees, metres, defaults. make_camera() turns it into the kernel's record.
 //
-// World: right-handed, +Y up; with yaw = pitch = roll = 0 the picture's centre looks along -Z and +X is to the
-// right (glTF's own camera). Angles are applied as roll, then pitch, then yaw.
+// World: right-handed, +Y up; with yaw = pitch = roll = 0 the picture's centre looks along -Z and +X is to the right
+// (glTF's own camera). Angles are applied as roll, then pitch, then yaw.
 #pragma once
 #include <memory>
 #include <optional>
@@ -17,8 +17,8 @@
 
 namespace ods {
 
-// How the distance between the eyes shrinks towards one pole, so that the picture can be viewed there.
-// Elevations are degrees from the horizon (0) towards the pole (90), 0 <= start < end <= 90.
+// Shrinks the distance between the eyes towards one pole, so that the picture can be viewed there. Elevations are
+// degrees from the horizon (0) towards the pole (90), 0 <= start < end <= 90.
 struct PoleMergeSetting {
   int mode = kMergeNone;  // kMergeNone, kMergeLinear .. (ods/kernel/camera/merge.h)
   float start = 60.0f;
@@ -28,8 +28,8 @@ struct PoleMergeSetting {
   bool operator==(const PoleMergeSetting&) const = default;
 };
 
-// What the commands use where no option, preset or file says otherwise: full stereo up to where people look without
-// bending the neck, none at the pole (docs/ods.md).
+// The commands' default if no option, preset or file specifies a merge: full stereo up to the elevation that people see
+// without bending the neck, none at the pole (docs/ods.md).
 inline constexpr PoleMergeSetting kUsualMerge{kMergeCosine, 60.0f, 90.0f, 1.0f};
 
 inline constexpr NameRow<int> kMergeTable[] = {
@@ -52,7 +52,7 @@ constexpr std::optional<int> merge_of(std::string_view name) {
   return find_in(kMergeTable, name);
 }
 bool same_merge(const PoleMergeSetting& a,
-                const PoleMergeSetting& b);  // two kMergeNone are equal whatever their numbers
+                const PoleMergeSetting& b);  // two settings of kMergeNone are equal whatever their numbers
 
 inline constexpr NameRow<int> kConvergenceTable[] = {{kParallel, "parallel"}, {kToeIn, "toe-in"}, {kShift, "shift"}};
 static_assert(has_each_of(kConvergenceTable, kConvergenceCount));
@@ -70,14 +70,14 @@ struct StereoCamera {
   PoleMergeSetting top;
   PoleMergeSetting bottom;
   std::shared_ptr<const Image> merge_map;  // for kMergeMap: lat-long, 1 channel, 1 is full stereo and 0 is merged
-  // None: a level head. Lat-long, 1 channel: how far the head tilts in each direction, from 90 degrees to the left (0)
-  // over level (0.5) to 90 degrees to the right (1, the right eye below the left one).
+  // The tilt of the head in each direction, from 90 degrees to the left (0) over level (0.5) to 90 degrees to the right
+  // (1, the right eye below the left one). Lat-long, 1 channel. A level head if not set.
   std::shared_ptr<const Image> head_tilt_map;
   ProjectionSetting projection;
   int convergence = kParallel;
   float convergence_distance = 2.0f;  // metres
   float neck = 0.0f;            // distance of the eyes in front of the neck's axis, metres; the merge scales it too
-  std::optional<vec3> axis;     // normal of the viewing circle, in the world; none: the camera's up
+  std::optional<vec3> axis;     // normal of the viewing circle, in the world; the camera's up if not set
   float lens_radius = 0.0f;     // metres; 0 is a pinhole. There is no rolling shutter.
   float focus_distance = 2.0f;  // metres along the ray
   bool mirrored = false;        // front and back are swapped, as if a left-handed world were read as right-handed
@@ -85,11 +85,18 @@ struct StereoCamera {
   bool operator==(const StereoCamera&) const = default;
 };
 
-// Two maps with the same numbers are one map.
+// Returns whether two maps have the same numbers.
 bool same_map(const std::shared_ptr<const Image>& a, const std::shared_ptr<const Image>& b);
 
-// Whether the eyes of both stand in the same places, from the circle's centre, for every line of sight. Precondition:
-// both have the same circle. Maps turn with the camera, so a camera with a map that varies around may not be turned.
+// Points into the image.
+CameraMap camera_map(const Image& image);
+
+// Returns whether a map has one value per elevation, all the way around. An empty map has.
+bool is_same_around(const CameraMap& map);
+
+// Returns whether the eyes of both are at the same positions, relative to the circle's centre, for every line of sight.
+// Precondition: both have the same circle. Maps turn with the camera, so a camera with a map that varies around may not
+// be turned.
 bool same_eyes(const StereoCamera& a, const StereoCamera& b);
 
 // Precondition: every field is finite, ipd >= 0, the projection has no fault.

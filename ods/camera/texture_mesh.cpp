@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which triangle is in a direction: the directions are sorted into the cells of a grid on each face of a cube.
+// Finds the triangle in a direction: the directions are sorted into the cells of a grid on each face of a cube.
 #include <algorithm>
 #include <cmath>
 
@@ -31,7 +31,7 @@ std::string mesh_fault(const TextureMesh& mesh) {
 
 bool is_front_half(const TextureMesh& mesh) {
   return std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const TextureMesh::Vertex& vertex) {
-    const float kBehind = 0.2f;  // lenses of VR180 cameras see a little more than a half
+    const float kBehind = 0.2f;  // lenses of VR180 cameras see slightly more than a half
     return vertex.position.z <= kBehind * length(vertex.position);
   });
 }
@@ -40,7 +40,7 @@ namespace {
 
 using Point = glm::dvec3;
 
-// A frame in which a face of the cube is at z = 1, and x and y are within -1 and 1 on it.
+// A frame in which a face of the cube is at z = 1, with x and y from -1 to 1 on it.
 Point on_face(int face, const Point& p) {
   const int axis = face / 2;
   const double side = face % 2 == 0 ? 1.0 : -1.0;
@@ -67,7 +67,7 @@ std::vector<Point> clip(const std::vector<Point>& polygon, const Point& normal) 
   return kept;
 }
 
-// Cells on one face, from low to high; empty: the triangle is not on it.
+// Cells on one face, from low to high. Empty if the triangle is not on it.
 struct CellRange {
   int x0 = 0, y0 = 0, x1 = -1, y1 = -1;
 };
@@ -124,7 +124,7 @@ class MeshMap final : public DirectionMap {
   CellRange cells_on(int face, const Triangle& triangle) const {
     std::vector<Point> polygon;
     for (const Point& corner : triangle.corner) polygon.push_back(on_face(face, corner));
-    const double kMargin = 1.0001;  // of neighbouring faces, against rounding
+    const double kMargin = 1.0001;  // adjacent faces overlap slightly, against rounding
     for (const Point& normal :
          {Point(1.0, 0.0, kMargin), Point(-1.0, 0.0, kMargin), Point(0.0, 1.0, kMargin), Point(0.0, -1.0, kMargin)}) {
       polygon = clip(polygon, normal);
@@ -153,7 +153,7 @@ class MeshMap final : public DirectionMap {
     }
   }
 
-  // False if triangles are in too many cells.
+  // Returns false if triangles are in too many cells.
   bool fill_grid() {
     constexpr uint64_t kMost = uint64_t{1} << 25;
     const size_t cells = 6 * static_cast<size_t>(side_) * static_cast<size_t>(side_);
@@ -177,7 +177,7 @@ class MeshMap final : public DirectionMap {
 
   // Source: T. Moeller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", with the ray at the origin.
   static bool meets(const Triangle& triangle, const Point& d, double& distance, glm::dvec2& uv) {
-    const double kEdge = 1e-7;  // neighbours share edges: none must fall between them
+    const double kEdge = 1e-7;  // adjacent triangles share edges: no direction may fall between them
     const Point e1 = triangle.corner[1] - triangle.corner[0], e2 = triangle.corner[2] - triangle.corner[0];
     const Point p = glm::cross(d, e2), t = -triangle.corner[0], q = glm::cross(t, e1);
     const double determinant = glm::dot(e1, p);
@@ -191,7 +191,7 @@ class MeshMap final : public DirectionMap {
 
   std::vector<Triangle> triangles_;
   int side_ = 0;                  // cells along a face
-  std::vector<uint32_t> starts_;  // of each cell's triangles in the list
+  std::vector<uint32_t> starts_;  // start of each cell's triangles in the list
   std::vector<uint32_t> listed_;
 };
 

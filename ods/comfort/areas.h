@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Areas of a picture's depth: those that are connected, whose pixels touch and are about as far away, and blocks.
+// Areas of a picture's depth: connected areas, whose pixels touch and are about equally far away, and blocks.
 #pragma once
 #include <vector>
 
@@ -12,15 +12,15 @@ namespace ods {
 struct AreaGrid {
   int width, height;
   bool wraps;                   // the last column touches the first
-  std::vector<bool> is_in;      // by pixel: whether it belongs to an area at all
+  std::vector<bool> is_in;      // by pixel: it belongs to an area
   std::vector<float> nearness;  // 1 / metres
 };
 
-// The number of each pixel's area, from 0 on; -1: in none.
+// Returns the number of each pixel's area, from 0 on; -1: not in an area.
 std::vector<int> connected_areas(const AreaGrid& grid);
 
-// The depth of a picture that is at most `most_width` wide: the nearest of each block of pixels. Blocks without a depth
-// are NaN. chosen: gets the index of each block's nearest pixel.
+// Returns depth at most `most_width` wide: the nearest of each block of pixels. Blocks without a depth are NaN. chosen:
+// gets the index of each block's nearest pixel.
 Image nearest_of_blocks(const Image& depth, int most_width, std::vector<size_t>* chosen = nullptr);
 
 }  // namespace ods

@@ -24,7 +24,7 @@ namespace ods {
 namespace {
 
 constexpr double kNearHorizon = 30.0;  // degrees
-constexpr int kLeastMatches = 15;      // of tiles, that two eyes of one picture have
+constexpr int kMinMatches = 15;        // of tiles, that two eyes of one picture have
 
 GrayView half_of(const GrayView& view) {
   GrayView half(view.width / 2, view.height / 2, 1);
@@ -95,9 +95,9 @@ MatchedEyes match_views_for_depth(std::vector<GrayView> views, const StereoCamer
 }
 
 void check_matchable(const ProjectionSetting& projection, int width, const std::string& name) {
-  constexpr double kLeastAround = 256.0;  // pixels
+  constexpr double kMinAround = 256.0;  // pixels
   const double around = 2.0 * std::numbers::pi * pixels_per_radian(projection, width);
-  if (around >= kLeastAround) return;
+  if (around >= kMinAround) return;
   throw Error(
       ErrorKind::kInput,
       fmt::format("'{}' has no depth, and its eyes have {:.0f} pixels around: too few to be matched", name, around));
@@ -111,7 +111,7 @@ AlignedEyes align_eyes(const std::vector<Image>& eyes, const ProjectionSetting& 
     views[1] = corrected_view(views[1], correction);
   }
   aligned.apart = 60.0 * height_apart(alignment);
-  aligned.are_one_picture = alignment.matches >= kLeastMatches;
+  aligned.are_one_picture = alignment.matches >= kMinMatches;
   return aligned;
 }
 

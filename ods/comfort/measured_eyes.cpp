@@ -21,32 +21,32 @@ using std::numbers::pi;
 namespace {
 
 constexpr int kMiddle = kMergeRows / 2;
-constexpr int kHorizon = 30;           // rows to either side of it, which tell the eye distance and the convergence
-constexpr double kLeastPixels = 30.0;  // of parallax, all pixels of a row together: less tells nothing
-constexpr double kMostNoise = 0.4;     // of the parallax of a row, may be unexplained
-constexpr int kLeastRows = 30;
+constexpr int kHorizon = 30;         // rows to either side, which determine the eye distance and the convergence
+constexpr double kMinPixels = 30.0;  // of parallax, all pixels of a row together: less is not evidence
+constexpr double kMaxNoise = 0.4;    // of the parallax of a row, may be unexplained
+constexpr int kMinRows = 30;
 constexpr double kNearestMeeting = 0.3;  // metres: where eyes may converge
 constexpr double kClearly = 0.95;        // convergence is believed if it leaves so much less unexplained
 constexpr double kSameEyes = 0.04;       // an eye distance that is as the camera's but for this is the camera's
-constexpr double kLeastMerge = 0.1;      // of the circle: what is less is no merge
-constexpr float kFull = 0.04f;           // what lacks less is full stereo
-constexpr double kSure = 6.0;            // and so is what is less than so many errors
+constexpr double kMinMerge = 0.1;        // of the circle: a smaller difference is not a merge
+constexpr float kFull = 0.04f;           // a smaller loss is full stereo
+constexpr double kSure = 6.0;            // differences below this many errors do not count either
 constexpr double kTells = 50.0;          // degrees: merges begin about there
-constexpr int kGoesOn = 10;              // rows, whose slope goes on beyond what could be measured
+constexpr int kGoesOn = 10;              // rows whose slope extends the curve beyond the last measured row
 
-// What a pixel tells: `shown`, the tangent of its half parallax times the cosine of its elevation, is
-// radius * (nearness - meeting) with the nearness 1 / depth and 1 / the distance where the eyes converge.
+// The evidence of a pixel: `shown`, the tangent of its half parallax times the cosine of its elevation, is radius *
+// (nearness - meeting) with the nearness 1 / depth and 1 / the distance where the eyes converge.
 struct Sighting {
   double nearness, shown;
 };
 using SightedRow = std::vector<Sighting>;
 
-// The radius that leaves the least unexplained: the ratios' median, each weighted by what it would move.
+// The radius with the smallest absolute error: the weighted median of the ratios.
 struct Circle {
   double radius = 0.0, weight = 0.0, unexplained = 0.0;
 };
 
-// apart: what is farther off than this is a mistake, and as bad as any.
+// apart: an error above this is a mismatch, and all mismatches count equally.
 double unexplained_by(const SightedRow& row, double radius, double meeting, double apart) {
   double sum = 0.0;
   for (const Sighting& each : row) sum += std::min(std::abs(each.shown - radius * (each.nearness - meeting)), apart);
@@ -99,8 +99,8 @@ std::vector<SightedRow> sightings(const Image& around, const SeenDepth& seen) {
   return rows;
 }
 
-// Where the eyes converge, 1 / metres, and the circle at the horizon. What explains the sightings nearly as well and is
-// more usual is believed: eyes that look in parallel, then eyes as far apart as they mostly are.
+// The point where the eyes converge, 1 / metres, and the circle at the horizon. Prefers usual values that explain the
+// sightings nearly as well: parallel eyes, then the usual eye distance.
 struct Stance {
   double meeting = 0.0;
   Circle circle;
@@ -136,8 +136,8 @@ Stance stance_of(const SightedRow& horizon, double usual, double apart) {
   return believed;
 }
 
-// From the horizon to a pole: never growing, nearest to the circles (pool adjacent violators), straight between rows
-// that tell and beyond the last one.
+// From the horizon to a pole: never growing, nearest to the circles (pool adjacent violators), straight between
+// measured rows and beyond the last one.
 std::vector<double> falling(const std::vector<Circle>& circles) {
   struct Pool {
     double value, weight;
@@ -150,7 +150,8 @@ std::vector<double> falling(const std::vector<Circle>& circles) {
     for (size_t n = pools.size(); n > 1 && pools[n - 2].value < pools[n - 1].value; n--) {
       Pool &into = pools[n - 2], &from = pools[n - 1];
       into.value = (into.value * into.weight + from.value * from.weight) / (into.weight + from.weight);
-      into.weight += from.weight, into.last = from.last;
+      into.weight += from.weight;
+      into.last = from.last;
       pools.pop_back();
     }
   }
@@ -190,7 +191,7 @@ std::optional<MeasuredEyes> measure_eyes(const std::vector<Image>& eyes, const S
     const SightedRow& seen_there = rows[static_cast<size_t>(row)];
     Circle circle = circle_of(seen_there, meeting, pixel);
     const double shown = full.radius * circle.weight;
-    if (shown < kLeastPixels * pixel || circle.unexplained > kMostNoise * shown) circle.weight = 0.0;
+    if (shown < kMinPixels * pixel || circle.unexplained > kMaxNoise * shown) circle.weight = 0.0;
     circle.radius = std::min(circle.radius / full.radius, 1.0);
     return circle;
   };
@@ -205,7 +206,7 @@ std::optional<MeasuredEyes> measure_eyes(const std::vector<Image>& eyes, const S
       circles.push_back(circle_at(row_of(is_up, i)));
       if (circles.back().weight > 0.0)
         reach = i + 1.0;
-      else  // what the other side tells is the best guess
+      else  // the other side is the best guess
         circles.back() = circle_at(row_of(!is_up, i));
     }
     const std::vector<double> shares = falling(circles);
@@ -215,9 +216,9 @@ std::optional<MeasuredEyes> measure_eyes(const std::vector<Image>& eyes, const S
       if (circles[at].weight > 0.0) off.push_back(std::abs(circles[at].radius - shares[at]));
     }
   }
-  if (off.size() < kLeastRows) return std::nullopt;
+  if (off.size() < kMinRows) return std::nullopt;
   measured.error = 1.48 * median(off);
-  const double least = 1.0 - std::max(kLeastMerge, kSure * measured.error);
+  const double least = 1.0 - std::max(kMinMerge, kSure * measured.error);
   const int up = kMiddle - static_cast<int>(measured.up), down = kMiddle - 1 + static_cast<int>(measured.down);
   // Eyes that converge show a floor and a ceiling without parallax, where merges are: a merge changes nothing there.
   measured.is_known = meeting == 0.0 && std::max(measured.up, measured.down) >= kTells;
@@ -225,7 +226,10 @@ std::optional<MeasuredEyes> measure_eyes(const std::vector<Image>& eyes, const S
   StereoCamera& camera = measured.camera;
   if (std::abs(2.0 * full.radius / double{camera.ipd} - 1.0) > kSameEyes)
     camera.ipd = static_cast<float>(2.0 * full.radius);
-  if (meeting > 0.0) camera.convergence = kToeIn, camera.convergence_distance = static_cast<float>(1.0 / meeting);
+  if (meeting > 0.0) {
+    camera.convergence = kToeIn;
+    camera.convergence_distance = static_cast<float>(1.0 / meeting);
+  }
   if (measured.is_merged) {
     for (float& share : map.pixels) share = share > 1.0f - kFull ? 1.0f : share;
     use_merge_map(camera, std::move(map));

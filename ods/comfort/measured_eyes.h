@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a picture's eyes were placed, measured where no word of it tells: other renderers' pictures with depth, whose
-// pole merge, convergence and eye distance nobody wrote down. Depth says how far a point is, the eyes how far apart
-// they show it; their ratio at each elevation is the circle on which the eyes stood.
+// Estimates the placement of a picture's eyes if its metadata do not record it: pictures with depth by other renderers
+// do not record pole merge, convergence and eye distance. Depth is the distance of a point, the two eyes show its
+// parallax; at each elevation, their ratio is the radius of the circle of the eyes.
 #pragma once
 #include <optional>
 #include <vector>
@@ -14,15 +14,15 @@ namespace ods {
 
 struct MeasuredEyes {
   StereoCamera camera;    // its eye distance, convergence and pole merge as measured; without a merge: kMergeNone
-  double error = 0.0;     // of the merge's shares: how far elevations mostly are from the curve, 0..1
-  double up = 0.0;        // degrees: the curve was measured so far up and down, and goes on straight from there
+  double error = 0.0;     // of the merge's shares: the usual distance of an elevation from the curve, 0..1
+  double up = 0.0;        // degrees: the curve was measured so far up and down; it is straight from there on
   double down = 0.0;      // positive
-  bool is_known = false;  // whether it is merged: far enough up or down was measured, and its eyes do not converge
+  bool is_known = false;  // the merge is known: it was measured far enough up or down, and the eyes do not converge
   bool is_merged = false;
 };
 
-// eyes: as grey_eyes() returns them. seen: the left eye, with the camera as far as it is known. Nothing if the eyes do
-// not match, or what matches is too little or too far away to tell.
+// eyes: as grey_eyes() returns them. seen: the left eye, with the camera as far as it is known. Returns nullopt if the
+// eyes do not match, or if too little matches, or only things that are too far away.
 std::optional<MeasuredEyes> measure_eyes(const std::vector<Image>& eyes, const SeenDepth& seen, bool is_float);
 
 }  // namespace ods

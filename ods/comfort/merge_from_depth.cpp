@@ -22,9 +22,9 @@ using std::numbers::pi;
 namespace {
 
 constexpr int kReach = 5;         // rows over which the curve is smoothed, to either side
-constexpr int kBetween = 2;       // rows more, for what lies between rows and between the pixels that were looked at
-constexpr int kLookReach = 8;     // looks of a video, likewise
-constexpr float kSafety = 0.98f;  // eyes beside the middle see a little past the edges of what the middle sees
+constexpr int kBetween = 2;       // more rows, for points between rows and between the sampled pixels
+constexpr int kLookReach = 8;     // looks of a video, for the same reason
+constexpr float kSafety = 0.98f;  // eyes beside the middle see a little past the edges that the middle sees
 constexpr int kColumns = 4;       // of the map, all alike
 
 int row_of(double elevation) {
@@ -72,7 +72,7 @@ std::vector<float> eased(const std::vector<float>& values, int reach, int betwee
   return even;
 }
 
-// What eyes show, as the middle between the target's eyes sees it: the nearest in each direction.
+// Returns the nearest depth in each direction, as seen from the middle between the target's eyes.
 SeenDepth seen_from_middle(const std::vector<SeenDepth>& eyes, const StereoCamera& target) {
   constexpr int kWidth = 512;
   SeenDepth middle;
@@ -125,10 +125,10 @@ std::vector<float> comfortable_shares(const SeenDepth& seen, const Viewer& viewe
 }
 
 std::vector<SeenDepth> seen_by_eyes(const StoredPicture& picture) {
-  constexpr int kMostWidth = 2048;
+  constexpr int kMaxWidth = 2048;
   std::vector<SeenDepth> eyes;
   for (size_t i = 0; i < picture.eyes.size(); i++) {
-    Image depth = nearest_of_blocks(depth_of_eye(picture, i), kMostWidth);
+    Image depth = nearest_of_blocks(depth_of_eye(picture, i), kMaxWidth);
     eyes.push_back({picture.camera, picture.eyes[i].eye, std::move(depth), {}, {}});
   }
   return eyes;
@@ -160,7 +160,7 @@ Image merge_map_of(std::vector<float> shares) {
 
 // --- videos ----------------------------------------------------------------------------------------------------------
 
-// Between two looks lies what both allow: the least reaches a look farther.
+// Between two looks the limit is what both allow: the minimum extends one look farther.
 SteadyMerge::SteadyMerge(const std::vector<std::vector<float>>& looks, int step) : step_(step) {
   assert(!looks.empty() && step > 0);
   std::vector<std::vector<float>> shares = looks;

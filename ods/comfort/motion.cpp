@@ -19,7 +19,7 @@ namespace {
 constexpr size_t kUnknowns = 6;  // turn, velocity
 using Row = std::array<double, kUnknowns>;
 
-// One component of what one place does.
+// One component of the motion of one place.
 struct Equation {
   Row row;
   double moved;
@@ -84,7 +84,8 @@ Row solve(const std::vector<Equation>& equations, const Row& before, double spre
 ViewerMotion motion_between(const GrayView& before, const GrayView& after, const Image& depth, double seconds) {
   Search search;
   search.around = search.down = 0.12f;
-  search.lowest = -1.0f, search.highest = 1.0f;
+  search.lowest = -1.0f;
+  search.highest = 1.0f;
   const Matches matches = match_tiles(before, after, search);
   std::vector<Equation> equations;
   for (const Match& match : matches.found) {
@@ -92,7 +93,7 @@ ViewerMotion motion_between(const GrayView& before, const GrayView& after, const
     if (there > 0.0f) add_place(match, is_surface(there) ? 1.0 / static_cast<double>(there) : 0.0, equations);
   }
   ViewerMotion motion;
-  if (equations.size() < 2 * kLeastPlaces) return motion;
+  if (equations.size() < 2 * kMinPlaces) return motion;
   Row solution{};
   const double least = 0.1 * static_cast<double>(matches.pixel);
   for (int i = 0; i < 12; i++) {
@@ -106,7 +107,7 @@ ViewerMotion motion_between(const GrayView& before, const GrayView& after, const
       static_cast<int>(std::ranges::count_if(
                            equations, [&](const Equation& each) { return std::abs(rest_of(each, solution)) < alike; }) /
                        2);
-  if (motion.places < kLeastPlaces) return motion;
+  if (motion.places < kMinPlaces) return motion;
   motion.turn = glm::dvec3(solution[0], solution[1], solution[2]) / seconds;
   motion.velocity = glm::dvec3(solution[3], solution[4], solution[5]) / seconds;
   return motion;

@@ -46,6 +46,12 @@ StrainLimits strain_limits(Strain strain, const Viewer& viewer) {
   return {};
 }
 
+EnumArray<Strain, StrainLimits> strain_limits(const Viewer& viewer) {
+  EnumArray<Strain, StrainLimits> limits{};
+  for (const Strain strain : kStrains) limits[strain] = strain_limits(strain, viewer);
+  return limits;
+}
+
 ComfortLevel level_of(double value, const StrainLimits& limits) {
   if (value > limits.error) return ComfortLevel::kError;
   if (value > limits.warning) return ComfortLevel::kWarning;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How much a point of an omni-directional stereo picture strains the eyes of a viewer with a headset, in closed form.
+// The strain of a viewer's eyes by a point of an omni-directional stereo picture in a headset, in closed form.
 //
 // A headset shows the eyes' pictures by direction. A point at the azimuth alpha is at alpha + delta in the left eye's
 // picture and at alpha - delta in the right one's, at the same elevation phi in both; delta, the half parallax, is
@@ -21,6 +21,7 @@
 #pragma once
 #include <string_view>
 
+#include "ods/base/enum_array.h"
 #include "ods/base/names.h"
 
 namespace ods {
@@ -32,12 +33,12 @@ struct Viewer {
   float roll_degrees = 0.0f;   // how far the line through the ears may be out of level
 };
 
-// What strains.
+// The kinds of strain.
 enum class Strain {
-  kNear,      // the eyes converge nearer than they focus; in dioptres, of the distance for which they converge
+  kNear,      // the eyes converge nearer than they focus; in dioptres of the distance for which they converge
   kVertical,  // worst_vertical_disparity(), in minutes of arc
-  kStep,      // vergence against what is a degree beside it, in degrees
-  kEdge,      // vergence of what the side of a picture cuts that does not go all around, in degrees
+  kStep,      // difference of vergence to things a degree beside it, in degrees
+  kEdge,      // vergence of a thing cut by the side of a picture that does not go all around, in degrees
   kRule,      // a rule of ComfortOptions is broken; how many times too near it is
 };
 
@@ -79,22 +80,23 @@ constexpr std::string_view comfort_level_name(ComfortLevel level) {
   return name_in(kComfortLevelTable, level);
 }
 
-// How much people look at this elevation, over the horizon's, by solid angle. Source: Sitzmann et al. 2018, "Saliency
-// in VR", have a Laplace distribution of elevations, 18.6 degrees wide; provisional, quoted from memory.
+// How often people look at this elevation, relative to the horizon, per solid angle. Source: Sitzmann et al. 2018,
+// "Saliency in VR": a Laplace distribution of elevations, 18.6 degrees wide; provisional, quoted from memory.
 double looked_at(double elevation);
 
-inline constexpr double kFusionLimit = 25.6;                     // minutes of arc: kVertical is a warning beyond
-inline constexpr double kGoogleAhead = 0.6, kGoogleAbove = 3.5;  // metres: Google's least distances
+inline constexpr double kFusionLimit = 25.6;                     // minutes of arc: beyond this kVertical is a warning
+inline constexpr double kGoogleAhead = 0.6, kGoogleAbove = 3.5;  // metres: Google's minimum distances
 
-// The values from which on a strain has a level; infinite: never.
+// A value above a limit has that level. Infinite if no value has the level.
 struct StrainLimits {
   double caution, warning, error;
 };
 StrainLimits strain_limits(Strain strain, const Viewer& viewer);
+EnumArray<Strain, StrainLimits> strain_limits(const Viewer& viewer);
 ComfortLevel level_of(double value, const StrainLimits& limits);
 
-// Where the eyes of a circle of this radius show a point, at the distance `across` from its axis, which is larger, and
-// `height` above its plane.
+// The place in the pictures of a point, for eyes on a circle of this radius. The point is `across` from the circle's
+// axis, farther than the radius, and `height` above its plane.
 struct CircleView {
   double half_parallax, elevation;
 };
@@ -103,14 +105,14 @@ CircleView seen_from_circle(double radius, double across, double height);
 // The angle between the eyes' lines of sight when they look at the point; negative if they must diverge.
 double vergence(double half_parallax, double elevation);
 
-// The distance for which eyes converge so, as dioptres: 1 / metres. 0 and less: beyond everything.
+// The distance for which eyes converge by this angle, as dioptres: 1 / metres. 0 or less: beyond everything.
 double vergence_dioptres(double vergence, const Viewer& viewer);
 
-// V above.
+// Returns V of the formula at the top of this file.
 double vertical_disparity(double half_parallax, double elevation, double head_yaw);
 
-// What a head may do: the point is at most `gaze` away from straight ahead, the line through the ears at most `roll`
-// out of level.
+// The allowed poses of a head: the point is at most `gaze` away from straight ahead, the line through the ears at most
+// `roll` out of level.
 struct HeadReach {
   double gaze = 0.0, roll = 0.0;
 };
@@ -119,7 +121,8 @@ HeadReach reach_of(const Viewer& viewer);
 // The largest vertical disparity over all such heads, of any yaw and pitch.
 double worst_vertical_disparity(double half_parallax, double elevation, const HeadReach& reach);
 
-// The roll, up to a quarter turn, with which that is the limit; 0 if it is more with level ears.
+// The roll, up to a quarter turn, at which the worst vertical disparity equals the limit; 0 if it exceeds the limit
+// with level ears.
 double roll_for_disparity(double half_parallax, double elevation, double gaze, double limit);
 
 }  // namespace ods

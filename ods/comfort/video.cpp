@@ -16,7 +16,9 @@
 #include "ods/comfort/motion.h"
 #include "ods/convert/unwrap.h"
 #include "ods/disparity/match.h"
+#include "ods/identify/identify.h"
 #include "ods/picture/load_eyes.h"
+#include "ods/video/container/video_file.h"
 #include "ods/video/video_input.h"
 
 namespace ods {
@@ -24,10 +26,10 @@ namespace ods {
 namespace {
 
 constexpr int kWidth = 512;        // of the views that are matched
-constexpr int kLeastMoments = 8;   // of a short video
-constexpr int kGlance = 256;       // the width of the views that tell a cut
+constexpr int kMinMoments = 8;     // of a short video
+constexpr int kGlance = 256;       // the width of the views that show a cut
 constexpr double kSameShot = 0.3;  // the least share of their tiles that two frames of a shot have in common
-constexpr int kMostCuts = 12;      // that are looked for
+constexpr int kMaxCuts = 12;       // that are looked for
 constexpr double kHorizonBand = 30.0 * kDegree;
 
 // A frame as it is looked at.
@@ -37,12 +39,16 @@ struct Frame {
   GrayView glance;  // of the left eye
 };
 
-// The share of places that both views show, within what a moving camera does to them.
+// The share of places that both views show, displaced by no more than a moving camera would.
 double alike(const GrayView& a, const GrayView& b) {
   Search search;
-  search.rows = 10, search.columns = 12, search.step = 10;
-  search.around = 0.35f, search.down = 0.12f;
-  search.lowest = -0.9f, search.highest = 0.9f;
+  search.rows = 10;
+  search.columns = 12;
+  search.step = 10;
+  search.around = 0.35f;
+  search.down = 0.12f;
+  search.lowest = -0.9f;
+  search.highest = 0.9f;
   return match_tiles(a, b, search).share();
 }
 
@@ -61,6 +67,11 @@ double median_vergence(const SeenDepth& seen) {
   return all.empty() ? 0.0 : median(std::move(all));
 }
 
+std::pair<ComfortLevel, double> rank_of(const ComfortVerdict& verdict) {
+  const StrainedPlace* const worst = verdict.worst();
+  return worst ? std::pair{worst->level, worst->value} : std::pair{ComfortLevel::kOk, 0.0};
+}
+
 class VideoJudge {
  public:
   VideoJudge(const std::string& path, const VideoComfortOptions& options)
@@ -74,7 +85,7 @@ class VideoJudge {
   VideoComfort run(const Progress& progress);
 
  private:
-  // Of the first frame at or after that time, and of the one that follows it; nothing after the last.
+  // The first frame at or after that time, and the next one; nullopt after the last.
   std::optional<Frame> frame_at(double seconds);
   std::optional<Frame> next_frame();
   std::optional<VideoMoment> look_at(double seconds);
@@ -117,7 +128,7 @@ void VideoJudge::add_motion(VideoMoment& moment, const Frame& frame, const Match
   const GrayView after = make_gray_views({next->eyes[0]}, camera_.projection, false, kWidth)[0];
   const ViewerMotion motion =
       motion_between(matched.grey[0], after, matched.seen[0].depth, next->seconds - frame.seconds);
-  moment.is_carried = motion.places >= kLeastPlaces;
+  moment.is_carried = motion.places >= kMinPlaces;
   if (!moment.is_carried) return;
   moment.turn = std::abs(motion.turn.y) / kDegree;
   moment.tilt = std::hypot(motion.turn.x, motion.turn.z) / kDegree;
@@ -138,36 +149,34 @@ std::optional<VideoMoment> VideoJudge::look_at(double seconds) {
   moment.matched = matched.share;
   moment.nearest = std::numeric_limits<double>::infinity();
   StrainedPlace worst;
-  if (matched.share >= kLeastMatched) {
-    ComfortReport report = judge_comfort(matched.seen[0], options_.comfort);
-    moment.nearest = report.nearest;
-    moment.vertical = report.most[static_cast<size_t>(Strain::kVertical)];
-    const double dioptres = report.most[static_cast<size_t>(Strain::kNear)];
+  if (matched.share >= kMinMatched) {
+    ComfortVerdict verdict = judge_comfort(matched.seen, options_.comfort, matched);
+    moment.nearest = verdict.nearest;
+    moment.vertical = verdict.max[Strain::kVertical];
+    const double dioptres = verdict.max[Strain::kNear];
     moment.vergence = 2.0 * std::atan(0.5 * dioptres * double{options_.comfort.viewer.ipd}) / kDegree;
     moment.middle = median_vergence(matched.seen[0]);
-    moment.level = worst_level(report);
+    moment.level = verdict.level;
     result_.precision = std::max(result_.precision, matched.precision);
     add_motion(moment, *frame, matched);
-    if (!report.places.empty()) worst = report.places[0];
-    const auto rank = [](const ComfortReport& each) {
-      return each.places.empty() ? 0.0
-                                 : static_cast<double>(each.places[0].level) + 1.0 - 1.0 / (1.0 + each.places[0].value);
-    };
-    if (!result_.seen || rank(report) > rank(result_.report)) {
-      result_.seen = std::move(matched.seen[0]), result_.grey = std::move(matched.grey[0]);
-      result_.report = std::move(report);
+    if (verdict.worst()) worst = *verdict.worst();
+    if (result_.worst.light.empty() || rank_of(verdict) > rank_of(result_.worst.verdict)) {
+      result_.worst.verdict = std::move(verdict);
+      result_.worst.camera = matched.seen[0].camera;
+      result_.worst.light = {light_of(matched.grey[0]), light_of(matched.grey[1])};
     }
   }
-  if (!result_.moments.empty() && cuts_ < kMostCuts && alike(glance_, frame->glance) < kSameShot) {
+  if (!result_.moments.empty() && cuts_ < kMaxCuts && alike(glance_, frame->glance) < kSameShot) {
     find_cut(result_.moments.back(), moment, glance_, frame->glance);
   }
   glance_ = frame->glance;
-  places_.push_back(worst), apart_.push_back(matched.share >= kLeastMatched ? matched.apart : 0.0);
+  places_.push_back(worst);
+  apart_.push_back(matched.share >= kMinMatched ? matched.apart : 0.0);
   return moment;
 }
 
-// Halves the time between two moments that have little in common until it is that between two frames. If these have
-// little in common, too, it is a cut: how far is it from what eyes converge on before it to what comes after?
+// Bisects the time between two moments that have little in common down to two successive frames. If these have little
+// in common, too, it is a cut: measures the jump of vergence across it.
 void VideoJudge::find_cut(const VideoMoment& before, VideoMoment& after, GrayView low_view, GrayView high_view) {
   double low = before.seconds, high = after.seconds;
   const double step = video_.fps > 0.0 ? 1.0 / video_.fps : 0.04;
@@ -190,14 +199,17 @@ void VideoJudge::find_cut(const VideoMoment& before, VideoMoment& after, GrayVie
   after.acceleration = 0.0;
 }
 
-// One that goes on is one.
+// Strains of successive moments are one.
 void VideoJudge::add(const VideoStrain& strain) {
   if (strain.level == ComfortLevel::kOk) return;
   for (VideoStrain& known : result_.strains) {
     if (known.name != strain.name || strain.from - known.to > 1.5 * result_.every) continue;
     known.to = strain.to;
     if (strain.level > known.level || (strain.level == known.level && strain.value > known.value)) {
-      known.worst = strain.worst, known.value = strain.value, known.level = strain.level, known.place = strain.place;
+      known.worst = strain.worst;
+      known.value = strain.value;
+      known.level = strain.level;
+      known.place = strain.place;
     }
     return;
   }
@@ -235,7 +247,7 @@ VideoComfort VideoJudge::run(const Progress& progress) {
   result_.frames = decoder_.stream().count;
   const double fps = video_.fps > 0.0 ? video_.fps : 25.0;
   result_.seconds = result_.frames / fps;
-  const int wished = std::clamp(static_cast<int>(std::ceil(result_.seconds)), kLeastMoments, options_.most_moments);
+  const int wished = std::clamp(static_cast<int>(std::ceil(result_.seconds)), kMinMoments, options_.most_moments);
   const int count = result_.frames > 0 ? std::min(wished, result_.frames) : wished;
   result_.every = result_.seconds > 0.0 ? result_.seconds / count : 1.0;
   for (int i = 0; i < count; i++) {
@@ -245,25 +257,24 @@ VideoComfort VideoJudge::run(const Progress& progress) {
     result_.moments.push_back(*moment);
     if (progress.report) progress.report((i + 1.0) / count);
   }
-  if (!result_.seen) {
+  if (result_.worst.light.empty()) {
     throw Error(ErrorKind::kInput,
-                fmt::format("the eyes of '{}' could not be matched: see what ods lint says of it", video_.path));
+                fmt::format("the eyes of '{}' could not be matched: see what ods lint reports", video_.path));
   }
-  result_.camera = result_.seen->camera;
   add_strains();
+  for (const VideoMoment& moment : result_.moments) result_.level = std::max(result_.level, moment.level);
   return std::move(result_);
 }
 
 }  // namespace
 
 VideoComfort judge_video(const std::string& path, const VideoComfortOptions& options, const Progress& progress) {
-  return VideoJudge(path, options).run(progress);
-}
-
-ComfortLevel worst_level(const VideoComfort& video) {
-  ComfortLevel worst = ComfortLevel::kOk;
-  for (const VideoMoment& moment : video.moments) worst = std::max(worst, moment.level);
-  return worst;
+  VideoComfortOptions found = options;
+  std::vector<std::string> doubts;
+  if (is_video(path)) found.format = identified(path, options.format, doubts);
+  VideoComfort video = VideoJudge(path, found).run(progress);
+  for (const std::string& doubt : doubts) video.notes.push_back(fmt::format("'{}' is {}", path, doubt));
+  return video;
 }
 
 }  // namespace ods

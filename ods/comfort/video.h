@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a stereo video does to its viewer, by matching the eyes of some of its frames, and each with the frame after it:
-// how near things are, how the viewer is carried and turned, how far eyes must jump at cuts. docs/comfort.md has the
-// limits and where they come from.
+// Judges what a stereo video does to its viewer, by matching the eyes of some of its frames, and each frame with the
+// next: the distances of things, the motion of the viewer, jumps of vergence at cuts. docs/comfort.md has the limits
+// and their sources.
 #pragma once
 #include <optional>
 #include <string>
@@ -12,20 +12,20 @@
 
 #include "ods/base/names.h"
 #include "ods/base/progress.h"
-#include "ods/comfort/comfort.h"
+#include "ods/comfort/judge_picture.h"
 #include "ods/comfort/strain.h"
 #include "ods/picture/metadata/stereo_format.h"
 
 namespace ods {
 
-// What strains in time, beside what strains in a picture.
+// Strains over time, beside the strains within a picture.
 enum class Ride {
-  kApart,         // one eye sees things higher: minutes of arc
+  kApart,         // one eye sees things higher, minutes of arc
   kTurn,          // the viewer is turned about the vertical: degrees a second
-  kTilt,          // about any other axis: the horizon rolls or nods; degrees a second
+  kTilt,          // the viewer is turned about another axis, so that the horizon rolls or nods: degrees a second
   kSpeed,         // metres a second
   kAcceleration,  // metres a second squared
-  kCut,           // how far vergence jumps there: degrees
+  kCut,           // the jump of vergence at a cut: degrees
 };
 
 struct RideRow {
@@ -81,22 +81,22 @@ constexpr const RideRow& ride_row(Ride ride) {
   return row_in(kRideTable, ride);
 }
 
-// One frame that was looked at.
+// One judged frame.
 struct VideoMoment {
   double seconds = 0.0;
   double matched = 0.0;     // share of the picture
   double nearest = 0.0;     // metres; infinite if nothing is
-  double vergence = 0.0;    // degrees: the most
-  double vertical = 0.0;    // minutes of arc: the worst
-  double middle = 0.0;      // degrees: the median vergence of what is within 30 degrees of the horizon
+  double vergence = 0.0;    // degrees: the maximum
+  double vertical = 0.0;    // minutes of arc: the maximum
+  double middle = 0.0;      // degrees: the median vergence within 30 degrees of the horizon
   bool is_carried = false;  // speed, turn and tilt are known
   double speed = 0.0, turn = 0.0, tilt = 0.0, acceleration = 0.0;  // as Ride
-  std::optional<double> cut;                                       // there was one since the moment before: as Ride
+  std::optional<double> cut;                                       // a cut since the moment before: as Ride
   double cut_at = 0.0;                                             // seconds
   ComfortLevel level = ComfortLevel::kOk;
 };
 
-// Something that strains from one moment to another.
+// A strain over a span of time.
 struct VideoStrain {
   double from = 0.0, to = 0.0, worst = 0.0;  // seconds
   std::string_view name, title, unit;        // of a Strain or a Ride
@@ -106,17 +106,15 @@ struct VideoStrain {
 };
 
 struct VideoComfort {
-  StereoCamera camera;
-  int frames = 0;        // of the video; 0: unknown
-  double seconds = 0.0;  // it lasts
-  double every = 0.0;    // seconds from one moment to the next
-  double precision = 0.0;
+  ComfortLevel level = ComfortLevel::kOk;  // the worst of the moments
+  int frames = 0;                          // of the video; 0: unknown
+  double seconds = 0.0;                    // the video's duration
+  double every = 0.0;                      // seconds from one moment to the next
+  double precision = 0.0;                  // minutes of arc
   std::vector<VideoMoment> moments;
   std::vector<VideoStrain> strains;  // worst first, at most ten
-  // The worst moment's picture.
-  std::optional<SeenDepth> seen;
-  Image grey;
-  ComfortReport report;
+  JudgedPicture worst;               // the picture of the worst moment
+  std::vector<std::string> notes;    // for messages
 };
 
 struct VideoComfortOptions {
@@ -125,10 +123,10 @@ struct VideoComfortOptions {
   int most_moments = 90;  // of a long video
 };
 
-// Throws Error(kInput), as open_video() and VideoDecoder, and if it has one eye or nothing matches; Error(kCancelled).
+// Judges both eyes of a video's frames. Videos whose layout and projection their metadata leave open are identified by
+// their pixels. Throws Error(kInput) as identified(), open_video() and VideoDecoder do, and if the video has one eye or
+// nothing matches; Error(kCancelled).
 VideoComfort judge_video(const std::string& path, const VideoComfortOptions& options = {},
                          const Progress& progress = {});
-
-ComfortLevel worst_level(const VideoComfort& video);
 
 }  // namespace ods

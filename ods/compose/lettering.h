@@ -39,8 +39,8 @@ struct Lettering {
 };
 
 // Lines are separated by newlines. The font size is `em` pixels, or less if the picture would exceed 2^26 pixels.
-// Throws Error(kUsage): text that is not UTF-8 or has no visible characters; Error(kInput): an invalid font file, a
-// machine without fonts.
+// Throws Error(kUsage) for text that is not UTF-8 or has no visible characters; Error(kInput) for an invalid font file
+// or a machine without fonts.
 Lettering draw_lettering(const std::string& text, float em, const LetteringOptions& options = {});
 
 }  // namespace ods

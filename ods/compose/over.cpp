@@ -13,7 +13,7 @@
 
 namespace ods {
 
-// The foreground, pretending that its eyes are the background's.
+// The foreground, with the background's eyes in its metadata.
 static StoredPicture with_eyes_of(StoredPicture foreground, const StereoCamera& camera) {
   StereoCamera& own = foreground.camera;
   own.ipd = camera.ipd, own.neck = camera.neck, own.axis = camera.axis, own.mirrored = camera.mirrored;
@@ -63,7 +63,7 @@ static void compare_eyes_of(const StereoCamera& front, const StereoCamera& back,
 
 std::vector<std::string> over_warnings(const StoredPicture& foreground, const StoredPicture& background) {
   std::vector<std::string> warnings;
-  // Footage of others says nothing of its eyes.
+  // Other programs' footage has no metadata on its eyes.
   if (foreground.has_ipd && background.has_ipd) compare_eyes_of(foreground.camera, background.camera, warnings);
   return warnings;
 }
@@ -72,11 +72,11 @@ std::vector<std::string> over_warnings(const StoredPicture& foreground, const St
 
 namespace {
 
-// Rows of a picture in another's format, and which channel is which.
+// Rows of a picture in another's format, with the meaning of the channels.
 struct Rows {
   PictureRows rows;
   size_t channels = 0;
-  int alpha = -1;  // below 0: none
+  int alpha = -1;  // negative if there is none
   int depth = -1;
 
   Rows(const StoredPicture& picture, const ConvertTarget& target) : rows(convert(picture, target).rows) {

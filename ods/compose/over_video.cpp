@@ -154,7 +154,7 @@ class BlockRows {
   Planes from_, to_;
   Extent block_;
   int first_ = 0, last_ = 0;                // columns covered in any of the rows
-  std::array<std::vector<float>, 3> sums_;  // per column: sums of Cb and Cr of the covered pixels, and their share
+  std::array<std::vector<float>, 3> sums_;  // per column: sums of Cb and Cr of the covered pixels, and their fraction
   std::vector<float> back_;
 };
 
@@ -189,7 +189,7 @@ class VideoOver {
     if (front_.kind() == FootageKind::kPicture) still_ = cover_of(*front_.picture(0));
   }
 
-  // A frame of the background and, of a foreground that is a video, its picture: both are read by one thread at a time.
+  // A frame of the background, with the picture of a foreground that is a video: both are read by one thread at a time.
   std::function<std::shared_ptr<VideoFrame>()> pending(int number, const DecodedFrame& back) {
     std::optional<StoredPicture> front;
     if (front_.kind() == FootageKind::kVideo && !front_ended_) {
@@ -253,7 +253,7 @@ int over_video(Footage& back, Footage& front, int first, int last, const OverOpt
     if (!decoded || next > last) return std::nullopt;
     return PendingFrame{clock(decoded->time), job.pending(next++, *decoded)};
   };
-  // A foreground frame may take four floats per pixel, and its cover as much.
+  // A foreground frame may take four floats per pixel, and its cover as many.
   const size_t pixels = static_cast<size_t>(stream.size.width) * static_cast<size_t>(stream.size.height);
   video.count = std::max(1, std::min(last, stream.count - 1) - first + 1);
   video.frame_bytes = pixels * (front.kind() == FootageKind::kPicture ? 6 : 6 + 32);

@@ -34,13 +34,13 @@ void copy_planes(const Planes& from, Extent size, const Planes& to);
 std::shared_ptr<VideoFrame> copied_frame(const DecodedFrame& frame, const VideoStream& stream, const VideoInput& video,
                                          const Packing& packing);
 
-// Composites the cover into `to`, which holds the same picture as `from`;
+// Composites the cover into `to`, which contains the same picture as `from`;
 // both are whole pictures in the video's layout.
 void lay_cover(const Cover& cover, const StoredPicture& video, const ColorCode& color, const Planes& from,
                const Planes& to);
 
 // Composites `front` over frames first..last of `back`, a video, into a new video of the same format. Frames that
-// `front` does not have stay unchanged. `options` choose the sound. Throws Error as VideoEncoder and VideoDecoder do;
+// `front` does not have stay unchanged. `options` specify the sound. Throws Error like VideoEncoder and VideoDecoder;
 // kUsage for a foreground that cannot be composited. Returns the number of frames.
 int over_video(Footage& back, Footage& front, int first, int last, const OverOptions& over,
                const EncodeOptions& options, const std::string& path, const Progress& progress = {});

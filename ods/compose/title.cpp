@@ -140,7 +140,7 @@ float comfortable_height(const Title& title) {
 
 float nearest_comfortable(const StereoCamera& stereo, float pitch) {
   const float kAlongHorizon = 0.6f, kOverhead = 3.5f, kSourcesIpd = 0.065f;
-  const float kSteep = 58.6f;  // degrees: where both rules allow the same vertical disparity
+  const float kSteep = 58.6f;  // degrees: the pitch at which both rules allow the same vertical disparity
   const Camera camera = make_camera(stereo);
   const float phi = glm::radians(pitch);
   const float merged = merge_at(camera, vec3(0.0f, std::sin(phi), -std::cos(phi)), phi);

@@ -31,7 +31,7 @@ struct Title {
   Image coverage;
   TitleSetting setting;
   vec3 right, up, middle;  // the card's axes, unit vectors
-  float pixels = 0.0f;     // of the coverage per metre
+  float pixels = 0.0f;     // pixels of the coverage per metre
   float reach = -1.0f;     // cosine of the largest angle between its centre and a ray that hits it
   float rise = 1.0f;       // sine of the largest angle above or below its centre line of a ray that hits it
 };
@@ -39,8 +39,8 @@ struct Title {
 // The lettering's pixels per em that match the picture's resolution.
 float lettering_em(const StereoCamera& stereo, Extent eye, const TitleSetting& setting);
 
-// The camera is at the origin of the title's world, whatever its position. Precondition: as make_camera(); sides,
-// distance and height above 0.
+// The camera is at the origin of the title's world, regardless of its position. Preconditions: those of make_camera();
+// sides, distance and height above 0.
 Title make_title(const StereoCamera& stereo, Extent eye, const TitleSetting& setting, const Lettering& lettering);
 
 // Fills row y of one eye with R, G, B (premultiplied), A, and Z (metres along the ray,
@@ -50,13 +50,13 @@ void fill_title_row(const Title& title, int eye, int y, std::span<float> row);
 // The text's angular width in degrees, from the centre of the viewing circle.
 float title_width(const Title& title);
 
-// Degrees. Reading a wider text takes turning the head: eyes turn some 30 degrees to either side with ease.
+// Degrees. Wider text requires turning the head: eyes turn about 30 degrees to either side with ease.
 inline constexpr float kComfortableWidth = 60.0f;
 
 // Metres: the setting's height, or less if the text would be wider than kComfortableWidth.
 float comfortable_height(const Title& title);
 
-// Metres: anything nearer strains the eyes, by the source's two rules and this camera's ipd.
+// Metres: closer objects strain the eyes, by the source's two rules and this camera's ipd.
 float nearest_comfortable(const StereoCamera& stereo, float pitch);
 
 }  // namespace ods

@@ -15,7 +15,7 @@
 
 namespace ods {
 
-// --- what can be converted ------------------------------------------------------------------------------------------
+// --- possible conversions --------------------------------------------------------------------------------------------
 
 ConvertTarget same_format(const StoredPicture& picture) {
   ConvertTarget format{picture.camera, picture.size, {}};
@@ -38,7 +38,7 @@ static bool is_tilted(const StereoCamera& from, const StereoCamera& to) {
   return length(axis_in_world(make_camera(from)) - axis_in_world(make_camera(to))) > 1e-4f;
 }
 
-// Whether the target's eyes are in other places than the picture's. A mono target takes one eye unchanged.
+// Returns whether the target's eyes are at other positions than the picture's. A mono target takes one eye unchanged.
 static bool sees_around(const StoredPicture& picture, const ConvertTarget& target) {
   if (target.eyes[0] == kMono) return false;
   return picture.eyes[0].eye == kMono || !same_eyes(picture.camera, target.camera);
@@ -82,7 +82,7 @@ bool is_same_picture(const StoredPicture& picture, const ConvertTarget& target) 
 Extent fitting_extent(const StoredPicture& picture, const ProjectionSetting& projection) {
   const ProjectionSetting& own = picture.camera.projection;
   const double natural = natural_height(own, picture.size.width);
-  const double stretch = std::max(1.0, picture.size.height / natural);  // for eyes that are squeezed horizontally
+  const double stretch = std::max(1.0, picture.size.height / natural);  // for horizontally squeezed eyes
   double density = stretch * pixels_per_radian(own, picture.size.width);
   if (!picture.maps.empty()) {
     const double measured = pixels_per_radian(*picture.maps[0], picture.size, vec3(0.0f, 0.0f, -1.0f));
@@ -99,7 +99,7 @@ Extent fitting_extent(const StoredPicture& picture, const ProjectionSetting& pro
 
 // --- rows ----------------------------------------------------------------------------------------------------------
 
-// Whether the target has pixels where the source has none, judged by a grid of samples.
+// Returns whether the target has pixels where the source has none, judged by a grid of samples.
 static bool sees_more(const Mapping& mapping) {
   const int kLooks = 128;
   for (int i = 0; i < kLooks * kLooks; i++) {

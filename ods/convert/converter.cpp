@@ -42,7 +42,7 @@ Converter::Converter(const ConversionPlan& plan, const Source& source, bool move
   }
 }
 
-// A target that is smaller than the picture is filled as if it were at least as large.
+// A target that is smaller than the picture is computed at least at the picture's resolution.
 void Converter::set_up_rows(const StoredPicture& picture, bool adds_alpha) {
   constexpr int kMost = 8;
   fine_ = mapping_;
@@ -78,7 +78,7 @@ void Converter::fill_stretch(const Row& row, const Stretch& stretch, const Texel
   run.fill();
 }
 
-// A pixel whose filter reaches beyond its cell, or has no separate columns and rows.
+// Fills a pixel whose filter extends beyond its cell, or has no separate columns and rows.
 void Converter::fill_alone(PixelRun& run, const Row& row, const Stretch& stretch, int i) const {
   const float t = static_cast<float>(i) * stretch.per_pixel;
   const Place place{stretch.source_eye, stretch.at(t), true};
@@ -123,7 +123,7 @@ void Converter::fill_planned(const Row& row, const RowPlan& plan) const {
 
 namespace {
 
-// The texels that stretches of several rows need, as far as they are of one eye and cell.
+// The box of the texels for stretches of several rows, if they are in one eye and cell.
 class BlockBounds {
  public:
   void add(const Stretch& stretch) {
@@ -133,14 +133,14 @@ class BlockBounds {
     for (const float t : {0.0f, 0.5f * end, end}) {
       const vec2 at = stretch.at(t);
       const Footprint footprint = stretch.footprint(t);
-      const float kCubic = 2.0f, kBetween = 0.25f;  // how far places may be beyond these three
+      const float kCubic = 2.0f, kBetween = 0.25f;  // maximum distance of positions beyond these three
       const vec2 tents = stretch.is_sharp ? vec2(0.0f) : abs(footprint.dx) + abs(footprint.dy);
       const vec2 reach = tents + kCubic + kBetween;
       low_ = min(low_, at - reach), high_ = max(high_, at + reach);
     }
   }
 
-  // False if the block would be too large for a cache.
+  // Returns false if the block would be too large for a cache.
   bool set(Extent picture, TexelBlock& block) const {
     const int kMost = 12 * 1024;  // texels
     if (is_empty_) return false;
@@ -164,7 +164,7 @@ class BlockBounds {
 Converter::Converter(const ConversionPlan& plan, const TexelReader& reader)
     : plan_(plan), mapping_(plan.mapping), resampler_(plan.mapping.source, reader), channels_(resampler_.channels()) {}
 
-// Whether every pixel of a row of this width is filled.
+// Returns whether every pixel of a row of this width is filled.
 static bool covers(const RowPlan& plan, int width) {
   size_t pixels = plan.singles.size();
   for (const Stretch& stretch : plan.stretches) pixels += static_cast<size_t>(stretch.count);
@@ -181,7 +181,7 @@ void Converter::fill_band(int index, int y, int count, std::span<float> rows) co
   };
   const auto row_of = [&](int i) { return Row{index, y + i, rows.subspan(static_cast<size_t>(i) * width, width)}; };
   thread_local TexelBlock block;
-  std::array<size_t, kMostRows> begin{}, end{};  // of each row's stretches in the columns
+  std::array<size_t, kMostRows> begin{}, end{};  // for each row, its range of stretches in the columns
   for (int i = 0; i < count; i++) {
     if (!covers(plan_of(i), mapping_.size.width)) clear(row_of(i).pixels);
   }
@@ -214,7 +214,7 @@ SurfaceHit Converter::meet(int index, vec2 home, vec2 uv) const {
   return meet_surface(*reprojection_, mapping_.from[static_cast<size_t>(index)], ray, holes_ == Holes::kFilled);
 }
 
-// The footprint is that of the line of sight alone: parallax changes it little, except at depth edges.
+// The footprint is computed from the line of sight alone: parallax changes it little, except at depth edges.
 SurfaceHit Converter::fill_moved_pixel(const Row& row, int x) const {
   const vec2 home = mapping_.home_of(x, row.y), size = mapping_.uv_of(1.0f, 1.0f);
   const SurfaceHit met = meet(row.index, home, home);
@@ -237,7 +237,7 @@ SurfaceHit Converter::fill_moved_pixel(const Row& row, int x) const {
   return met;
 }
 
-// Adjacent pixels, which one eye of the picture shows.
+// Fills adjacent pixels whose hits are in one eye of the picture.
 void Converter::fill_hits(PixelRun& run, const Row& row, int x, std::span<const SurfaceHit> hits) const {
   vec2 places[kMaxAlike];
   for (size_t i = 0; i < hits.size(); i++) places[i] = hits[i].place.at;
@@ -281,7 +281,7 @@ std::optional<RowHoles> Converter::fill_by_rows(const Row& row) const {
   return fill_warped(row, hits);
 }
 
-// The mean of the finer rows' pixels; of what may not be averaged the middle one, of depth the nearest.
+// Averages the finer rows' pixels; layers that may not be averaged take the middle pixel, depth the nearest one.
 std::optional<RowHoles> Converter::fill_by_finer_rows(const Row& row) const {
   thread_local std::vector<float> fine;
   const size_t channels = static_cast<size_t>(channels_), finer = static_cast<size_t>(finer_);

@@ -15,31 +15,31 @@
 
 namespace ods {
 
-// Where a conversion looks, for pictures of one format.
+// The source positions of a conversion, for pictures of one format.
 struct ConversionPlan {
   Mapping mapping;
   bool is_same = false;       // is_same_picture()
-  std::vector<RowPlan> rows;  // of all eyes, from top to bottom; empty: planned when they are filled
+  std::vector<RowPlan> rows;  // for all eyes, from top to bottom; if empty, rows are planned when they are filled
 };
 
 // `format`: a picture or its header; it must outlive the plan and must not move.
 ConversionPlan make_plan(const StoredPicture& format, const ConvertTarget& target);
 
-// Plans all rows at once, for many pictures. Takes about 2 bytes per pixel of the target, more where the pictures are
-// seen at a slant.
+// Plans all rows at once, for many pictures. Takes about 2 bytes per pixel of the target, and more for slanted views of
+// the picture.
 void remember_rows(ConversionPlan& plan);
 
-// Pixels that the picture has nothing for.
+// Pixels without a source pixel.
 struct RowHoles {
   int empty = 0;
-  int filled = 0;  // from what is behind
+  int filled = 0;  // filled from the background
 };
 
 class Converter {
  public:
-  // moves_eyes: the target's eyes are in other places than the picture's. Both must outlive the converter.
+  // moves_eyes: the target's eyes are at other positions than the picture's. Both must outlive the converter.
   Converter(const ConversionPlan& plan, const Source& source, bool moves_eyes, bool adds_alpha, Holes holes);
-  // Of a picture that is made when it is read; the plan's eyes do not move.
+  // For a picture whose texels are computed when read; the plan's eyes do not move.
   Converter(const ConversionPlan& plan, const TexelReader& reader);
   Converter(const Converter&) = delete;
   Converter& operator=(const Converter&) = delete;
@@ -48,14 +48,14 @@ class Converter {
 
   RowHoles fill(int index, int y, std::span<float> row) const;
 
-  // Fills rows y, y + 1, ... with the same numbers, but reads the texels that they share once. Preconditions: made with
-  // a TexelReader; the plan has rows.
+  // Fills rows y, y + 1, ... with the same result, but reads the texels that they share once. Preconditions:
+  // constructed with a TexelReader; the plan has rows.
   void fill_band(int index, int y, int count, std::span<float> rows) const;
 
  private:
   // A row of the target.
   struct Row {
-    int index;  // of the eye
+    int index;  // index of the eye
     int y;
     std::span<float> pixels;
   };
@@ -81,13 +81,13 @@ class Converter {
   const Mapping& mapping_;
   Resampler resampler_;
   std::optional<Reprojection> reprojection_;
-  Mapping fine_;  // of a target that is `finer_` times as large, which is then averaged
+  Mapping fine_;  // mapping of a target that is `finer_` times as large, which is then averaged
   int finer_ = 1;
-  std::optional<RowWarp> warp_;  // of reprojection_, to fine_
-  std::vector<bool> averaged_;   // the channels that may be
+  std::optional<RowWarp> warp_;  // from reprojection_ to fine_
+  std::vector<bool> averaged_;   // per channel: whether it may be averaged
   Holes holes_ = Holes::kEmpty;
   int channels_;
-  int depth_channel_ = -1;  // in a pixel of a row; below 0: there is no depth
+  int depth_channel_ = -1;  // in a pixel of a row; negative if there is no depth
 };
 
 }  // namespace ods

@@ -7,10 +7,10 @@
 
 namespace ods {
 
-constexpr float kWidestSeam = 0.1f;  // radians: parallax makes near things double in it
+constexpr float kWidestSeam = 0.1f;  // radians: parallax doubles close objects in the seam
 
-// How much more of the picture lies within lens 1 than within lens 0, radians; the overlap of their circles in
-// `overlap`.
+// The depth of the direction inside lens 1 minus its depth inside lens 0, radians. Sets `overlap` to the overlap of
+// their circles.
 static float balance_of_lenses(const StoredPicture& picture, vec3 direction, float& overlap) {
   const float first = picture.maps[0]->inside(direction), second = picture.maps[1]->inside(direction);
   overlap = first + second;  // axes are opposite

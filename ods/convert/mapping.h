@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where the target of a conversion looks in the picture, pixel by pixel.
+// Maps the pixels of a conversion's target to positions in the picture.
 #pragma once
 #include <optional>
 #include <vector>
@@ -16,21 +16,21 @@ struct WeightedPlace {
   float weight = 0.0f;
 };
 
-// Maps the target's pixels to places in the source.
+// Maps the target's pixels to positions in the source.
 struct Mapping {
   StereoCamera stereo;  // owns the maps that `camera` reads
   Source source;
-  Camera camera;  // of the target, with its centre at 0
+  Camera camera;  // the target's, with its centre at 0
   Extent size;
   std::vector<int> eyes;
-  std::vector<int> from;          // for each eye of the target: its index in the source
-  std::optional<glm::mat3> turn;  // from the world to the world as the source's camera saw it
+  std::vector<int> from;          // for each eye of the target, its index in the source
+  std::optional<glm::mat3> turn;  // from the world to the world in the frame of the source's camera
 
-  // uv may be outside the cell of `home`: the target's own filter reaches there.
+  // uv may be outside the cell of `home`, where the target's own filter reaches.
   Place find(int index, vec2 home, vec2 uv) const;
 
-  // Of a camera that looks ahead and back: the same place in the lens that shows it less well, and its share of the
-  // pixel, below a half; 0 beyond the seam, and of all other pictures.
+  // For dual-fisheye cameras: the same point in the other lens, and the weight of that lens in the blend (below 0.5).
+  // The weight is 0 outside the overlap and for all other pictures.
   WeightedPlace other_lens(int index, vec2 home, vec2 uv) const;
   Ray ray_of(int index, vec2 home, vec2 uv) const {
     return camera_ray(camera, eyes[static_cast<size_t>(index)], home, uv, vec2(0.0f));
@@ -45,16 +45,16 @@ struct Mapping {
     return cell_of(source.camera.projection, source.picture->size, place.at);
   }
   vec2 home_of(int x, int y) const { return uv_of(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f); }
-  // Whether the target has a picture at this pixel: fisheyes have empty corners.
+  // Returns whether the target has a picture at this pixel: fisheyes have empty corners.
   bool wants(int x, int y) const {
     return !has_image_circle(camera.projection.kind) || look_of(camera.projection, home_of(x, y), home_of(x, y)).seen;
   }
 };
 
-// The picture, of which only the format matters, must outlive the mapping and must not move.
+// Makes the mapping. The picture, of which only the format is used, must outlive it and must not move.
 Mapping make_mapping(const StoredPicture& picture, const ConvertTarget& target);
 
-// Whether ConvertTarget::turned is any turn.
+// Returns whether ConvertTarget::turned is a rotation at all.
 bool is_turned(const ConvertTarget& target);
 
 }  // namespace ods

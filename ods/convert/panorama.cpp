@@ -44,7 +44,7 @@ int eye_over_pole(const Source& source, int source_eye, bool above) {
   return (above ? source.other_above : source.other_below) ? 1 - source_eye : source_eye;
 }
 
-// A fisheye's edge runs through texels: those whose centre is inside have a picture up to their corners.
+// A fisheye's edge crosses texels: those whose centre is inside are used up to their corners.
 static bool is_seen(const Source& source, const ImagePoint& place) {
   if (place.seen || !has_image_circle(source.camera.projection.kind) || !inside_picture(place.uv)) return place.seen;
   const vec2 middle = (floor(place.uv * size_of(source)) + 0.5f) / size_of(source);
@@ -59,7 +59,7 @@ static Cell cell_at(int kind, Extent size, int column, int row) {
           edge(row + 1, rows, size.height)};
 }
 
-// Keeps a place off its face's border: the neighbour in the file may be an unrelated face.
+// Moves a position away from its face's border: the adjacent face in the file may be unrelated.
 static void keep_in_cell(const Source& source, vec3 direction, Place& place) {
   const int kind = source.camera.projection.kind;
   if (!is_cube(kind)) return;
@@ -72,7 +72,7 @@ static void keep_in_cell(const Source& source, vec3 direction, Place& place) {
   place.at = {keep(place.at.x, own.left, own.right), keep(place.at.y, own.top, own.bottom)};
 }
 
-// Finds a direction, given in the picture's own frame.
+// Finds a direction given in the picture's own frame.
 static Place find_direction(const Source& source, int source_eye, vec3 d) {
   if (!source.picture->maps.empty()) {
     const ImagePoint shown = source.picture->maps[static_cast<size_t>(source_eye)]->place(d);
@@ -118,7 +118,7 @@ bool has_texel(const Source& source, const Cell& cell, int x, int y) {
 
 static Texel nearest_of_edge(const Source& source, int source_eye, const Cell& cell, int x, int y) {
   if (has_image_circle(source.camera.projection.kind)) {
-    // Move inwards until a texel nearby has its centre in the circle.
+    // Moves inwards until a texel nearby has its centre in the circle.
     const vec2 circle = source.camera.projection.circle, across = circle * size_of(source);
     const vec2 p = (2.0f * middle_of(source, x, y) - 1.0f) / circle;
     const float r = length(p), texel = 2.0f / std::min(across.x, across.y);
@@ -141,7 +141,7 @@ Texel texel_of(const Source& source, int source_eye, const Cell& cell, int x, in
   int there = source_eye;
   if (abs(look.elevation) > 0.5f * kPi) {
     const int other = eye_over_pole(source, source_eye, look.elevation > 0.0f);
-    if (other != source_eye && camera.convergence == kShift) {  // the other eye is turned the opposite way
+    if (other != source_eye && camera.convergence == kShift) {  // the other eye is turned in the opposite direction
       const int which = source.picture->eyes[static_cast<size_t>(source_eye)].eye;
       direction = turn_about(direction, camera.axis, 2.0f * shift_angle(camera, which));
     }

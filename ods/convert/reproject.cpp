@@ -37,7 +37,7 @@ std::optional<size_t> depth_layer(const StoredPicture& picture) {
     if (layers[i].channels[0] == "Z") return i;
     if (layers[i].channels[0].ends_with(".Depth.Z") && !foreign) foreign = i;
   }
-  if (picture.camera.projection.kind == kPerspective) return {};  // Blender measures those along the axis
+  if (picture.camera.projection.kind == kPerspective) return {};  // Blender measures perspective depth along the axis
   return foreign;
 }
 
@@ -89,7 +89,7 @@ Reprojection make_reprojection(const Source& source) {
   return reprojection;
 }
 
-// Interpolates between texels of one surface; otherwise takes the nearest texel.
+// Interpolates between texels of one surface; otherwise uses the nearest texel.
 static float nearness_of(const Reprojection& reprojection, const Place& place) {
   const Source& source = *reprojection.source;
   const Cell cell = cell_of(source.camera.projection, source.picture->size, place.at);
@@ -112,10 +112,10 @@ static float nearness_of(const Reprojection& reprojection, const Place& place) {
 
 namespace {
 
-// The place of a point of the ray in an eye's picture. The argument is 1 / the point's distance along the ray.
+// The position of a point of the ray in an eye's picture. The argument is 1 / the point's distance along the ray.
 struct Shown {
   Place place;
-  float inverse_depth = 0.0f;  // of the point, seen by that eye
+  float inverse_depth = 0.0f;  // 1 / distance of the point from that eye
 };
 
 struct Curve {
@@ -123,14 +123,14 @@ struct Curve {
   int source_eye;
   const Ray& ray;
   float most = 0.0f;         // 1 / distance of the nearest point
-  bool is_parabola = false;  // the places follow a parabola through three of them
+  bool is_parabola = false;  // the positions follow a parabola through three of them
   Shown at_far, at_middle, at_near;
 
   Shown find(float inverse_depth) const;
   Shown at(float inverse_depth) const;
 };
 
-const float kMinInverseDepth = 1e-6f;  // 1/metres: beyond this distance floats cannot tell points apart
+const float kMinInverseDepth = 1e-6f;  // 1/metres: beyond this distance floats cannot distinguish points
 
 // Inlining the kernel's camera makes it faster.
 [[gnu::flatten]] Shown Curve::find(float inverse_depth) const {
@@ -161,13 +161,13 @@ Curve make_curve(const Source& source, int source_eye, const Ray& ray, float mos
   return curve;
 }
 
-// What a march along a curve has found.
+// The result of a march along a curve.
 struct March {
   std::optional<SurfaceHit> met;
-  // Where the curve goes behind a thing, or comes out from behind it, the surface on the other side of that edge. The
-  // farthest of them is what the thing hides.
+  // At an edge where the curve passes behind an object, or comes out from behind it: the surface on the other side of
+  // that edge. The farthest one is the background that the object hides.
   std::optional<Place> edge;
-  float hidden = 0.0f;  // its 1 / metres
+  float hidden = 0.0f;  // its nearness, 1 / metres
 };
 
 void take_farther(March& march, const Place& edge, float surface) {
@@ -200,7 +200,7 @@ SurfaceHit crossing(const Reprojection& reprojection, const Curve& curve, const 
   return {curve.at(met).place, met > kMinInverseDepth ? 1.0f / met : kFarDepth};
 }
 
-// The first crossing from in front of the surface to behind it, from near to far, in steps of about a texel.
+// Finds the first crossing from in front of the surface to behind it, from near to far, in steps of about a texel.
 March march_along(const Reprojection& reprojection, const Curve& curve) {
   const int steps = steps_of(curve);
   const float step = curve.most / static_cast<float>(steps);
@@ -230,21 +230,21 @@ March march_along(const Reprojection& reprojection, const Curve& curve) {
   return march;
 }
 
-// Straight above and below, where eyes on a circle do not look: what is seen in that direction.
+// Directions straight above and below, where eyes on a circle do not look: uses the surface visible in that direction.
 SurfaceHit fill_blind(const Reprojection& reprojection, const Curve& curve) {
   if (!curve.at_far.place.seen) return {};
   const float nearness = nearness_of(reprojection, curve.at_far.place);
   return {curve.at_far.place, nearness > kMinInverseDepth ? 1.0f / nearness : kFarDepth, true};
 }
 
-// What a thing hides, as if the surface beside it went on, mirrored at the edge.
+// Continues the surface beside the object behind it, mirrored at the edge.
 SurfaceHit fill_behind(const Reprojection& reprojection, const Curve& curve, const March& march) {
   constexpr float kClear = 1.5f;  // texels from the edge, whose own colours are mixed
   if (!march.edge) return fill_blind(reprojection, curve);
   const Extent size = reprojection.source->picture->size;
   const vec2 whole(static_cast<float>(size.width), static_cast<float>(size.height));
   const float depth = march.hidden > kMinInverseDepth ? 1.0f / march.hidden : kFarDepth;
-  const vec2 away = march.edge->at - curve.at(march.hidden).place.at;  // from under the thing to the edge
+  const vec2 away = march.edge->at - curve.at(march.hidden).place.at;  // from the hidden point to the edge
   Place clear = *march.edge;
   if (length(away) > 1e-6f) clear.at = clear.at + normalize(away) * kClear;
   Place mirrored = clear;
@@ -260,7 +260,7 @@ SurfaceHit fill_behind(const Reprojection& reprojection, const Curve& curve, con
 
 SurfaceHit meet_surface(const Reprojection& reprojection, int source_eye, const Ray& ray, bool fills) {
   const Source& source = *reprojection.source;
-  // The ray may start nearer to objects than the picture's own rays.
+  // The ray may start closer to objects than the picture's own rays.
   const float away = length(ray.origin) + length(vec2(0.5f * source.camera.ipd, source.camera.neck));
   const float most = 1.0f / std::max(reprojection.nearest - away, 0.25f * reprojection.nearest);
   const int count = static_cast<int>(source.picture->eyes.size());

@@ -30,7 +30,7 @@ constexpr float kMax = std::numeric_limits<float>::max();
 
 namespace {
 
-// Converts samples of a file to linear light and to numbers. A caller that reads many fetches the table once.
+// Converts samples of a file to linear light and to numbers. Callers that read many samples fetch the table once.
 template <class T>
 struct Codes {
   using Type = T;
@@ -71,7 +71,7 @@ static typename Samples::Type sample_at(const std::byte* texel, int channel) {
   return sample;
 }
 
-// A SIMD register, which compilers do not use by themselves here. Both g++ and clang support this attribute.
+// A SIMD register, which compilers do not use automatically here. Both g++ and clang support this attribute.
 using Four = float __attribute__((vector_size(16)));
 
 // kAlpha: the last of the channels is alpha.
@@ -101,7 +101,7 @@ static void read_lights(const LayerPixels& layer, const std::byte* first, Extent
   }
 }
 
-// Clamps the cubic's overshoot to the range of the texels. kAcross: columns of the filter; 0: any number.
+// Clamps the cubic's overshoot to the range of the texels. kAcross: columns of the filter; 0 for any number.
 template <int kAcross>
 static Four mix_texels(const Four* texels, int width, const TexelFilter& filter) {
   const int across = kAcross > 0 ? kAcross : filter.across.count;
@@ -116,7 +116,7 @@ static Four mix_texels(const Four* texels, int width, const TexelFilter& filter)
     }
     sum += row * filter.down.weights[y];
   }
-  sum = sum > low ? sum : low;  // also replaces NaN, which values near the largest float give
+  sum = sum > low ? sum : low;  // also replaces NaN, which results from values near the largest float
   return sum < high ? sum : high;
 }
 
@@ -125,7 +125,7 @@ static void read_numbers(const std::byte* texel, int count, float* out) {
   for (int c = 0; c < count; c++) out[c] = Samples::number(sample_at<Samples>(texel, c));
 }
 
-// first: of the texels in the layer. g++ 14 cannot compile Resampler::Group if a type of this file alone is in here.
+// first: of the texels in the layer. g++ 14 cannot compile Resampler::Group if it contains a type of this file.
 using ReadLights = void (*)(const LayerPixels& layer, const std::byte* first, Extent size, Four* out);
 
 template <class Samples>
@@ -169,14 +169,14 @@ static ReadNumbers number_reader_of(SampleType sample) {
 // --- layers --------------------------------------------------------------------------------------------------------
 
 struct Resampler::Group {
-  const TexelReader* reader = nullptr;  // instead of all that follows but the channels
+  const TexelReader* reader = nullptr;  // replaces all members below except the channels
   ReadLights read_lights;
   ReadNumbers read_numbers;  // for layers that must not be averaged
   size_t layer;
   ptrdiff_t offset;  // within a texel, bytes
   int first;         // first channel in the pixel
   int count;
-  ptrdiff_t size;  // of the group in a texel, bytes
+  ptrdiff_t size;  // size of the group in a texel, bytes
 
   const LayerPixels& layer_of(const Source& source, int source_eye) const {
     return source.picture->eyes[static_cast<size_t>(source_eye)].layers[layer];
@@ -203,7 +203,7 @@ Resampler::Resampler(const Source& source, bool adds_alpha) : source_(source) {
   for (size_t i = 0; i < layers.size(); i++) {
     const LayerPixels& layer = layers[i];
     const int all = static_cast<int>(layer.channels.size());
-    // Alpha belongs to the colours before it.
+    // Alpha belongs to the preceding colours.
     const bool alpha = layer.rule == LayerRule::kLight && (all == 2 || all == 4) && layer.channels.back() == "A";
     for (int first = 0; first < all; first += 4) {
       const int count = std::min(all - first, 4);
@@ -227,7 +227,7 @@ Resampler::~Resampler() = default;
 
 namespace {
 
-// The box of texels that filters need, and their number if every filter reads its own.
+// The box of texels for several filters, and their total number if every filter reads its own.
 struct Reach {
   Cell box;
   int texels = 0;
@@ -302,9 +302,9 @@ ODS_WIDE static void mix_pixels(std::span<const TexelFilter> filters, const Four
   }
 }
 
-// Neighbouring pixels share most of their texels, which are read once for as many pixels as fit a small box.
+// Adjacent pixels share most of their texels, which are read once for as many pixels as fit into a small box.
 void Resampler::fill(int source_eye, std::span<const TexelFilter> filters, float* out, const TexelBlock* block) const {
-  const int kMaxTexels = 1024;  // of one filter
+  const int kMaxTexels = 1024;  // for one filter
   const Reach reach = reach_of(filters);
   if (contains(block, source_eye, reach.box)) {
     const auto* texels = reinterpret_cast<const Four*>(block->texels.data());

@@ -15,23 +15,23 @@ namespace {
 
 // A row of a cell of the target.
 struct CellRow {
-  int index;  // of the eye, in the target
+  int index;  // index of the eye, in the target
   int y;
   Cell cell;
 };
 
-// The place of a pixel's centre, and that of its neighbour below or above, away from the nearer edge of the cell:
-// beyond a pole another picture begins.
+// The position of a pixel's centre, and the position of the pixel below or above, away from the closer edge of the
+// cell, because beyond a pole another picture begins.
 struct Node {
   Place at;
   Place beside;
   Cell cell;             // in the source
-  bool is_seam = false;  // another lens shows it, too
+  bool is_seam = false;  // the other lens shows it, too
 };
 
 }  // namespace
 
-// The direction away from the nearer edge.
+// The direction away from the closer edge.
 static int way_down(const CellRow& row) {
   return 2 * row.y < row.cell.top + row.cell.bottom ? 1 : -1;
 }
@@ -62,7 +62,8 @@ static std::optional<Stretch> find_stretch(const Node& first, const Node& middle
   const float most = pixels > 2 * kShortStretch ? 8.0f / static_cast<float>(pixels) : 1.0f;
   if (length(stretch.bend) > most * (1.0f + 0.1f * texels) || turn > most * (0.25f + 0.25f * length(stretch.down[1])))
     return {};
-  // Between two sharp footprints all are: those whose ellipse is within a circle are a convex set.
+  // Between two sharp footprints all are sharp, because the footprints whose ellipse is within a circle are a convex
+  // set.
   const auto is_sharp = [&](float t) { return texel_tents(stretch.footprint(t)) == TexelTents(); };
   stretch.is_sharp = is_sharp(0.0f) && is_sharp(1.0f) && is_sharp(2.0f);
   return stretch;
@@ -70,7 +71,7 @@ static std::optional<Stretch> find_stretch(const Node& first, const Node& middle
 
 // --- single pixels --------------------------------------------------------------------------------------------------
 
-// Tries neighbours in the same cell of the source, the one away from the target's edge first; then nearer points.
+// Tries adjacent pixels in the same cell of the source, first the one away from the target's edge; then closer points.
 Footprint find_footprint(const Mapping& mapping, int index, int x, int y, const Place& place) {
   const Cell cell = mapping.cell_at(x, y);
   const vec2 middle(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
@@ -104,7 +105,7 @@ bool stays_in_cell(const Place& place, const Cell& cell, const std::vector<Filte
   });
 }
 
-// Whether the footprint predicts the places of the filter's far points correctly.
+// Returns whether the footprint predicts the positions of the filter's far points correctly.
 static bool is_flat(const Mapping& mapping, int index, vec2 home, const Place& place,
                     const std::vector<FilterPoint>& points) {
   if (!stays_in_cell(place, mapping.source_cell(place), points)) return false;
@@ -146,7 +147,7 @@ class RowPlanner {
     }
   }
 
-  // Up to a stretch of pixels; its end may be beyond the cell's.
+  // Plans a range of pixels; its end may be beyond the cell's.
   void plan_between(const CellRow& row, int x, int pixels, const Node& first, const Node& last) {
     if (x >= row.cell.right) return;
     const int end = std::min(x + pixels, row.cell.right), half = pixels / 2;

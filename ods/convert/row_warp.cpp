@@ -11,24 +11,16 @@ namespace ods {
 
 // --- cameras ---------------------------------------------------------------------------------------------------------
 
-// Whether a merge map has the same value in all directions of an elevation.
-static bool is_round(const CameraMap& map) {
-  for (int i = 0; i < map.width * map.height; i++) {
-    if (map.texels[i] != map.texels[i / map.width * map.width]) return false;
-  }
-  return true;
-}
-
 static bool is_symmetric(const Camera& camera) {
   const bool upright = camera.axis == vec3(0.0f, 1.0f, 0.0f) && camera.up == vec3(0.0f, 1.0f, 0.0f);
-  return upright && camera.projection.kind == kLatLong && !has_head_tilt(camera) && is_round(camera.merge_map);
+  return upright && camera.projection.kind == kLatLong && !has_head_tilt(camera) && is_same_around(camera.merge_map);
 }
 
 static float density(const Projection& projection, Extent size) {
   return static_cast<float>(size.width) / projection.span.x;
 }
 
-// Radians: how wide edges are that lenses, stitchers and encoders have left.
+// Radians: the width of edges after lenses, stitchers and encoders.
 static const float kBlur = 2.0f * kPi / 4096.0f;
 
 std::optional<RowWarp> RowWarp::make(const Mapping& mapping, const Reprojection& reprojection) {
@@ -49,7 +41,7 @@ RowWarp::RowWarp(const Mapping& mapping, const Reprojection& reprojection)
   const Extent size = mapping.source.picture->size;
   scale_ = density(from, size) / density(to, mapping.size);
   period_ = wraps_around(from) ? static_cast<float>(size.width) / scale_ : 0.0f;
-  // A surface at a slant of 88 degrees, but no more than is_one_surface() allows.
+  // A surface at a slant of 88 degrees, but at most as steep as is_one_surface() allows.
   one_surface_ = std::clamp(25.0f / density(from, size), 0.01f, 0.1f);
 }
 
@@ -57,17 +49,18 @@ RowWarp::RowWarp(const Mapping& mapping, const Reprojection& reprojection)
 
 namespace {
 
-// Where the picture has what the target's pixel 0 would see at some distance, if the row went on to both sides.
+// The position in the picture that the target's pixel 0 would see at some distance, if the row were extended on both
+// sides.
 struct WarpNode {
   float column = 0.0f, row = 0.0f;  // texels
   float inverse_depth = 0.0f;       // along the target's ray
 };
 
-// By the surface's nearness in the picture.
+// The shifts by the surface's nearness in the picture.
 class Shifts {
  public:
   std::vector<WarpNode> nodes;
-  float most = 1e-6f;      // the nearness of the last node
+  float most = 1e-6f;      // nearness of the last node
   float nodes_per = 0.0f;  // nearness
 
   WarpNode at(float nearness) const {
@@ -90,11 +83,11 @@ class Shifts {
 };
 
 struct RowOfTarget {
-  int index;  // of the eye
+  int index;  // index of the eye
   int y;
 };
 
-// False: not all of it is in the picture.
+// Returns false if a part is outside the picture.
 bool find_shifts(const Mapping& mapping, RowOfTarget target, int source_eye, float scale, size_t count,
                  Shifts& shifts) {
   const Source& source = mapping.source;
@@ -121,7 +114,7 @@ bool find_shifts(const Mapping& mapping, RowOfTarget target, int source_eye, flo
   return true;
 }
 
-// Some rows of the picture as 1 / metres.
+// Several rows of the picture as 1 / metres.
 class Strip {
  public:
   void read(const Reprojection& reprojection, int source_eye, int first, int last) {
@@ -133,7 +126,7 @@ class Strip {
     }
   }
 
-  // Between the centres of two texels of a column; where they are not one surface the nearer one of the two counts.
+  // Interpolates between the centres of two texels of a column; if they are not on one surface, the closer one counts.
   float at(int column, float row, float one_surface) const {
     const float from = row - 0.5f - static_cast<float>(first_);
     const int upper = std::clamp(static_cast<int>(from), 0, count_ - 1), lower = std::min(upper + 1, count_ - 1);
@@ -162,7 +155,7 @@ struct Found {
   bool is_filled = false;
 };
 
-// std::floor() is a call of a function.
+// std::floor() compiles to a function call.
 int floor_of(float x) {
   const int towards_0 = static_cast<int>(x);
   return towards_0 - (static_cast<float>(towards_0) > x ? 1 : 0);
@@ -185,7 +178,7 @@ class Drawing {
         fringe_(fringe),
         eye_(source_eye) {}
 
-  // Of all texels of a row. The last one is the first again, a turn later, if there is one.
+  // Draws all texels of a row. In a full turn the last one is the first one again.
   void draw(const std::vector<Point>& points) {
     frayed_.assign(points.size(), false);
     for (size_t i = 0; i + 1 < points.size(); i++) {
@@ -207,7 +200,7 @@ class Drawing {
   }
 
  private:
-  // From a texel away from the nearer surface beside it, as long as the surface goes on.
+  // Marks texels from one away from the closer surface beside it, as far as the surface extends.
   void fray(const std::vector<Point>& points, size_t first, int step) {
     for (int i = 0; i < fringe_; i++) {
       const size_t at = first + static_cast<size_t>(i * step), next = at + static_cast<size_t>(step);
@@ -216,7 +209,7 @@ class Drawing {
     }
   }
 
-  // Of one surface, or so little apart in the new picture that nothing shows between them.
+  // Returns whether points are on one surface, or so close in the new picture that nothing is visible between them.
   bool is_joined(const Point& a, const Point& b) const {
     if (a.nearness < 0.0f || b.nearness < 0.0f) return false;
     if (std::abs((b.x - a.x) * scale_ - 1.0f) <= 1.0f) return true;
@@ -252,16 +245,16 @@ class Drawing {
   }
 
   std::vector<Found>& found_;
-  std::vector<bool> frayed_;  // beside a nearer surface that uncovers what is behind: its colours are of both
-  float half_;                // a texel, pixels
+  std::vector<bool> frayed_;  // beside a closer surface that uncovers the background: its colours are mixed
+  float half_;                // half a texel, in pixels
   float scale_, period_, one_surface_;
   int fringe_, eye_;
 };
 
-// What a thing hides shows the surface beside it, mirrored at the edge: of a hole's two sides, the farther one.
+// Fills the hidden parts with the surface beside them, mirrored at the edge: of a hole's two sides, the farther one.
 class Filling {
  public:
-  // find: the nearness of a texel's column, in the row in which a surface of some nearness is.
+  // find: the nearness of a texel's column, in the row that contains a surface of a given nearness.
   template <class Find>
   static void fill(std::vector<Found>& found, bool is_turn, float scale, const Find& find) {
     const int width = static_cast<int>(found.size());
@@ -307,14 +300,14 @@ class Filling {
 
 namespace {
 
-// What a picture's eye has along a row of the target.
+// The surfaces that a picture's eye has along a row of the target.
 struct Surfaces {
   Shifts shifts;
   Strip strip;
   bool is_level = false;  // all in one row of the picture
 };
 
-// False: in too many rows, or not all in the picture.
+// Returns false if they are in too many rows, or partly outside the picture.
 bool find_surfaces(const Mapping& mapping, const Reprojection& reprojection, RowOfTarget target, int source_eye,
                    float scale, Surfaces& found) {
   constexpr float kMostRows = 6.0f, kLevel = 0.02f;
@@ -341,8 +334,8 @@ bool find_surfaces(const Mapping& mapping, const Reprojection& reprojection, Row
   return true;
 }
 
-// The nearness of the surface that a column has where the row crosses it: it tells the row, which tells it. `start`:
-// from where it is sought.
+// The nearness of a column's surface where the row crosses it. Row and nearness depend on each other, so it iterates,
+// from `start`.
 float nearness_in(const Surfaces& surfaces, int column, float start, float one_surface) {
   float nearness = surfaces.strip.at(column, surfaces.shifts.at(start).row, one_surface);
   for (int round = 0; round < 3 && !surfaces.is_level; round++) {
@@ -356,8 +349,8 @@ float nearness_in(const Surfaces& surfaces, int column, float start, float one_s
 
 }  // namespace
 
-// Draws what an eye of the picture has along the row. Where surfaces cross rows, a column may meet two of them: one is
-// sought from near, one from far.
+// Draws the surfaces that an eye of the picture has along the row. Where surfaces cross rows, a column may meet two of
+// them: one is found starting from near, the other from far.
 static void draw_surfaces(const Surfaces& surfaces, Extent picture, float scale, float period, float one_surface,
                           Drawing& drawing) {
   constexpr float kTwice = 0.25f;  // rows

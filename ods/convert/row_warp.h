@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Moves the eyes of a lat-long picture by its depth, a row at a time: what meet_surface() finds pixel by pixel, at the
-// cost of a few operations per texel, however far things move.
+// Moves the eyes of a lat-long picture by its depth, row by row: the same points that meet_surface() finds for each
+// pixel, at the cost of a few operations per texel, for any displacement.
 //
-// Where both cameras are symmetric about the same upright axis, the surfaces along a target row move by their nearness
-// alone, whatever their heading: one short table per row tells by how many columns, and in which row of the picture
-// they are. Every texel is a point on the target row, and between neighbours of one surface the row is a line; of what
-// lies on one pixel, the nearest counts. Where neighbours are not of one surface the line is cut, half way between
-// them, and the texel of the farther one that has colours of both is left out.
+// If both cameras are symmetric about the same upright axis, the shift of the surfaces along a target row depends only
+// on their nearness, not on their heading: one short table per row gives the shift in columns, and their row in the
+// picture. Every texel is a point on the target row, and between adjacent texels of one surface the row is a line; of
+// several surfaces on one pixel, the closest counts. Between texels of different surfaces the line is cut half way, and
+// the farther texel, which has mixed colours, is left out.
 #pragma once
 #include <optional>
 #include <vector>
@@ -20,12 +20,12 @@ namespace ods {
 
 class RowWarp {
  public:
-  // Nothing for other cameras, pictures of other projections, and a target that is smaller than the picture. Both must
-  // outlive the result and must not move.
+  // Returns nullopt for other cameras, pictures of other projections, and a target that is smaller than the picture.
+  // Both must outlive the result and must not move.
   static std::optional<RowWarp> make(const Mapping& mapping, const Reprojection& reprojection);
 
-  // What each pixel of row y of the target's eye with this index meets. False: it cannot tell, because surfaces cross
-  // many rows there, as they do near the poles.
+  // Finds the hits of all pixels of row y of the target's eye with this index. Returns false if surfaces cross too many
+  // rows there, as near the poles.
   bool warp(int index, int y, bool fills, std::vector<SurfaceHit>& row) const;
 
  private:
@@ -34,8 +34,8 @@ class RowWarp {
   const Mapping* mapping_;
   const Reprojection* reprojection_;
   float scale_;        // texels per pixel
-  float period_;       // pixels of a turn; 0: the picture is no whole turn
-  float one_surface_;  // how much neighbours' nearness may differ, as a share
+  float period_;       // pixels per turn; 0 if the picture is not a full turn
+  float one_surface_;  // maximum relative difference of the nearness of adjacent texels
 };
 
 }  // namespace ods

@@ -13,8 +13,8 @@ namespace ods {
 
 // --- tents ----------------------------------------------------------------------------------------------------------
 
-// Below this the picture is only interpolated: blurring by a hundredth of half a texel would
-// cost sharpness for nothing.
+// Below this radius the picture is only interpolated: a blur by a hundredth of half a texel would cost sharpness
+// without a benefit.
 static const float kMinRadius = 0.15f;
 static const int kMaxPoints = 65;  // along one axis
 
@@ -23,7 +23,7 @@ namespace {
 // Points at equal steps. Their weights add up to 1, and rise and fall by equal steps.
 struct Tent {
   int count = 1;
-  float offset = 0.0f;  // of the first point
+  float offset = 0.0f;  // offset of the first point
   float step = 0.0f;
   float first_weight = 1.0f;
 
@@ -51,7 +51,7 @@ static Tent make_tent(float variance_of_6) {
 
 void filter_points(const Footprint& footprint, std::vector<FilterPoint>& points) {
   const vec2 dx = footprint.dx, dy = footprint.dy;
-  // Axes of the ellipse that a round pixel becomes: eigenvectors of J J^T, with the eigenvalues s^2.
+  // The axes of the ellipse onto which a round pixel is mapped: eigenvectors of J J^T, with the eigenvalues s^2.
   const float xx = dx.x * dx.x + dy.x * dy.x, yy = dx.y * dx.y + dy.y * dy.y, xy = dx.x * dx.y + dy.x * dy.y;
   points.assign(1, {vec2(0.0f), vec2(0.0f), 1.0f});
   if (xx + yy <= 1.0f) return;
@@ -76,7 +76,7 @@ void filter_points(const Footprint& footprint, std::vector<FilterPoint>& points)
 
 // --- columns and rows -----------------------------------------------------------------------------------------------
 
-// A SIMD register, which compilers do not use by themselves here. Both g++ and clang support this attribute.
+// A SIMD register, which compilers do not use automatically here. Both g++ and clang support this attribute.
 using Four = float __attribute__((vector_size(16)));
 
 // Catmull-Rom weights of the texels at -1, 0, 1 and 2.
@@ -101,8 +101,8 @@ static Position split_exactly(float at) {
   return {whole, from - static_cast<float>(whole)};
 }
 
-// A place this close to the centre of a texel is meant to be exactly there:
-// the round trip through angles has that much error.
+// A position this close to the centre of a texel is treated as exactly there, because the round trip through angles has
+// that much error.
 static Position split(float at) {
   const float kTolerance = 1.0f / 256.0f;
   const Position exact = split_exactly(at);
@@ -114,7 +114,7 @@ static void sum_weights(float at, const Tent& tent, TexelWeights& to) {
   Position position = split(at + tent.at(0));
   to.first = position.texel - 1;
   to.count = 0;
-  Four sums{};  // of the four weights from to.count on, to which later points still add
+  Four sums{};  // sums of the four weights from to.count on, which later points still change
   for (int i = 0, texel = position.texel; i < tent.count; i++) {
     position = split(at + tent.at(i));
     for (; texel < position.texel; texel++) {
@@ -129,14 +129,14 @@ static void sum_weights(float at, const Tent& tent, TexelWeights& to) {
 
 namespace {
 
-// The weights of tents, which are slow to sum, tabulated over the squared radius and the position between two texels.
+// The weights of tents, which are slow to sum, in a table over the squared radius and the position between two texels.
 struct TentTable {
   static constexpr int kSteps = 48;  // per unit of the squared radius, the filter's added variance times 6
   static constexpr int kSquares = 9 * kSteps;
   static constexpr int kPhases = 128;  // per texel
   static constexpr int kMax = 12;      // weights
   struct Row {
-    int first = kMax;  // texel of the first weight, relative to the one before the place
+    int first = kMax;  // texel of the first weight, relative to the one before the position
     int count = 0;
     std::array<std::array<float, kMax>, kPhases + 2> weights;  // the last one twice, so that it has a successor
   };
@@ -169,7 +169,7 @@ TentTable::TentTable() {
 
 namespace {
 
-// Places along one axis, and the member of TexelFilter that receives their weights.
+// Positions along one axis, and the member of TexelFilter that receives their weights.
 struct Axis {
   float places[kMaxAlike];
   std::span<TexelFilter> filters;
@@ -178,7 +178,7 @@ struct Axis {
 
 }  // namespace
 
-// The loops here and below always run over all kMaxAlike places: compilers turn them into a few instructions.
+// The loops here and below always run over all kMaxAlike positions, which compilers turn into a few instructions.
 ODS_WIDE static void interpolate(const Axis& axis) {
   Position positions[kMaxAlike];
   for (size_t i = 0; i < kMaxAlike; i++) positions[i] = split(axis.places[i]);
@@ -218,7 +218,7 @@ static void set_weights(float square, const Axis& axis) {
   if (square < kMinRadius * kMinRadius) return interpolate(axis);
   const float step = square * TentTable::kSteps + 0.5f;
   if (step < TentTable::kSquares) {
-    static const TentTable kTable;  // takes a few milliseconds; made on first use
+    static const TentTable kTable;  // takes a few milliseconds; computed on first use
     return look_up_weights(kTable.rows[static_cast<size_t>(step)], axis);
   }
   const Tent tent = make_tent(square);
@@ -230,7 +230,7 @@ static void set_weights(float square, const Axis& axis) {
 std::optional<TexelTents> texel_tents(const Footprint& footprint) {
   // Beyond this the ellipse is so skewed that separate columns and rows describe a different one.
   const float kMaxLean = 0.1f;
-  // Skew does not matter if it moves the ends of the ellipse's tent sideways by no more than this many texels.
+  // Skew has no effect if it moves the ends of the ellipse's tent sideways by at most this many texels.
   const float kMaxAside = 0.05f;
   // A filter up to this radius fits into TexelWeights.
   const float kMaxRadius = 12.0f;

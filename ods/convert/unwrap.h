@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A picture that its camera's lenses or meshes describe, as the lat-long that shows as much: for those who look at
-// pixels by a projection.
+// Converts a picture that is described by its camera's lenses or meshes to a lat-long picture of the same directions,
+// for code that needs a projection.
 #pragma once
 #include "ods/picture/stored_picture.h"
 
 namespace ods {
 
-// The colours alone, as linear light, each eye of the size that it had. Precondition: the picture has maps.
+// Converts only the colours, as linear light, each eye at its original size. Precondition: the picture has maps.
 StoredPicture unwrapped(const StoredPicture& picture);
 
 }  // namespace ods

@@ -22,10 +22,10 @@
 namespace ods {
 namespace {
 
-// The narrower a pass, the more of what it takes away is noise.
+// The narrower a pass, the larger the fraction of noise in the light that it removes.
 constexpr FilterPass kPasses[] = {{1, 2.0f}, {2, 2.0f}, {4, 1.5f}, {8, 1.5f}, {16, 1.5f}};
 
-// Counts blocks of all passes; the thread that finishes one reports.
+// Counts blocks of all passes; the thread that finishes a block reports progress.
 class Steps {
  public:
   Steps(const Progress& progress, size_t total) : progress_(progress), total_(static_cast<double>(total)) {}
@@ -65,7 +65,7 @@ void put_back(const NoisyPicture& noisy, const std::vector<Level>& levels, Pictu
     tbb::parallel_for(0, noisy.height(), [&](int y) {
       for (int x = 0; x < noisy.width(); x++) {
         const size_t i = noisy.index(x, y);
-        // Exact or alone: as it was, bit for bit.
+        // Exact light, and light without similar neighbours, keeps its bits.
         if (!(unpack_variance(levels[e].variance[i]) > 0.0f)) continue;
         const vec3 by = divisor(eye, i);
         for (size_t c = 0; c < 3; c++) {
@@ -90,13 +90,13 @@ std::vector<Level> first_levels(const NoisyPicture& noisy) {
 void open_frame(NoisyFrame& frame, const FrameBeside& beside) {
   open_noisy(frame.noisy, beside.picture, beside.camera);
   frame.levels = first_levels(frame.noisy);
-  take_outliers(frame.noisy, frame.levels);  // their light is not this frame's
+  take_outliers(frame.noisy, frame.levels);  // their light is not part of this frame
   doubt_darkness(frame.noisy, frame.levels);
   frame.beside = &beside;
 }
 
-// Leaves the result of the last pass in `levels`, and returns it with the details that come back. Variance and share
-// are those of the first pass.
+// Leaves the result of the last pass in `levels`, and returns it with the restored details. Variance and share are
+// those of the first pass.
 std::vector<Level> run_passes(const NoisyPicture& noisy, std::vector<Level>& levels, std::vector<Level>& next,
                               Steps& steps) {
   std::vector<FilterPass> passes(std::begin(kPasses), std::end(kPasses));

@@ -9,12 +9,12 @@
 namespace ods {
 namespace {
 
-constexpr int kReach = 2;  // of the window, in strides
+constexpr int kReach = 2;  // radius of the window, in strides
 
-// Of the pixels of a row of a block: what a window shows.
+// Sums over the windows of a row's pixels in a block.
 struct DetailSums {
-  float found[kBlockWidth];     // squares of what the pass took away
-  float variance[kBlockWidth];  // three times, as far as the pass could take it away
+  float found[kBlockWidth];     // squares of the light that the pass removed
+  float variance[kBlockWidth];  // three times the variance, scaled by the share of candidates that the pass used
 };
 
 void add_window(const RowPair& pair, const float* took, const float* share, float weight, int count, DetailSums& sums) {
@@ -36,7 +36,7 @@ void begin_window(const RowPair& pair, const float* took, const float* share, fl
   }
 }
 
-// Squares of what the pass took away, all channels added.
+// Squares of the light that the pass removed, summed over the channels.
 void take_squares(const Block& before, const Block& after, std::vector<float>& squares) {
   squares.assign(before.planes[kRed].size(), 0.0f);
   for (const Plane plane : {kRed, kGreen, kBlue}) {

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a pass of the denoiser takes away from a picture is detail of one size, and noise. The detail comes back as far
-// as it is more than noise, by the Wiener filter: windows of a pass's own stride tell how much there is of both.
+// The light that a pass of the denoiser removes from a picture is detail of one size, plus noise. The detail that
+// exceeds the noise is restored by the Wiener filter, with the amounts of both measured in windows of the pass's
+// stride.
 //
 // Sources: Dammertz et al., "Edge-Avoiding A-Trous Wavelet Transform for fast Global Illumination Filtering", 2010;
 // Mihcak et al., "Low-complexity image denoising based on statistical modeling of wavelet coefficients", 1999.

@@ -15,13 +15,13 @@ namespace {
 constexpr int kEdgeReach = 2;
 constexpr int kMostNeighbours = (2 * kEdgeReach + 1) * (2 * kEdgeReach + 1) - 1;
 constexpr int kTerms = 7;             // a constant, normal, albedo
-constexpr int kFewest = 6;            // pixels that a fit needs
-constexpr float kRidge = 0.003f;      // of the features' squares
-constexpr float kLeastShare = 0.02f;  // weight of a pixel that resembles no others
-constexpr float kUnlikely = 4.0f;     // a fit that is five deviations off contradicts the pixel: it shows a lamp
+constexpr int kFewest = 6;            // minimum number of pixels for a fit
+constexpr float kRidge = 0.003f;      // relative to the features' squares
+constexpr float kLeastShare = 0.02f;  // weight of a pixel that is unlike all others
+constexpr float kUnlikely = 4.0f;     // deviations: beyond this the fit contradicts the pixel, which shows a lamp
 
 struct Neighbour {
-  std::array<float, kTerms> terms;  // 1, then the features less those of the pixel in the middle
+  std::array<float, kTerms> terms;  // 1, then the features relative to the central pixel
   vec3 light;                       // radiance
   float weight;
 };
@@ -30,10 +30,10 @@ struct Neighbourhood {
   Neighbour list[kMostNeighbours];
   int count = 0;
   float weight = 0.0f;
-  float squares = 0.0f;  // of the weights
+  float squares = 0.0f;  // sum of the squared weights
 
-  // How much larger the errors of a fit are than its residual: its terms bend towards the pixels. Of all pixels with
-  // equal weights n / (n - terms).
+  // The ratio of a fit's error to its residual, which is smaller because the terms adapt to the pixels: n / (n - terms)
+  // for equal weights.
   float growth() const {
     const float pixels = weight * weight / squares;
     return pixels / std::max(pixels - static_cast<float>(kTerms), 1.0f);
@@ -70,7 +70,8 @@ void look_around(const Block& block, int at, int y, Neighbourhood& around) {
   }
 }
 
-// What the fit says at the middle, and the variance of its errors: mean of the channels. False if there is no fit.
+// Computes the fit's value at the centre, and the variance of its errors: the mean over the channels. Returns false if
+// there is no fit.
 bool fit(const Neighbourhood& around, vec3& middle, float& residual) {
   float matrix[kTerms][kTerms] = {};
   vec3 right[kTerms] = {};
@@ -83,7 +84,7 @@ bool fit(const Neighbourhood& around, vec3& middle, float& residual) {
     }
   }
   for (int i = 1; i < kTerms; i++) matrix[i][i] += kRidge * around.weight;
-  // Elimination without pivots: the matrix is symmetric and positive definite, and its upper half is kept.
+  // Elimination without pivoting: the matrix is symmetric and positive definite; only its upper half is used.
   for (int i = 0; i < kTerms; i++) {
     if (!(matrix[i][i] > 1e-12f)) return false;
     for (int j = i + 1; j < kTerms; j++) {

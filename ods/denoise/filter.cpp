@@ -14,19 +14,19 @@ namespace ods {
 namespace {
 
 constexpr int kBlockHeight = 64;
-constexpr int kRadius = 2;  // of a window, in strides
+constexpr int kRadius = 2;  // radius of a window, in strides
 constexpr int kWindow = 2 * kRadius + 1;
-constexpr int kMostStretch = 8;  // of a window sideways
+constexpr int kMostStretch = 8;  // maximum horizontal stretch of a window
 
-// Of the pixels of a row of a block.
+// Sums for the pixels of a row in a block.
 struct Sums {
   float weight[kBlockWidth];
   float light[3][kBlockWidth];
-  float variance[kBlockWidth];  // with the squares of the weights
-  float share[kBlockWidth];     // of the window's candidates that take part
+  float variance[kBlockWidth];  // weighted by the squared weights
+  float share[kBlockWidth];     // fraction of the window's candidates that are used
 };
 
-// A pixel of unknown light begins with nothing, and agrees with everybody.
+// A pixel with unknown light starts with weight 0, and agrees with all others.
 void begin_sums(const Block& block, int y, Sums& sums) {
   const float* variance = block.row(kVariance, y);
   for (int x = 0; x < block.inside.right - block.inside.left; x++) {
@@ -37,15 +37,16 @@ void begin_sums(const Block& block, int y, Sums& sums) {
   }
 }
 
-// Whether light is apart by more than five of its deviations: at the edge of a shadow, the noise beside it would stay.
+// 0 if the light differs by more than five deviations. A stricter test would leave noise beside the edges of shadows.
 inline float alike_light(float distance, float own, float theirs) {
   return light_weight(distance, 4.0f * ((own >= 0.0f ? own : 1e30f) + theirs));
 }
 
-// What is far noisier than the other is no sample of the same light: the silhouette of a lamp, of which nobody knows
-// how much a pixel shows. Neither takes from the other, or a lamp's light would be smeared around it.
+// Pixels of very different noise do not belong to the same light, for example at the silhouette of a lamp. They are not
+// averaged, or the lamp would smear.
 inline float alike_noise(float own, float theirs, bool is_wide, float alike) {
-  // In the narrowest pass a rare sample goes to its neighbours of the same surface, or its light would be lost.
+  // In the narrowest pass, a rare sample is distributed to its neighbours on the same surface; otherwise its light
+  // would be lost.
   constexpr float kMostRatio = 300.0f, kMostRatioBeside = 3000.0f;
   if (theirs == 0.0f) return 1.0f;  // exact
   if (own < 0.0f) return 1.0f;
@@ -70,7 +71,7 @@ void add_neighbours(const RowPair& pair, int count, float share, bool is_wide, S
   }
 }
 
-// Candidates that pixels of the passes before share count once.
+// Candidates that share pixels of earlier passes count only once.
 void finish_window(const Block& block, int y, const PassNoise& noise, Sums& sums) {
   float all = 0.0f;
   for (int i = 0; i < kWindow * kWindow; i++) all += window_weight(i % kWindow - kRadius, i / kWindow - kRadius);
@@ -84,7 +85,7 @@ void finish_window(const Block& block, int y, const PassNoise& noise, Sums& sums
 constexpr float kEyeWeight = 1.0f;  // both eyes get the same light
 constexpr float kFrameWeight = 2.0f;
 
-// Light of other views takes part if it does not differ significantly: it may be a reflection.
+// Light of other views is used if it does not differ significantly: it may be a reflection.
 void add_view(const NoisyPicture& noisy, const Block& block, const NoisyView& view, const ViewPlace& place, float share,
               int x, int y, Sums& sums) {
   const int at = x - block.inside.left;
@@ -115,7 +116,7 @@ void add_view(const NoisyPicture& noisy, const Block& block, const NoisyView& vi
   }
 }
 
-// Whether a place in another frame is so near to the same pixel that a candidate would be that pixel.
+// Returns whether a position in another frame is so close to the pixel that a candidate would be the same pixel.
 bool stays(vec2 place, int x, int y) {
   const vec2 moved = abs(place - (vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5f));
   return std::max(moved.x, moved.y) < 2.0f;
@@ -131,12 +132,12 @@ void add_frame(const NoisyPicture& noisy, const NoisyFrame& frame, const Block& 
     add_view(noisy, block, view, *place, kFrameWeight, x, y, sums);
 }
 
-// The eyes share paths: half of the other eye's noise is this eye's, and does not go away.
+// The eyes share paths, so half of the other eye's noise is this eye's and cannot be averaged out.
 void share_noise(float own, Sums& sums, int at) {
   if (own >= 0.0f) sums.variance[at] = 0.5f * (sums.variance[at] + own * sums.weight[at] * sums.weight[at]);
 }
 
-// The other eye, and the frames beside this one.
+// Adds the other eye and the other frames.
 void add_views(const NoisyPicture& noisy, const std::vector<Level>& from, const Block& block, bool both,
                const std::deque<NoisyFrame>& beside, int y, Sums& sums) {
   for (int x = block.inside.left; x < block.inside.right; x++) {
@@ -161,7 +162,7 @@ void store_row(const NoisyPicture& noisy, const Block& block, const std::vector<
     const int at = x - block.inside.left;
     const size_t pixel = noisy.index(x, y);
     const float weight = sums.weight[at];
-    // Light without variance is exact, and light without like neighbours stays.
+    // Light without variance is exact; light without similar neighbours is kept.
     const bool stays = weight == 0.0f || before.variance[pixel] == 0;
     for (size_t c = 0; c < 3; c++) {
       after.light[3 * pixel + c] = stays ? before.light[3 * pixel + c] : sums.light[c][at] / weight;
@@ -217,8 +218,8 @@ RowPair pair_rows(const Block& block, int y, int dx, int dy) {
   return pair;
 }
 
-// The square root of how much denser the columns are serves the error best: what is near in the picture is more alike.
-// Narrow windows are not stretched, or columns between the candidates would differ.
+// Stretching by the square root of the ratio of column densities gives the smallest error, because closer pixels are
+// more alike. Narrow windows are not stretched, or columns between the candidates would differ.
 int stretch_of(const NoisyPicture& noisy, const FilterPass& pass, int y) {
   const Projection& projection = noisy.camera.projection;
   if (projection.kind != kLatLong || pass.stride < 4) return 1;
@@ -235,12 +236,12 @@ void set_margin(const NoisyPicture& noisy, const FilterPass& pass, int reach, Bl
   block.down = reach * pass.stride;
 }
 
-// Windows are products of one across and one down, so one dimension is enough: their numbers are squared.
+// Windows are products of a horizontal and a vertical one, so one dimension is computed and squared.
 void expect_noise(std::span<FilterPass> passes) {
   float all = 0.0f, squares = 0.0f;
   for (int d = -kRadius; d <= kRadius; d++)
     all += window_weight(d, 0), squares += window_weight(d, 0) * window_weight(d, 0);
-  std::vector<float> before = {1.0f};  // of a pixel's mean, the share of each pixel around it
+  std::vector<float> before = {1.0f};  // share of each pixel in the mean of a pixel
   const auto product = [](const std::vector<float>& a, const std::vector<float>& b) {
     float sum = 0.0f;
     for (size_t i = 0; i < a.size(); i++) sum += a[i] * b[i];

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The steps of the denoiser, block by block. Every pixel of a result depends on the levels before it alone, so neither
+// The steps of the denoiser, block by block. Every pixel of a result depends only on the previous levels, so neither
 // the order of the blocks nor the number of threads matters.
 #pragma once
 #include <cmath>
@@ -13,35 +13,35 @@
 
 namespace ods {
 
-// Calls `work` for blocks that together are all eyes, from several threads. `inside` is set.
+// Calls `work` for blocks that together cover all eyes, from several threads. `inside` is set.
 void for_each_block(const NoisyPicture& noisy, const std::function<void(Block& block)>& work);
 
 size_t count_blocks(const NoisyPicture& noisy);
 
-// Few samples may miss all light, and black pixels without variance seem certain. They become as uncertain as those
-// around them that resemble them.
+// With few samples, some pixels may miss all light: black pixels without variance that seem certain. Gives them the
+// variance of similar pixels around them.
 void doubt_darkness(const NoisyPicture& noisy, std::vector<Level>& levels);
 
-// What a pass makes of noise if it takes all of its candidates. Those of a wide pass share pixels.
+// The effect of a pass on noise if it uses all of its candidates. Those of a wide pass share pixels.
 struct PassNoise {
-  float growth = 1.0f;  // of the result's variance, over that of independent candidates
-  float detail = 0.0f;  // variance of what the pass takes away, over that before it
+  float growth = 1.0f;  // variance of the result over the variance for independent candidates
+  float detail = 0.0f;  // variance of the light that the pass removes, over the variance before it
 };
 
 struct FilterPass {
-  int stride = 1;          // pixels from one candidate to the next; 5x5 of them
-  float threshold = 1.0f;  // detail that is not so many times its noise does not come back
+  int stride = 1;          // distance of the candidates in pixels; 5x5 of them
+  float threshold = 1.0f;  // detail below this multiple of its noise is not restored
   PassNoise noise{};
 };
 
-// Sets `noise` of the passes that follow each other.
+// Sets `noise` of consecutive passes.
 void expect_noise(std::span<FilterPass> passes);
 
 inline float window_weight(int dx, int dy) {  // strides
   return std::exp(-static_cast<float>(dx * dx + dy * dy) / 4.5f);
 }
 
-// Towards the poles of a lat-long picture the columns are denser: candidates are so many strides apart.
+// The distance of candidates in strides: towards the poles of a lat-long picture the columns are denser.
 int stretch_of(const NoisyPicture& noisy, const FilterPass& pass, int y);
 
 // Sets the margin of a block that a window of this reach needs, in strides.
@@ -49,7 +49,7 @@ void set_margin(const NoisyPicture& noisy, const FilterPass& pass, int reach, Bl
 
 inline constexpr int kBlockWidth = 256;  // at most
 
-// A row's pixels and one of their neighbours each.
+// Pixels of a row, each paired with one of its neighbours.
 struct RowPair {
   const float* own[kPlaneCount];
   const float* next[kPlaneCount];
@@ -57,7 +57,7 @@ struct RowPair {
 
 RowPair pair_rows(const Block& block, int y, int dx, int dy);
 
-// Between the three planes from `first` on.
+// The squared distance between the three planes from `first` on.
 inline float squared_distance(const RowPair& pair, Plane first, int x) {
   const float a = pair.own[first][x] - pair.next[first][x];
   const float b = pair.own[first + 1][x] - pair.next[first + 1][x];
@@ -65,18 +65,18 @@ inline float squared_distance(const RowPair& pair, Plane first, int x) {
   return a * a + b * b + c * c;
 }
 
-// A frame beside the one that is filtered. Not to be moved.
+// Another frame of the video. It must not be moved.
 struct NoisyFrame {
   NoisyPicture noisy;
-  std::vector<Level> levels;  // by eye: the first
+  std::vector<Level> levels;  // the first level of each eye
   const FrameBeside* beside = nullptr;
 };
 
-// Fills `to` with means of what `from`, the other eye (both) and the frames beside this one show of the same surface.
+// Fills `to` with the mean of `from`, the other eye (if `both`) and the other frames for the same surface.
 void merge_views(const NoisyPicture& noisy, const std::vector<Level>& from, std::vector<Level>& to, bool both,
                  const std::deque<NoisyFrame>& beside, Block& block);
 
-// Fills `to` with means of pixels of `from` with similar normals and albedos.
+// Fills `to` with the mean of pixels of `from` with similar normals and albedos.
 void filter_block(const NoisyPicture& noisy, const std::vector<Level>& from, std::vector<Level>& to,
                   const FilterPass& pass, Block& block);
 

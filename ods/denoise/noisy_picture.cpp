@@ -45,7 +45,7 @@ std::optional<Texel> neighbour_of(const NoisyPicture& noisy, int eye, const Cell
   const bool is_outside = x < cell.left || x >= cell.right || y < cell.top || y >= cell.bottom;
   const bool is_nearest = texel.source_eye == eye && texel.x == std::clamp(x, cell.left, cell.right - 1) &&
                           texel.y == std::clamp(y, cell.top, cell.bottom - 1);
-  if (is_outside && is_nearest) return {};  // the picture has nothing there
+  if (is_outside && is_nearest) return {};  // the picture ends here
   return texel;
 }
 
@@ -90,11 +90,10 @@ static float variance_at(const EyeImage& eye, size_t pixel, vec3 divided_by) {
   return (scaled.x + scaled.y + scaled.z) * (1.0f / 3.0f);
 }
 
-// --- levels and blocks
-// -------------------------------------------------------------------------------------------------
+// --- levels and blocks -----------------------------------------------------------------------------------------------
 
-// Where only sky is seen, within a pixel. At silhouettes the other eye's paths may bring light of a surface that none
-// of the pixel's own samples meets: that is noise, like that of the pixels beside it.
+// Returns whether the pixel and its neighbours show only the sky. At silhouettes, the other eye's paths may contribute
+// light of a surface that none of the pixel's own samples meets: that is noise, like in the pixels beside it.
 static bool is_only_sky(const NoisyPicture& noisy, const EyeImage& eye, int x, int y) {
   if (!is_bare_sky(eye, noisy.index(x, y))) return false;
   for (int row = std::max(y - 1, 0); row <= std::min(y + 1, noisy.height() - 1); row++) {
@@ -114,7 +113,7 @@ Level first_level(const NoisyPicture& noisy, int which) {
       const size_t i = noisy.index(x, y);
       const vec3 by = divisor(eye, i);
       const float* radiance = &eye.radiance.pixels[3 * i];
-      // A light of NaN marks a pixel that needs one.
+      // Light of NaN marks a pixel to be filled in.
       for (size_t c = 0; c < 3; c++) level.light[3 * i + c] = radiance[c] / by[static_cast<int>(c)];
       level.variance[i] = pack_variance(is_only_sky(noisy, eye, x, y) ? 0.0f : variance_at(eye, i, by));
     }

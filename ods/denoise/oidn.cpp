@@ -22,9 +22,9 @@ namespace ods {
 namespace {
 
 constexpr int kCpuDevice = 1, kFloat3 = 3;  // OIDN_DEVICE_TYPE_CPU, OIDN_FORMAT_FLOAT3
-constexpr int kMargin = 64;                 // pixels; the network sees about as far
+constexpr int kMargin = 64;                 // pixels; about the reach of the network
 
-// What of the C interface is used. Version 2 has longer names for three of the functions.
+// The used part of the C interface. Version 2 has longer names for three of the functions.
 struct Library {
   void* (*new_device)(int type) = nullptr;
   void (*set_device_int)(void* device, const char* name, int value) = nullptr;
@@ -85,7 +85,7 @@ void check(const Library& library, void* device) {
   }
 }
 
-// As its own estimate, but from all eyes: the mean of the logarithm of luminance becomes 0.18.
+// Like the library's own estimate, but from all eyes: the mean of the logarithm of luminance becomes 0.18.
 float input_scale(const Picture& picture) {
   double sum = 0.0;
   size_t count = 0;
@@ -118,7 +118,7 @@ Padded padded(const Cell& cell) {
   return p;
 }
 
-// A layer of the cell and of what the world has around it; beyond the picture, its last pixel.
+// A layer of the cell with the adjacent parts of the world; beyond the picture, its last pixel.
 std::vector<float> pad(const NoisyPicture& noisy, int eye, Image EyeImage::*layer, const Padded& p) {
   std::vector<float> pixels(3 * p.width * p.height);
   tbb::parallel_for(0, static_cast<int>(p.height), [&](int row) {

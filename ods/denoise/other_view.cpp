@@ -11,14 +11,14 @@ namespace ods {
 
 static float nearness_at(const EyeImage& eye, size_t pixel) {
   const float depth = eye.depth.pixels[pixel];
-  return depth > 0.0f && depth < kFarDepth ? 1.0f / depth : 0.0f;  // NaN fails both
+  return depth > 0.0f && depth < kFarDepth ? 1.0f / depth : 0.0f;  // also rejects NaN
 }
 
 static vec2 size_of(const NoisyPicture& noisy) {
   return {static_cast<float>(noisy.width()), static_cast<float>(noisy.height())};
 }
 
-// How much the nearness changes from a pixel to the next on one surface: the smaller of the steps to both sides.
+// The change of nearness from a pixel to the next on one surface: the smaller of the steps to both sides.
 static float step_at(const NoisyView& view, const Cell& cell, int x, int y, bool down) {
   const NoisyPicture& noisy = view.noisy;
   const float here = nearness_at(noisy.eye(view.eye), noisy.index(x, y));

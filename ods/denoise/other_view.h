@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where another view shows the surface that a pixel shows: the other eye's picture, or a frame of a video beside it.
+// Finds the surface of a pixel in another view: the other eye's picture, or another frame of a video.
 #pragma once
 #include <optional>
 
@@ -9,7 +9,7 @@
 
 namespace ods {
 
-// One eye's picture, in the pass that is to be filtered.
+// One eye's picture at the level that is to be filtered.
 struct NoisyView {
   const NoisyPicture& noisy;
   const std::vector<Level>& levels;  // by eye
@@ -18,13 +18,14 @@ struct NoisyView {
 
 struct ViewPlace {
   vec2 at{0.0f};  // pixels from the left and top edge: the centre of the first texel is 0.5
-  Cell cell;      // around it
+  Cell cell;      // the cell that contains `at`
 };
 
-// The surface in the middle of a pixel, in world coordinates. Nothing if nobody knows how far it is.
+// The surface in the centre of a pixel, in world coordinates. Returns nullopt if its distance is unknown.
 std::optional<vec3> surface_at(const NoisyPicture& noisy, int eye, int x, int y);
 
-// Nothing if the view does not see the surface there. Precondition: the view's picture has depth.
+// The position of a surface in a view. Returns nullopt if the view does not see it. Precondition: the view's picture
+// has depth.
 std::optional<ViewPlace> place_in_view(const NoisyView& view, vec3 surface);
 
 }  // namespace ods

@@ -14,13 +14,13 @@
 namespace ods {
 namespace {
 
-constexpr int kOutlierReach = 2;           // of the window that tells an outlier
-constexpr float kMostOfNeighbours = 2.0f;  // an outlier is brighter than all neighbours' light, over this
-constexpr float kSigmas = 3.0f;            // brighter than its surroundings by more of its own deviations: no outlier
-constexpr float kSeen = 0.03f;             // share of the light that spread light adds at most, if it can
-constexpr float kMostSeen = 0.1f;          // and at most this share: the rest brightens the whole picture
+constexpr int kOutlierReach = 2;           // radius of the window for detecting outliers
+constexpr float kMostOfNeighbours = 2.0f;  // an outlier is brighter than its neighbours' total light over this
+constexpr float kSigmas = 3.0f;    // a pixel that is brighter by this many of its own deviations is not an outlier
+constexpr float kSeen = 0.03f;     // target fraction of the light that spread light adds
+constexpr float kMostSeen = 0.1f;  // maximum fraction; the rest brightens the whole picture
 constexpr float kNarrowest = 8.0f, kWidest = 64.0f;  // radius in pixels over which light is spread
-constexpr double kVisits = 8.0;                      // of a pixel by outliers, on average; bounds the time
+constexpr double kVisits = 8.0;                      // visits of a pixel by outliers, on average; limits the time
 
 float mean_of(vec3 v) {
   return (v.x + v.y + v.z) * (1.0f / 3.0f);
@@ -42,7 +42,7 @@ struct Taken {
   bool exists = false;
 };
 
-// The neighbours within kOutlierReach; `see` returns false to end.
+// Calls `see` for the neighbours within kOutlierReach until it returns false.
 template <typename See>
 void each_neighbour(const NoisyPicture& noisy, const std::vector<Level>& levels, const Outlier& at, const Cell& cell,
                     const See& see) {
@@ -58,7 +58,7 @@ void each_neighbour(const NoisyPicture& noisy, const std::vector<Level>& levels,
   }
 }
 
-// The brightest neighbour may be an outlier, too, and is left out.
+// The brightest neighbour may be an outlier too, and is left out.
 Taken take(const NoisyPicture& noisy, const std::vector<Level>& levels, const Outlier& at, const Cell& cell) {
   const EyeImage& eye = noisy.eye(at.eye);
   const Level& level = levels[static_cast<size_t>(at.eye)];
@@ -66,7 +66,7 @@ Taken take(const NoisyPicture& noisy, const std::vector<Level>& levels, const Ou
   const float own = unpack_variance(level.variance[pixel]);
   const vec3 light = light_at(level, pixel), by = divisor(eye, pixel);
   Taken taken{at};
-  // Most pixels end here.
+  // Most pixels return here.
   if (!(own > 0.0f) || mean_of(light) * 0.9f > kSigmas * std::sqrt(own) || is_bare_sky(eye, pixel)) return taken;
   const float bright = mean_of(light * by);
   float sum = 0.0f, most = 0.0f;
@@ -93,25 +93,25 @@ Taken take(const NoisyPicture& noisy, const std::vector<Level>& levels, const Ou
   return taken;
 }
 
-// Where an outlier's light goes.
+// The target of an outlier's light.
 struct Splash {
   int eye;
   int x, y;
   Cell cell;
-  vec3 light;  // radiance, all of it
+  vec3 light;  // radiance: the total of the outlier
   vec3 normal;
   float radius;
 };
 
-// As wide as its light is hardly to be seen.
+// The radius over which the light becomes nearly invisible.
 float radius_of(const NoisyPicture& noisy, const std::vector<Level>& levels, const Splash& splash) {
   const size_t pixel = noisy.index(splash.x, splash.y);
   const vec3 here = light_at(levels[static_cast<size_t>(splash.eye)], pixel) * divisor(noisy.eye(splash.eye), pixel);
-  const float area = mean_of(splash.light) / (kSeen * std::max(mean_of(here), 1e-6f));  // a third of the circle's
+  const float area = mean_of(splash.light) / (kSeen * std::max(mean_of(here), 1e-6f));  // a third of the circle's area
   return std::clamp(std::sqrt(3.0f / kPi * area), kNarrowest, kWidest);
 }
 
-// Nothing if the other eye does not see the surface, or has no noise there.
+// Returns nullopt if the other eye does not see the surface, or has no noise there.
 std::optional<Outlier> in_other_eye(const NoisyPicture& noisy, const std::vector<Level>& levels, const Outlier& at) {
   const auto surface = surface_at(noisy, at.eye, at.x, at.y);
   if (!surface) return {};
@@ -150,17 +150,17 @@ std::vector<Splash> splashes_of(const NoisyPicture& noisy, const std::vector<Out
   return splashes;
 }
 
-// Light that falls on a surface shows the surface's own colours, so textures stay. Returns the light that is too much
-// to go unnoticed there.
+// Light on a surface has the surface's colours, so textures are preserved. Returns the light that would be visible
+// there.
 vec3 add_splash(const NoisyPicture& noisy, const Splash& splash, Level& level) {
   struct Share {
     size_t pixel;
-    vec3 radiance;  // of the light that it gets
+    vec3 radiance;  // radiance of the light that it receives
   };
   const EyeImage& eye = noisy.eye(splash.eye);
   std::vector<Share> shares;
   vec3 sum(0.0f);
-  float here = 0.0f;  // the light already in those pixels, with the same weights
+  float here = 0.0f;  // light already in these pixels, with the same weights
   const int reach = static_cast<int>(splash.radius);
   for (int dy = -reach; dy <= reach; dy++) {
     for (int dx = -reach; dx <= reach; dx++) {
@@ -187,7 +187,7 @@ vec3 add_splash(const NoisyPicture& noisy, const Splash& splash, Level& level) {
   return (1.0f - part) * splash.light;
 }
 
-// Brightens all noisy pixels of these eyes by the same factor, to bring this much light.
+// Adds this much light to all noisy pixels of these eyes, multiplying them by a common factor.
 void brighten(const NoisyPicture& noisy, float light, size_t first_eye, size_t end, std::vector<Level>& levels) {
   double all = 0.0;
   const auto each = [&](const auto& visit) {
@@ -240,7 +240,7 @@ void spread_outliers(const NoisyPicture& noisy, const std::vector<Outlier>& outl
                      std::vector<Level>& levels) {
   if (outliers.empty()) return;
   const std::vector<Splash> splashes = splashes_of(noisy, outliers, both, levels);
-  // Each eye's in their order: sums have the same bits for any number of threads.
+  // In the order of the eyes, so that sums have the same bits for any number of threads.
   std::vector<vec3> left(levels.size(), vec3(0.0f));
   tbb::parallel_for(size_t{0}, levels.size(), [&](size_t eye) {
     for (const Splash& splash : splashes) {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Fireflies: pixels that one rare sample made far brighter than all around them. A window of few pixels shows their
-// light as a blotch, so they are taken out before the passes, and their light is spread widely after them. No light is
-// lost.
+// Fireflies: pixels that one rare sample made far brighter than everything around them. A window of few pixels shows
+// their light as a blotch, so they are removed before the passes, and their light is spread widely afterwards. No light
+// is lost.
 #pragma once
 #include <vector>
 
@@ -18,13 +18,13 @@ struct Outlier {
   vec3 excess{0.0f};  // radiance
 };
 
-// Gives fireflies the light and the variance of the pixels around them, and returns what they had more, in the order of
-// eyes, rows and columns. A bright pixel whose own variance shows that it is bright is none.
+// Gives fireflies the light and the variance of the pixels around them, and returns the excess, in the order of eyes,
+// rows and columns. A bright pixel whose own variance confirms its brightness is not a firefly.
 std::vector<Outlier> take_outliers(const NoisyPicture& noisy, std::vector<Level>& levels);
 
-// Adds the outliers' light to the pixels around them, the wider the brighter it is: as little as possible is to be seen
-// of it. What would be seen nevertheless brightens the whole picture a little. both: half of the light goes to the
-// place in the other eye that shows the same surface; needs depth.
+// Adds the outliers' light to the pixels around them, in larger areas for brighter ones, so that it is nearly
+// invisible. The part that would still be visible brightens the whole picture slightly. both: half of the light goes to
+// the place in the other eye that shows the same surface; needs depth.
 void spread_outliers(const NoisyPicture& noisy, const std::vector<Outlier>& outliers, bool both,
                      std::vector<Level>& levels);
 

@@ -19,7 +19,7 @@
 namespace ods {
 namespace {
 
-// The channels of one layer, in the order in which they are wanted.
+// The channels of one layer, in the requested order.
 struct Channels {
   size_t layer = 0;
   std::vector<size_t> from;
@@ -95,7 +95,8 @@ Image read_layer(const StoredPicture& stored, size_t eye, const Channels& channe
   return image;
 }
 
-// Two means of half of the samples: that of all is their middle, and its variance their half difference squared.
+// From two means of half of the samples: the mean of all is their middle, and its variance is their half difference
+// squared.
 Image variance_of_halves(const Image& a, const Image& b) {
   Image variance = a;
   for (size_t i = 0; i < variance.pixels.size(); i++) {
@@ -105,11 +106,11 @@ Image variance_of_halves(const Image& a, const Image& b) {
   return variance;
 }
 
-// What other programs call two such pictures.
+// Names of such pictures in other programs.
 constexpr const char* kHalves[][2] = {
     {"halfA", "halfB"}, {"half_a", "half_b"}, {"half1", "half2"}, {"bufferA", "bufferB"}, {"buffer_a", "buffer_b"}};
 
-// Where a picture's statistics and features are.
+// The layers and channels of a picture's statistics and features.
 struct Found {
   Channels radiance;
   std::optional<Channels> variance, half_a, half_b, samples, depth, normal, albedo;
@@ -186,7 +187,7 @@ StoredNoise read_noise(const StoredPicture& stored, const NoiseLayers& layers, c
     eye.normal = read(found.normal);
     eye.albedo = read(found.albedo);
     if (layers.needed) noise.unusable += count_unusable(eye);
-    stored.memory->release();  // it is not needed again before the result is saved
+    stored.memory->release();  // not needed again before the result is saved
   }
   if (noise.unusable == static_cast<int64_t>(pixels * stored.eyes.size())) {
     throw Error(ErrorKind::kInput,

@@ -26,10 +26,10 @@ namespace {
 
 // --- PFM -------------------------------------------------------------------------------------------------------------
 
-// A word of the header, which one blank ends.
+// The next token of the header, which ends at a single blank.
 std::string next_word(const std::string& head, size_t& at) {
   const auto is_blank = [](char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; };
-  at = std::min(at, head.size());  // a word before was the last
+  at = std::min(at, head.size());  // the previous token was the last
   while (at < head.size() && is_blank(head[at])) at++;
   const size_t start = at;
   while (at < head.size() && !is_blank(head[at])) at++;
@@ -61,7 +61,7 @@ Image read_pfm(const FileInput& file) {
 
 // --- pictures --------------------------------------------------------------------------------------------------------
 
-// A channel's place among the others: that of depth, or the first.
+// The index of the depth channel, or of the first one.
 size_t depth_channel(const std::vector<std::string>& channels) {
   for (const std::string_view end : {"Z", "Depth.Z", "depth.Z", ".Z", ".V", "Y"}) {
     for (size_t i = 0; i < channels.size(); i++) {
@@ -71,7 +71,7 @@ size_t depth_channel(const std::vector<std::string>& channels) {
   return 0;
 }
 
-// Whether a row's red, green and blue differ: then its colours stand for depths by a scale that nobody here knows.
+// The number of pixels of a row with different red, green and blue, which represent depths by an unknown colour scale.
 int count_colorful(const Decoder& decoder, const std::byte* row) {
   const size_t pixel = decoder.bytes_of_pixel(0, 3), size = bytes_of(decoder.info.samples[0]);
   int count = 0;

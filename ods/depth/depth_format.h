@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the numbers of a depth picture mean.
+// The meaning of the numbers of a depth picture.
 #pragma once
 #include <optional>
 #include <string_view>
@@ -17,8 +17,8 @@ struct DepthKindRow {
   std::string_view name;
   std::string_view meaning;
 };
-// "0 to 1" is the range of the codes of an integer file; floats that are not within 0..1 are stretched to it from their
-// least to their largest number.
+// "0 to 1" is the range of the codes of an integer file. Floats that are not within 0..1 are stretched from their
+// minimum and maximum to it.
 inline constexpr DepthKindRow kDepthKindTable[] = {
     {DepthKind::kMetres, "metres", "metres"},
     {DepthKind::kMillimetres, "millimetres", "millimetres"},
@@ -37,19 +37,19 @@ inline constexpr NameRow<DepthAlong> kDepthAlongTable[] = {
 };
 static_assert(has_every_member(kDepthAlongTable));
 
-// What becomes of edges that are softer than the picture's.
+// The treatment of edges that are softer than the picture's.
 enum class DepthEdges { kSharp, kSoft };
 inline constexpr NameRow<DepthEdges> kDepthEdgesTable[] = {
-    {DepthEdges::kSharp, "sharp"},  // as sharp as the picture's: sharpen.h
-    {DepthEdges::kSoft, "soft"},    // as they are
+    {DepthEdges::kSharp, "sharp"},  // as sharp as the picture's, see sharpen.h
+    {DepthEdges::kSoft, "soft"},    // unchanged
 };
 static_assert(has_every_member(kDepthEdgesTable));
 
 struct DepthFormat {
-  std::optional<DepthKind> kind;  // none: metres, which integers may not be taken for
+  std::optional<DepthKind> kind;  // metres if not set, which is an error for integers
   DepthAlong along = DepthAlong::kRay;
   std::optional<float> nearest, farthest;  // metres
-  bool has_scale = true;                   // false: the numbers are right but for a factor
+  bool has_scale = true;                   // if false, the numbers are correct except for a factor
 };
 
 }  // namespace ods

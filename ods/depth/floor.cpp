@@ -16,15 +16,15 @@ namespace ods {
 
 namespace {
 
-constexpr int kColumns = 256, kRows = 128;  // of the pixels that are looked at
+constexpr int kColumns = 256, kRows = 128;  // grid of examined pixels
 
 struct Look {
-  vec3 direction;  // unit length; 0: nothing is seen there
+  vec3 direction;  // unit length; 0 if nothing is visible there
   float nearness = 0.0f;
   float weight = 0.0f;  // solid angle
 };
 
-// An evenly spaced choice of pixels, row by row.
+// An evenly spaced selection of pixels, row by row.
 std::vector<Look> looks_at(const Image& nearness, const Camera& camera, int eye) {
   std::vector<Look> looks;
   for (int row = 0; row < kRows; row++) {
@@ -44,7 +44,7 @@ struct Plane {
   float height = 0.0f;  // below the viewer
 };
 
-// Through three points, if it is level enough and below.
+// The plane through three points, if it is nearly level and below the viewer.
 std::optional<Plane> plane_through(vec3 a, vec3 b, vec3 c) {
   constexpr float kLevel = 0.99f;  // cosine of 8 degrees
   vec3 normal = cross(b - a, c - a);
@@ -60,7 +60,7 @@ std::optional<Plane> plane_through(vec3 a, vec3 b, vec3 c) {
 
 std::optional<double> floor_below(const Image& nearness, const Camera& camera, int eye) {
   constexpr float kBelow = -0.34f;  // sine of -20 degrees
-  constexpr float kThick = 0.03f;   // of the height
+  constexpr float kThick = 0.03f;   // relative to the height
   constexpr int kRounds = 2000;
   constexpr double kShare = 0.33;
   std::vector<vec3> points;
@@ -89,7 +89,7 @@ std::optional<double> floor_below(const Image& nearness, const Camera& camera, i
     if (held > most) most = held, best = *plane;
   }
   if (most < kShare * all) return std::nullopt;
-  std::vector<float> heights;  // below the viewer, along the normal, of what the plane holds
+  std::vector<float> heights;  // distances below the viewer, along the normal, of the points on the plane
   for (const vec3 point : points) {
     const float height = -dot(best.normal, point);
     if (std::abs(height - best.height) < kThick * best.height) heights.push_back(height);
@@ -97,7 +97,8 @@ std::optional<double> floor_below(const Image& nearness, const Camera& camera, i
   return double{median(heights)};
 }
 
-// The middle of what is seen between two elevations, of which the sines are given; negative: nothing is seen there.
+// The median distance of the surfaces between two elevations, given by their sines; negative if nothing is visible
+// there.
 static float middle_of(const std::vector<Look>& looks, float from, float to) {
   std::vector<float> found;
   for (const Look& look : looks) {
@@ -112,7 +113,7 @@ bool looks_inverted(const Image& nearness, const Camera& camera, int eye) {
   const float below = middle_of(looks, -1.0f, -0.8f), level = middle_of(looks, -0.15f, 0.15f);
   const float above = middle_of(looks, 0.6f, 1.0f);
   if (below < 0.0f || level < 0.0f) return false;
-  int behind = 0, ahead = 0;  // edges at which the lower side is farther, and nearer
+  int behind = 0, ahead = 0;  // edges at which the lower side is farther, and closer
   for (int row = 0; row + 1 < kRows; row++) {
     for (int column = 0; column < kColumns; column++) {
       const Look& upper = looks[static_cast<size_t>(row * kColumns + column)];

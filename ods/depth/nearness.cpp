@@ -19,10 +19,10 @@ namespace ods {
 
 namespace {
 
-// What a file's numbers are like.
+// Statistics of a file's numbers.
 struct Survey {
   int64_t all = 0, nan = 0, negative = 0, zero = 0, infinite = 0;
-  float least = std::numeric_limits<float>::infinity(), most = -least;  // of those that are finite
+  float least = std::numeric_limits<float>::infinity(), most = -least;  // range of the finite ones
 };
 
 Survey survey(const Image& numbers) {
@@ -65,7 +65,7 @@ DepthKind kind_of(const DepthNumbers& depth, const DepthFormat& format) {
   return format.kind.value_or(DepthKind::kMetres);
 }
 
-// Refuses what lacks a scale, and a near end behind the far one.
+// Rejects formats that need a scale but lack it, and a near end behind the far one.
 void check_range(const DepthNumbers& depth, const DepthFormat& format, DepthKind kind) {
   const bool is_inverse = kind == DepthKind::kInverse && (depth.codes > 0 || format.farthest);
   const std::string_view name = name_in(kDepthKindTable, kind);
@@ -81,7 +81,7 @@ void check_range(const DepthNumbers& depth, const DepthFormat& format, DepthKind
   }
 }
 
-// From a number of the file to 1 / metres.
+// Converts a number of the file to 1 / metres.
 class Meaning {
  public:
   Meaning(const DepthNumbers& depth, const DepthFormat& format, DepthKind kind, const Survey& found) : kind_(kind) {
@@ -101,7 +101,7 @@ class Meaning {
 
   bool are_distances() const { return kind_ == DepthKind::kMetres || kind_ == DepthKind::kMillimetres; }
 
-  // Negative: it is no depth.
+  // Returns a negative number if the number is not a depth.
   float operator()(float number) const {
     if (std::isnan(number)) return -1.0f;
     if (std::isinf(number)) return are_distances() && number > 0.0f ? 0.0f : -1.0f;
@@ -142,10 +142,10 @@ Nearness nearness_of(const DepthNumbers& depth, const DepthFormat& format) {
 
 namespace {
 
-// The two pixels between which a new one lies.
+// The two pixels on either side of a new one.
 struct Between {
   int first, second;
-  float share;  // of the second one
+  float share;  // weight of the second one
 };
 
 std::vector<Between> between(int from, int to, bool wraps) {

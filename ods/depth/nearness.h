@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Depth as 1 / metres, which is nearly linear over the picture of a plane: 0 is infinitely far.
+// Depth as 1 / metres, which is nearly linear over the picture of a plane; 0 is infinitely far.
 #pragma once
 #include <cstdint>
 
@@ -13,15 +13,15 @@ namespace ods {
 
 struct Nearness {
   Image values;         // 1 channel, 1 / metres, finite, never negative
-  int64_t invalid = 0;  // numbers that are no depth: NaN, negative, for distances 0; they count as far away
+  int64_t invalid = 0;  // numbers that are not a depth: NaN, negative, for distances 0; treated as far away
 };
 
-// What the numbers mean. Throws Error(kUsage): a format that needs more to be known; Error(kInput): numbers that cannot
-// be a depth picture, all equal or most of them invalid.
+// Converts a file's numbers. Throws Error(kUsage) for a format that needs more information; Error(kInput) for numbers
+// that cannot be a depth picture, because all are equal or most are invalid.
 Nearness nearness_of(const DepthNumbers& depth, const DepthFormat& format);
 
-// In another size, linearly between pixels. wraps: the last column touches the first. crisp: never between a thing and
-// what is behind it; there the nearest pixel counts.
+// Resizes linearly between pixels. wraps: the last column is next to the first. crisp: does not interpolate between an
+// object and its background, but uses the nearest pixel there.
 Image resized(const Image& nearness, Extent size, bool wraps, bool crisp);
 
 }  // namespace ods

@@ -21,13 +21,13 @@ namespace {
 
 struct NpyHeader {
   char order = '<', type = 'f';
-  int bytes = 4;  // of a number
+  int bytes = 4;  // per number
   bool columns_first = false;
   std::vector<int> shape;
   uint64_t data = 0;  // offset
 };
 
-// What follows a key of the header's dictionary.
+// The text after a key of the header's dictionary.
 std::string after_key(const std::string& words, const std::string& key) {
   const size_t at = words.find("'" + key + "'");
   const size_t colon = at == std::string::npos ? at : words.find(':', at);
@@ -65,7 +65,7 @@ NpyHeader read_header(const FileInput& file) {
   return header;
 }
 
-// NaN: no such type.
+// Returns NaN for unknown types.
 float number_at(const NpyHeader& header, const char* at) {
   unsigned char bytes[8] = {};
   std::memcpy(bytes, at, static_cast<size_t>(header.bytes));

@@ -25,7 +25,7 @@ namespace {
 
 const std::vector<std::string> kDepthChannel{"Z"};
 
-// What a picture's pixels and its depth are kept in.
+// The memory of a picture's pixels and its depth.
 struct Kept {
   std::shared_ptr<Scratch> memory;
   std::vector<Image> depth;
@@ -83,7 +83,7 @@ void turn_along_ray(Image& nearness, const StoredPicture& picture, const std::st
   });
 }
 
-// What would read inverted depth the right way round.
+// The options that would read inverted depth correctly.
 std::string mend_of(const DepthNumbers& depth, const DepthFormat& format) {
   const DepthKind kind = format.kind.value_or(DepthKind::kMetres);
   if (kind == DepthKind::kInverse || kind == DepthKind::kDisparity) {
@@ -92,7 +92,7 @@ std::string mend_of(const DepthNumbers& depth, const DepthFormat& format) {
   return "`depth-kind` inverse or disparity";
 }
 
-// An eye's depth as metres.
+// Converts an eye's depth to metres.
 Image metres_of(Image nearness, double scale) {
   const float factor = static_cast<float>(scale);
   tbb::parallel_for(size_t{0}, nearness.pixels.size(), [&](size_t i) {
@@ -155,7 +155,7 @@ static double scale_to_floor(const Image& nearness, const StoredPicture& picture
       fmt::format("'{}' shows no level floor below the viewer, which `eye-height` needs: give `near` instead", path));
 }
 
-// What the first eye's depth shows of the whole: a mistake, the scale.
+// Examines the first eye's depth as a whole: whether it is inverted, and its scale.
 static void look_at_whole(const Image& nearness, const StoredPicture& picture, const DepthNumbers& depth,
                           const DepthOptions& options, DepthReport& report) {
   const Camera camera = make_camera(picture.camera);
@@ -171,8 +171,8 @@ static void look_at_whole(const Image& nearness, const StoredPicture& picture, c
                   double{*options.eye_height} / report.scale, report.scale, *options.eye_height));
 }
 
-// Half of the width of the widest soft edges: those of a map that is smaller than its picture, or blurred by a 200th of
-// the picture's width. Where a picture is too small for that, everything would be an edge.
+// Half of the width of the widest soft edges, for a map that is smaller than its picture, or blurred by a 200th of the
+// picture's width. Limited for small pictures, where everything would be an edge.
 static int ramp_of(Extent size, float ratio) {
   return std::max({static_cast<int>(std::ceil(1.5f * ratio - 1.5f)), size.width / 400, std::min(4, size.width / 128)});
 }

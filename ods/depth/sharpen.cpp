@@ -14,13 +14,13 @@ namespace ods {
 
 namespace {
 
-constexpr float kStep = 0.15f;        // of the nearer side: what lies between it and the farther one is no edge
-constexpr float kOwn = 0.12f;         // of the step: so near to a side, a pixel belongs to it
-constexpr float kFlat = 0.12f;        // of a ramp's largest rise from pixel to pixel: less than that, and it has ended
-constexpr float kJump = 0.6f;         // of the step: a larger rise is an edge that is sharp already
-constexpr float kLoneJump = 0.75f;    // the same where one pixel is between the sides
-constexpr float kUndecided = 400.0f;  // of the squared distance of colours (0..255): where the ramp's middle decides
-constexpr int kLooks = 4;             // pixels that are looked at, from a pixel to the window's edge
+constexpr float kStep = 0.15f;        // minimum height of an edge, relative to the closer side
+constexpr float kOwn = 0.12f;         // relative to the step: a pixel this close to a side belongs to it
+constexpr float kFlat = 0.12f;        // relative to a ramp's largest rise between pixels: it ends at a smaller rise
+constexpr float kJump = 0.6f;         // relative to the step: a larger rise is an edge that is already sharp
+constexpr float kLoneJump = 0.75f;    // kJump if only one pixel is between the sides
+constexpr float kUndecided = 400.0f;  // squared distance of colours (0..255) below which the ramp's middle decides
+constexpr int kLooks = 4;             // number of pixels examined between a pixel and the window's edge
 
 struct Span {
   float low = 1e30f, high = -1e30f;
@@ -28,7 +28,7 @@ struct Span {
   float step() const { return high - low; }
 };
 
-// The least and the largest of squares of the picture.
+// Minima and maxima in squares of the picture.
 class Tiles {
  public:
   Tiles(const Image& image, int side, bool wraps)
@@ -44,7 +44,7 @@ class Tiles {
     });
   }
 
-  // Of the square around a tile that reaches so many tiles beyond it.
+  // The range in the square that extends this many tiles beyond a tile.
   Span around(int x, int y, int reach) const {
     Span span;
     for (int row = std::max(y / side_ - reach, 0); row <= std::min(y / side_ + reach, rows_ - 1); row++) {
@@ -71,8 +71,8 @@ class Sharpener {
   Sharpener(const Image& old, const GuideImage& guide, int radius, bool wraps)
       : old_(old), guide_(guide), radius_(radius), wraps_(wraps) {}
 
-  // The sides of the ramp on which a pixel is: it rises steadily to both, and ends at both. Floors and walls that run
-  // into the distance do not end.
+  // The two sides of the ramp that contains a pixel: the values change steadily towards both, and the ramp ends at
+  // both. Floors and walls that extend into the distance do not end.
   std::optional<Span> ramp_at(int x, int y) const {
     const float across = value(x + 1, y) - value(x - 1, y), down = value(x, y + 1) - value(x, y - 1);
     const bool is_across = std::abs(across) >= std::abs(down);
@@ -88,7 +88,7 @@ class Sharpener {
     return span;
   }
 
-  // The side of a ramp to which a pixel belongs.
+  // The side of a ramp that a pixel belongs to.
   float side_of(int x, int y, const Span& span) const {
     Side near, far;
     const int hop = std::max(radius_ / kLooks, 1), reach = kLooks * hop;
@@ -124,11 +124,11 @@ class Sharpener {
   };
 
   struct Climb {
-    float largest;  // rise from pixel to pixel
-    int count;      // of rises
+    float largest;  // largest rise between pixels
+    int count;      // number of rises
   };
 
-  // Goes on while the ramp does. False: it goes on too far.
+  // Follows the ramp to its end. Returns false if it is too long.
   bool end_of(int x, int y, int dx, int dy, Climb& climb, float& end) const {
     const float sign = value(x + dx, y + dy) < value(x, y) ? -1.0f : 1.0f;
     end = value(x, y);
@@ -154,7 +154,7 @@ class Sharpener {
 
 }  // namespace
 
-// Where colours are noisy, the sides of single pixels are too: each takes that of most pixels around it.
+// With noisy colours the sides of single pixels are noisy, too, so each takes the side of most pixels around it.
 static float side_of_most(const Image& chosen, const Image& old, int x, int y, const Span& ramp, int radius,
                           bool wraps) {
   const int hop = std::max(radius / 8, 1);

@@ -18,17 +18,17 @@ namespace {
 
 constexpr int kSectors = 16;
 constexpr size_t kEnough = 10;      // matches
-constexpr double kSure = 4.0;       // standard errors that a term needs to be taken
-constexpr double kPrecision = 0.1;  // of the median of many matches, in pixels: peaks of parabolas lean to whole pixels
+constexpr double kSure = 4.0;       // standard errors: a term is used if it is larger
+constexpr double kPrecision = 0.1;  // pixels: of the median of many matches; parabola peaks are biased to whole pixels
 
-// The terms of an alignment, then two that two fixed cameras add.
+// The terms of an alignment, then two for pairs of fixed cameras.
 constexpr size_t kColumns = kAlignmentTerms + 2;
 using Row = std::array<double, kColumns>;
-using Columns = std::vector<size_t>;  // those that a fit uses
+using Columns = std::vector<size_t>;  // the columns that a fit uses
 const Columns kAllTerms = {kRaiseTerm, kPitchTerm, kRollTerm, kZoomTerm}, kTwoCameras = {4, 5};
 
 struct Sample {
-  Row row{};          // derivative of `down` by each term
+  Row row{};          // derivatives of `down` by each term
   double down = 0.0;  // degrees
   double weight = 0.0;
 };
@@ -36,7 +36,7 @@ struct Sample {
 struct Fit {
   Row value{};
   Row error{};
-  double spread = 0.0;  // of what remains, as a standard deviation
+  double spread = 0.0;  // standard deviation of the residuals
 };
 
 Row row_of(const Match& match) {
@@ -50,7 +50,7 @@ size_t sector_of(const Match& match) {
   return static_cast<size_t>(std::clamp(static_cast<int>(turns * kSectors), 0, kSectors - 1));
 }
 
-// Weights each heading: one full of detail counts little more than one with some.
+// Weights each heading, so that one full of detail counts little more than one with some detail.
 std::vector<Sample> samples_of(const Matches& matches) {
   std::array<double, kSectors> count{};
   for (const Match& match : matches.found) count[sector_of(match)] += 1.0;
@@ -104,7 +104,7 @@ bool refit(const std::vector<Sample>& samples, const Columns& columns, Fit& fit)
   }
   for (size_t i = 0; i < n; i++) a[i][n + i] = 1.0;
   if (!solve(a, n)) return false;
-  const double per_match = squares / weights;  // the weight that a match has on average
+  const double per_match = squares / weights;  // mean weight of a match
   fit.value = {};
   for (size_t i = 0; i < n; i++) {
     fit.value[columns[i]] = a[i][2 * n];
@@ -125,7 +125,7 @@ Fit fit_columns(const std::vector<Sample>& samples, const Columns& columns, doub
   return fit;
 }
 
-// How much remains, with mismatches counting little.
+// The cost of the residuals, in which mismatches count little.
 double cost_of(const std::vector<Sample>& samples, const Fit& fit, double spread) {
   double cost = 0.0;
   for (const Sample& sample : samples) {
@@ -135,7 +135,7 @@ double cost_of(const std::vector<Sample>& samples, const Fit& fit, double spread
   return cost;
 }
 
-// Adds the term that explains most, as long as one is significant.
+// Adds the term that explains most, as long as it is significant.
 Fit simplest_fit(const std::vector<Sample>& samples, Columns columns, double least) {
   Fit best = fit_columns(samples, columns, least);
   while (true) {
@@ -156,14 +156,14 @@ Fit simplest_fit(const std::vector<Sample>& samples, Columns columns, double lea
   }
 }
 
-// How far the tiles of each scale are searched for up and down: all of it in the coarsest view, then what is left.
+// The vertical search range in each scale: the full range in the coarsest view, then the remaining error.
 constexpr float kReach[] = {0.24f, 0.06f, 0.02f};
 
 Search search_at(size_t scale) {
   Search search;
   if (scale == 0) search.rows = 10, search.columns = 12, search.step = 8;
   search.down = kReach[std::min(scale, std::size(kReach) - 1)];
-  search.lowest = -0.95f, search.highest = 0.95f;  // at the poles headings differ by much
+  search.lowest = -0.95f, search.highest = 0.95f;  // near the poles headings differ by large angles
   return search;
 }
 

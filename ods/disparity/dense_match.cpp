@@ -19,20 +19,20 @@ namespace ods {
 namespace {
 
 constexpr double kHighest = 78.0 * kDegree;
-// How far is searched.
+// The search range.
 constexpr double kOutwards = 2.0 * kDegree, kInwards = 20.0 * kDegree;
-constexpr int kAcross = 4, kDown = 3;  // of the transform's window, to either side
-constexpr int kUnseen = 24;            // the cost of what one eye does not show, of 62
-constexpr int kSlope = 8;              // the cost of a step of one pixel to a neighbour
-constexpr int kJump = 90, kEdge = 30;  // the cost of a larger one; where the picture has an edge
-constexpr float kDetail = 0.03f;       // the least difference in a row of the window, of 0..1
-constexpr double kSpeck = 3.0;         // square degrees: smaller patches of their own are mistakes
+constexpr int kAcross = 4, kDown = 3;  // half size of the transform's window
+constexpr int kUnseen = 24;            // cost of a pixel that one eye does not show, out of 62
+constexpr int kSlope = 8;              // cost of a step by one pixel between neighbours
+constexpr int kJump = 90, kEdge = 30;  // cost of a larger step; at an edge of the picture
+constexpr float kDetail = 0.03f;       // minimum difference in a row of the window, out of 0..1
+constexpr double kSpeck = 3.0;         // square degrees: smaller isolated patches are mistakes
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 using Cost = int16_t;
-constexpr Cost kMost = 4096;  // more than any path costs
+constexpr Cost kMost = 4096;  // more than the cost of any path
 
-// A view's rows that are matched, around the sphere.
+// The rows of a view that are matched, around the sphere.
 struct Band {
   const GrayView& view;
   int top, rows;
@@ -46,7 +46,7 @@ struct Band {
   int stride(int y) const { return static_cast<int>(std::lround(1.0 / cosine(y))); }
 };
 
-// A bit for each pixel of the window that is brighter than its middle; kept apart: whether the pixel is seen.
+// A bit for each pixel of the window that is brighter than its centre; separately, whether the pixel is seen.
 struct Census {
   std::vector<uint64_t> bits;
   std::vector<char> seen, detailed;
@@ -82,7 +82,7 @@ Census census_of(const Band& band) {
   return census;
 }
 
-// The costs of every shift of every pixel of the left eye, and their sums over the paths.
+// The costs of all shifts of all pixels of the left eye, and their sums over the paths.
 class Volume {
  public:
   Volume(const Band& left, const Band& right);
@@ -95,7 +95,7 @@ class Volume {
     float shift = kNone;  // pixels
     int index = -1;
   };
-  struct Path;  // what reached the pixels of one row
+  struct Path;  // the costs at the pixels of one row
 
   void sum_along_rows(int step);
   void sum_across_rows(int down, int aside);
@@ -116,7 +116,7 @@ class Volume {
   double size() const { return 2.0 * std::numbers::pi / width(); }
 
   const Band left_;
-  const int least_, shifts_;  // the first shift, and how many there are
+  const int least_, shifts_;  // the first shift, and the number of shifts
   Census own_, other_;
   std::vector<uint8_t> costs_;
   std::vector<Cost> sums_;
@@ -148,10 +148,10 @@ int Volume::jump(int x, int y, int from_x, int from_y) const {
   return edge > 0.0f ? std::max(kEdge, kJump - static_cast<int>(400.0f * std::min(edge, 1.0f))) : kJump;
 }
 
-// The costs of a path's last pixel, between two that nothing reaches.
+// The costs of a path's last pixel, between two unreachable ones.
 struct Volume::Path {
   std::vector<Cost> costs;
-  std::vector<Cost> least;  // of each pixel
+  std::vector<Cost> least;  // per pixel
   int shifts;
 
   Path(int count, int n)
@@ -162,7 +162,7 @@ struct Volume::Path {
   }
   Cost* at(int x) { return &costs[static_cast<size_t>(x) * static_cast<size_t>(shifts + 2) + 1]; }
 
-  // Goes on from pixel `from` of another path to pixel x of this one.
+  // Continues from pixel `from` of another path to pixel x of this one.
   void go(int x, Path& other, int from, int jump, const uint8_t* cost, Cost* sums) {
     const Cost* before = other.at(from);
     const Cost base = other.least[static_cast<size_t>(from)], far = static_cast<Cost>(base + jump);
@@ -182,7 +182,7 @@ void Volume::sum_along_rows(int step) {
   tbb::parallel_for(0, left_.rows, [&](int y) {
     Path path(2, shifts_);
     std::vector<Cost> unused(static_cast<size_t>(shifts_));
-    const int before = width() / 16;  // the path has no beginning
+    const int before = width() / 16;  // the path is a closed circle and needs a run-up
     int x = step > 0 ? width() - before : before;
     for (int i = 0; i < width() + before; i++, x = turned(x + step)) {
       path.go(i % 2, path, 1 - i % 2, jump(x, y, x - step, y), &costs_[cell(x, y)],
@@ -209,7 +209,7 @@ void Volume::sum_paths() {
   }
 }
 
-// A shift whose sum is clearly less than every other's, but for those beside it.
+// The shift whose sum is clearly smaller than all others, except the adjacent ones.
 Volume::Best Volume::best_of(const Cost* sums) const {
   Best best;
   Cost least = kMost, second = kMost;
@@ -226,7 +226,7 @@ Volume::Best Volume::best_of(const Cost* sums) const {
   return best;
 }
 
-// The right eye's pixel x meets the left eye's x + shift.
+// The right eye's pixel x matches the left eye's x + shift.
 std::vector<Volume::Best> Volume::best_shifts(int eye) const {
   std::vector<Best> best(own_.bits.size());
   tbb::parallel_for(0, left_.rows, [&](int y) {
@@ -260,7 +260,7 @@ std::vector<float> Volume::checked(int eye, const std::vector<Best>& own, const 
   return shifts;
 }
 
-// Of three by three, where most are known.
+// Medians of three by three pixels where most are known.
 std::vector<float> Volume::medians(const std::vector<float>& shifts) const {
   std::vector<float> smooth = shifts;
   tbb::parallel_for(1, left_.rows - 1, [&](int y) {

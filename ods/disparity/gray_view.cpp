@@ -15,7 +15,7 @@
 
 namespace ods {
 
-// The number of pixels that the eye has for the 360 degrees around the horizon, or would have if it covered them.
+// The number of pixels of the eye per 360 degrees around the horizon, extrapolated if it covers less.
 static double pixels_around(const ProjectionSetting& setting, int width) {
   return 2.0 * std::numbers::pi * pixels_per_radian(setting, width);
 }
@@ -53,7 +53,7 @@ class Sampler {
     for (int i = 0; i < n_ * width_ / 2; i++) rows_.push_back(pixel_at(middle.x, phi_of(i)).y);
   }
 
-  // Their indices in reading order; empty if one is outside the picture.
+  // The indices of the pixels in reading order. Empty if one is outside the picture.
   void find(int x, int y, std::vector<size_t>& found) const {
     found.clear();
     for (int i = 0; i < n_ * n_; i++) {
@@ -68,7 +68,7 @@ class Sampler {
   float phi_of(int i) const { return turn(0.25 - 0.5 * (i + 0.5) / (n_ * width_ / 2)); }
   static float turn(double turns) { return static_cast<float>(2.0 * std::numbers::pi * turns); }
 
-  // Of a lat-long picture, columns and rows are tables: asking for every point is slow.
+  // Columns and rows of a lat-long picture are in tables, because computing each point is slow.
   glm::ivec2 pixel_of(int i, int j) const {
     if (columns_.empty()) return pixel_at(theta_of(i), phi_of(j));
     return {columns_[static_cast<size_t>(i)], rows_[static_cast<size_t>(j)]};
@@ -95,7 +95,7 @@ static float mean_grey(const Image& eye, const std::vector<size_t>& places, floa
     const float light = eye.pixels[place] * exposure;
     sum += std::isinf(light) ? std::numeric_limits<float>::quiet_NaN() : std::min(light, 1.0f);
   }
-  return srgb_encode(sum / static_cast<float>(places.size()));  // NaN if there are no places
+  return srgb_encode(sum / static_cast<float>(places.size()));  // NaN if there are no pixels
 }
 
 std::vector<GrayView> make_gray_views(const std::vector<Image>& eyes, const ProjectionSetting& projection,

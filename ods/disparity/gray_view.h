@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The views that are compared: each eye as a small grey lat-long picture, whatever its projection was.
+// The views for comparison: each eye as a small grey lat-long picture, converted from its projection.
 #pragma once
 #include <vector>
 
@@ -10,12 +10,12 @@
 
 namespace ods {
 
-// One channel, twice as wide as high, covering the whole sphere: about what a display shows, 0..1; NaN where the
-// picture does not reach or has no number.
+// One channel, twice as wide as high, covering the whole sphere: approximately display values, 0..1; NaN where the
+// picture ends or is not finite.
 using GrayView = Image;
 
-// Both eyes get the same exposure. A view is at most max_width wide, and no wider than the eyes' resolution supports.
-// Precondition: one or two eyes of the same size, 1 channel.
+// Makes the views, with the same exposure for both eyes. A view is at most max_width wide, and no wider than the eyes'
+// resolution supports. Precondition: one or two eyes of the same size, 1 channel.
 std::vector<GrayView> make_gray_views(const std::vector<Image>& eyes, const ProjectionSetting& projection,
                                       bool is_float, int max_width);
 

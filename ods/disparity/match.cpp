@@ -10,14 +10,14 @@ namespace ods {
 
 namespace {
 
-// The least standard deviation of a tile with enough detail. One step of 8 bits is 0.004.
+// Minimum standard deviation of a tile with enough detail. One step of 8 bits is 0.004.
 constexpr double kLeastDetail = 0.015;
 
 // A tile is ambiguous if a second peak, not adjacent to the first, is less than this below it.
 constexpr double kPeakLead = 0.04;
 
 struct Tile {
-  int x, y;  // of the tile's first pixel
+  int x, y;  // the tile's first pixel
   int columns, rows;
 };
 
@@ -79,7 +79,7 @@ class Matcher {
   Matcher(const GrayView& from, const Sums& from_sums, const Sums& to_sums, int reach_x, int reach_y)
       : view_(from), from_(from_sums), to_(to_sums), reach_x_(reach_x), reach_y_(reach_y) {}
 
-  // Returns false if there is no detail or no picture.
+  // Selects a tile. Returns false if it has no detail or no picture.
   bool take(const Tile& tile) {
     tile_ = tile;
     const double n = count();
@@ -120,7 +120,7 @@ class Matcher {
   // One full turn to the right, where the sums have columns on both sides.
   int turned(int x) const { return x + view_.width; }
 
-  // -1 if the other picture is empty or flat there.
+  // Returns -1 if the other picture is empty or flat there.
   double correlate(int x, int y) const {
     const Sums::Sum sum = to_.over(turned(x), y, tile_.columns, tile_.rows);
     const double spread = sum.square - sum.value * sum.value / count();
@@ -129,7 +129,7 @@ class Matcher {
     const float* pattern = pattern_.data();
     for (int j = 0; j < tile_.rows; j++, pattern += tile_.columns) {
       const float* row = &to_.values[to_.index(turned(x), y + j)];
-      float lanes[4] = {};  // independent sums, so that additions do not wait for each other
+      float lanes[4] = {};  // independent sums, so that additions need not wait for each other
       int i = 0;
       for (; i + 4 <= tile_.columns; i += 4) {
         for (int lane = 0; lane < 4; lane++) lanes[lane] += pattern[i + lane] * row[i + lane];
@@ -165,7 +165,7 @@ class Matcher {
   int reach_x_, reach_y_;
   Tile tile_{};
   std::vector<float> pattern_;
-  std::vector<Found> profile_;  // for each shift along the row: the best vertical shift
+  std::vector<Found> profile_;  // the best vertical shift for each shift along the row
 };
 
 }  // namespace

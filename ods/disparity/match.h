@@ -14,10 +14,10 @@ namespace ods {
 // Angles are in radians. A tile has the same width on the sphere at every elevation:
 // its columns grow towards the poles.
 struct Search {
-  int rows = 12;  // of a tile, in pixels of the view
+  int rows = 12;  // size of a tile, in pixels of the view
   int columns = 16;
   int step = 12;         // from one row of tiles to the next, in pixels of the view
-  float around = 0.21f;  // how far to search to either side; half of the parallax at 0.3 m
+  float around = 0.21f;  // search range to either side; half of the parallax at 0.3 m
   float down = 0.02f;
   float lowest = -1.2f;  // elevation of the tiles' centres
   float highest = 1.2f;
@@ -25,10 +25,10 @@ struct Search {
 };
 
 struct Match {
-  float theta = 0.0f;  // of the tile's centre
+  float theta = 0.0f;  // the tile's centre
   float phi = 0.0f;
   float around = 0.0f;  // theta in the left eye minus theta in the right eye: for a parallel pair 2 asin(r / rho) >= 0
-  float down = 0.0f;    // likewise for phi; 0 in every omni-directional stereo pair
+  float down = 0.0f;    // phi in the left eye minus phi in the right eye; 0 in every omni-directional stereo pair
   float correlation = 0.0f;
 };
 
@@ -37,7 +37,7 @@ struct Matches {
   std::vector<Match> found;
   float pixel = 0.0f;  // size of a pixel of the view, radians
 
-  // The fraction of these tiles that were found.
+  // The matched fraction of these tiles.
   double share() const { return tiles > 0 ? static_cast<double>(found.size()) / tiles : 0.0; }
 };
 

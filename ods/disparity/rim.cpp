@@ -10,8 +10,8 @@ namespace ods {
 
 constexpr int kRays = 720;
 constexpr float kLeastDark = 0.03f;  // video black, and the noise and ringing of codecs
-constexpr float kLeastShare = 0.2f;  // of the circle
-constexpr float kRound = 0.012f;     // of the radius: how far off the circle a border is at most
+constexpr float kLeastShare = 0.2f;  // minimum fraction of the circle
+constexpr float kRound = 0.012f;     // relative to the radius: maximum distance of a border from the circle
 
 static float sample(const Image& image, vec2 at) {
   const float x = std::clamp(at.x - 0.5f, 0.0f, static_cast<float>(image.width - 1));
@@ -22,7 +22,7 @@ static float sample(const Image& image, vec2 at) {
   return std::lerp(top, std::lerp(*image.at(x0, y0 + 1), *image.at(x0 + 1, y0 + 1), fx), fy);
 }
 
-// What the surround is at most: the darkest corner and a margin.
+// Maximum brightness of the surround: the darkest corner plus a margin.
 static float dark_level(const Image& image) {
   const int side = std::max(1, std::min(image.width, image.height) / 50);
   float darkest = 1.0f;
@@ -36,7 +36,7 @@ static float dark_level(const Image& image) {
   return darkest + kLeastDark;
 }
 
-// How far a ray from `from` gets before it leaves the image.
+// The length of a ray from `from` inside the image.
 static float length_inside(const Image& image, vec2 from, vec2 way) {
   float length = 1e9f;
   const vec2 size(static_cast<float>(image.width), static_cast<float>(image.height));
@@ -47,8 +47,8 @@ static float length_inside(const Image& image, vec2 from, vec2 way) {
   return length;
 }
 
-// Where the image becomes brighter than dark on the way inwards; the steepest place near it. Nothing where it is bright
-// at its very edge, or nowhere.
+// The point on the way inwards where the image becomes brighter than dark; the steepest point near it. Returns nullopt
+// if it is bright at its very edge, or nowhere.
 static std::optional<vec2> border_on(const Image& image, vec2 from, vec2 way, float dark) {
   const float length = length_inside(image, from, way), kStep = 0.5f;
   if (sample(image, from + way * (length - 0.5f)) > dark) return std::nullopt;
@@ -86,7 +86,8 @@ static float off(const Rim& rim, vec2 point) {
   return length(point - rim.center) - rim.radius;
 }
 
-// A circle through three points that has most borders on it, and few outside: dark things at the rim pull them inwards.
+// The circle through three points with the most borders on it, and few outside: dark objects at the rim move borders
+// inwards.
 static std::optional<Rim> circle_of_most(const std::vector<vec2>& borders) {
   std::optional<Rim> best;
   int most = 0;
@@ -108,7 +109,7 @@ static std::optional<Rim> circle_of_most(const std::vector<vec2>& borders) {
   return best;
 }
 
-// The share of the circle inside the image.
+// The fraction of the circle inside the image.
 static float share_inside(const Image& image, const Rim& rim) {
   int inside = 0;
   for (int i = 0; i < kRays; i++) {
@@ -151,7 +152,7 @@ std::optional<Rim> find_rim(const Image& image) {
   const float inside = share_inside(image, *rim);
   const float least = 0.3f * static_cast<float>(std::min(image.width, image.height));
   if (rim->radius < least || inside < kLeastShare) return std::nullopt;
-  // Borders that are on the circle, of the circle's part that has any.
+  // The fraction of borders on the circle, out of the circle's part inside the image.
   rim->share = std::min(1.0f, static_cast<float>(on) / (kRays * inside));
   return rim->share > 0.5f ? rim : std::nullopt;
 }

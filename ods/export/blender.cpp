@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Python that sets up a Blender scene's camera to match. If a version of Blender lacks a property, the script says so
-// when it runs.
+// Python that sets up a Blender scene's camera to match. If a version of Blender lacks a property, the script reports
+// it when it runs.
 #include <fmt/format.h>
 
 #include "ods/export/writers.h"

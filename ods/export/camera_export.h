@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Exports a camera to another renderer: describes it in that system's terms. What the system cannot do is a comment in
-// the text and an entry of `warnings`.
+// Exports a camera to another renderer: describes it in that system's terms. Unsupported properties become comments in
+// the text and entries of `warnings`.
 #pragma once
 #include <string>
 #include <string_view>
@@ -27,13 +27,23 @@ enum class CameraTarget {
   kNumbers,  // for users and spreadsheets
 };
 
-// povray, povray-fork, blender, ...
-inline constexpr NameRow<CameraTarget> kCameraTargetTable[] = {
-    {CameraTarget::kPovray, "povray"},   {CameraTarget::kPovrayFork, "povray-fork"},
-    {CameraTarget::kBlender, "blender"}, {CameraTarget::kOsl, "osl"},
-    {CameraTarget::kArnold, "arnold"},   {CameraTarget::kMtoa, "mtoa"},
-    {CameraTarget::kGlsl, "glsl"},       {CameraTarget::kHlsl, "hlsl"},
-    {CameraTarget::kPython, "python"},   {CameraTarget::kJson, "json"},
+struct CameraTargetRow {
+  CameraTarget member;
+  std::string_view name;
+  bool tested = true;  // in the program itself
+};
+
+inline constexpr CameraTargetRow kCameraTargetTable[] = {
+    {CameraTarget::kPovray, "povray"},
+    {CameraTarget::kPovrayFork, "povray-fork", false},
+    {CameraTarget::kBlender, "blender"},
+    {CameraTarget::kOsl, "osl", false},
+    {CameraTarget::kArnold, "arnold", false},
+    {CameraTarget::kMtoa, "mtoa", false},
+    {CameraTarget::kGlsl, "glsl"},
+    {CameraTarget::kHlsl, "hlsl"},
+    {CameraTarget::kPython, "python"},
+    {CameraTarget::kJson, "json"},
     {CameraTarget::kNumbers, "numbers"},
 };
 static_assert(has_every_member(kCameraTargetTable));
@@ -44,8 +54,8 @@ constexpr std::string_view camera_target_name(CameraTarget target) {
 
 struct CameraExport {
   std::string text;
-  std::vector<std::string> warnings;  // what the target lacks, one line each
-  std::string refusal;                // why there is no text, if there is none
+  std::vector<std::string> warnings;  // properties that the target lacks, one line each
+  std::string refusal;                // the reason why there is no text; empty if there is
 };
 
 CameraExport export_camera(const Sidecar& file, CameraTarget target);

@@ -91,7 +91,7 @@ class Writer {
     return named(Operation::kParameter, name);
   }
 
-  // Numbers and names are not given a step of their own.
+  // Numbers and names do not become separate steps.
   Formula step(const std::string& name, const Formula& value) {
     if (value->operands.empty()) return value;
     out_.steps.push_back({name, value, ""});
@@ -119,7 +119,7 @@ class Writer {
         case EyePacking::kColumns:
         case EyePacking::kCheckerboard:
         case EyePacking::kMixed:
-          assert(false);  // formula_fault() refuses them
+          assert(false);  // rejected by formula_fault()
           break;
         case EyePacking::kAlone:
           break;

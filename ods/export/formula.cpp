@@ -49,7 +49,7 @@ Formula replace_step(const Formula& a, const std::string& name, const Formula& b
   return make(a->operation, std::move(operands));
 }
 
-// A sum has its number after the other operand, a product before: p + n, n * p.
+// A sum has its number after the other operand, a product before it: p + n, n * p.
 static bool has_number_behind(const Formula& a) {
   return a->operation == Operation::kAdd && is_number(a->operands[1]);
 }
@@ -152,7 +152,7 @@ Formula select(const Formula& condition, const Formula& below_zero, const Formul
 
 namespace {
 
-// How tightly an expression binds.
+// The precedence of an expression.
 enum Binding { kSum, kProduct, kAtom };
 
 class Printer {
@@ -180,7 +180,8 @@ class Printer {
     return brackets ? fmt::format("({})", text) : text;
   }
 
-  // Prints a multiple of pi as "pi", "2*pi", "pi/180", and a multiple of 1/pi as "180/pi"; all else with 10 digits.
+  // Prints a multiple of pi as "pi", "2*pi", "pi/180", a multiple of 1/pi as "180/pi", and all other numbers with 10
+  // digits.
   std::string number(double value) const {
     for (const double times : {0.5, 180.0}) {
       if (std::abs(value * std::numbers::pi - times) < 1e-12 * times) return plain(times) + "/pi";
@@ -303,7 +304,7 @@ std::string print(const Formula& formula, Language language) {
   return Printer(language).text(formula, kSum);
 }
 
-// In POV-Ray all names share one namespace with the scene; ours are those of the page that its users know.
+// In POV-Ray all names share one namespace with the scene. Our names are those of the page that its users know.
 std::string print_name(const std::string& name, Language language) {
   if (language != Language::kPovray) return name;
   if (name == "ipd") return "odsIPD";

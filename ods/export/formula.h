@@ -31,7 +31,7 @@ enum class Operation {
   kMin,
   kMax,
   kFloor,
-  kSelect,  // of three operands: the second if the first is below 0, else the third
+  kSelect,  // three operands: the second if the first is negative, else the third
 };
 
 struct Expression;

@@ -40,7 +40,7 @@ std::string eye_hint(const Sidecar& file, const CameraFormula& formula, const st
 
 struct Shader {
   Language language;
-  std::string_view number;  // how a constant is declared
+  std::string_view number;  // declaration of a constant
   std::string_view signature;
   std::string_view vector;
 };
@@ -81,8 +81,8 @@ CameraExport to_shader(const Sidecar& file, const FormulaView& view, const Shade
   return result;
 }
 
-// A vector in POV-Ray, whose functions have no local variables: a function computes twice what it calls twice, and four
-// times what that calls twice. So a step that a component would compute more than once becomes a link of a chain: a
+// A vector in POV-Ray, whose functions have no local variables: a function that is called twice is computed twice, and
+// its own callees four times. So a step that a component would compute more than once becomes a link of a chain: a
 // function of the previous links that are still needed, which passes these and its own value to the next function. The
 // last one selects the component. All other steps are written out where they are used.
 class PovrayVector {
@@ -99,7 +99,7 @@ class PovrayVector {
     }
   }
 
-  // The last function comes first, or POV-Ray would not know it when it reads the call.
+  // The last function comes first, because POV-Ray must know it when it reads the call.
   std::string functions() const {
     if (chain_.empty()) return "";
     std::string text = declare(chain_.size(), chosen());
@@ -130,7 +130,7 @@ class PovrayVector {
                        [&](const NamedFormula& step) { return count_step(part, step.name) > 0; });
   }
 
-  // How often a component computes a step if all steps are written out; the maximum over the components.
+  // The number of times that a component computes a step if all steps are written out; the maximum over the components.
   double evaluations(const std::string& name) const {
     double most = 0.0;
     for (const Formula& part : v_) {
@@ -164,7 +164,7 @@ class PovrayVector {
     for (Formula& part : v_) part = replace_step(part, name, value);
   }
 
-  // The values passed to function i: those of the previous links that it or a later one needs.
+  // The values passed to function i: values of the previous links that it or a later one needs.
   std::vector<std::string> needed_from(size_t i) const {
     std::vector<std::string> names;
     for (size_t link = 0; link < i; link++) {

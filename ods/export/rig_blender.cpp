@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Python that renders all views in Blender, with whatever engine the scene uses. Blender's depth of a perspective
-// camera is along the axis. If a version of Blender lacks a property, the script says so when it runs.
+// camera is along the axis. If a version of Blender lacks a property, the script reports it when it runs.
 #include <fmt/format.h>
 
 #include "ods/export/rig_writers.h"
@@ -12,6 +12,7 @@ namespace ods {
 static constexpr const char* kBody = R"(
 import os
 import sys
+import tempfile
 
 import bpy
 from mathutils import Matrix
@@ -58,7 +59,7 @@ def set_up(scene):
     return camera
 
 
-def mark(folder):
+def mark(folder, work):
     """Says which rig the views are of. A folder is of one rig: its views stay, and another's would be mixed with them."""
     path = os.path.join(folder, "ods-rig.txt")
     if os.path.exists(path):
@@ -66,15 +67,15 @@ def mark(folder):
             if MARK.split('"')[1] not in file.read():
                 sys.exit("ods: %s: views of another rig. Remove the folder, or name another one" % path)
         return
-    unfinished = "%s.%d" % (path, os.getpid())
+    unfinished = os.path.join(work, "ods-rig.txt")
     with open(unfinished, "w") as file:
         file.write(MARK)
     os.replace(unfinished, path)
 
 
-def render_view(scene, camera, number, folder):
+def render_view(scene, camera, number, folder, work):
     name = "%04d.exr" % number
-    path, unfinished = os.path.join(folder, name), os.path.join(folder, ".unfinished." + name)
+    path, unfinished = os.path.join(folder, name), os.path.join(work, name)
     if os.path.exists(path) and os.path.getsize(path) > 0:
         return
     m = VIEWS[number - 1]
@@ -95,11 +96,13 @@ def main():
     if not 1 <= first <= last <= len(VIEWS):
         sys.exit("ods: views are 1 to %d" % len(VIEWS))
     os.makedirs(folder, exist_ok=True)
-    mark(folder)
-    scene = bpy.context.scene
-    camera = set_up(scene)
-    for number in range(first, last + 1):
-        render_view(scene, camera, number, folder)
+    # Others may write in the folder, too, but not in this one.
+    with tempfile.TemporaryDirectory(prefix=".unfinished.", dir=folder) as work:
+        mark(folder, work)
+        scene = bpy.context.scene
+        camera = set_up(scene)
+        for number in range(first, last + 1):
+            render_view(scene, camera, number, folder, work)
 
 
 main()

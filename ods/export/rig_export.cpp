@@ -14,7 +14,7 @@
 namespace ods {
 
 RigExport export_rig(const SlitRig& rig, RigTarget target, const std::string& file_name) {
-  const std::string name = one_line(file_name);
+  const std::string name = terminal_text(one_line(file_name));
   switch (target) {
     case RigTarget::kBlender:
       return rig_to_blender(rig, name);

@@ -21,17 +21,22 @@ enum class RigTarget {
   kPovray,   // POV-Ray 3.7: an include file, and options
   kThree,    // a module for a three.js page
   kUsd,      // a moving camera: time code n is view n
-  kGltf,     // likewise: view n is shown at n/24 s
+  kGltf,     // a moving camera: view n is shown at n/24 s
   kUnity,    // C# for the editor
   kUnreal,   // Python for the editor
   kCsv,      // for spreadsheets and unknown programs: one line per view
 };
 
-// blender, povray, three, usd, ...
-inline constexpr NameRow<RigTarget> kRigTargetTable[] = {
-    {RigTarget::kBlender, "blender"}, {RigTarget::kPovray, "povray"}, {RigTarget::kThree, "three"},
-    {RigTarget::kUsd, "usd"},         {RigTarget::kGltf, "gltf"},     {RigTarget::kUnity, "unity"},
-    {RigTarget::kUnreal, "unreal"},   {RigTarget::kCsv, "csv"},
+struct RigTargetRow {
+  RigTarget member;
+  std::string_view name;
+  bool tested = true;  // in the program itself
+};
+
+inline constexpr RigTargetRow kRigTargetTable[] = {
+    {RigTarget::kBlender, "blender"},      {RigTarget::kPovray, "povray"}, {RigTarget::kThree, "three"},
+    {RigTarget::kUsd, "usd", false},       {RigTarget::kGltf, "gltf"},     {RigTarget::kUnity, "unity", false},
+    {RigTarget::kUnreal, "unreal", false}, {RigTarget::kCsv, "csv"},
 };
 static_assert(has_every_member(kRigTargetTable));
 inline constexpr auto kRigTargets = members_of(kRigTargetTable);
@@ -46,11 +51,12 @@ struct RigScript {
 
 struct RigExport {
   std::vector<RigScript> scripts;
-  // What the target cannot do for this rig, one line each; the text includes them too.
+  // Limitations of the target for this rig, one line each; the text includes them too.
   std::vector<std::string> warnings;
 };
 
-// `name`: of the rig's file, without folder and without .json. The scripts name the rig and each other by it.
+// Exports a rig. name: of the rig's file, without folder and without .json. The scripts refer to the rig and to each
+// other by it.
 RigExport export_rig(const SlitRig& rig, RigTarget target, const std::string& name);
 
 }  // namespace ods

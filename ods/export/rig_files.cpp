@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ods/base/base64.h"
+#include "ods/base/quote.h"
 #include "ods/camera/layout.h"
 #include "ods/export/rig_writers.h"
 
@@ -20,7 +21,7 @@ namespace ods {
 RigExport rig_to_usd(const SlitRig& rig, const std::string& name) {
   RigExport result;
   const glm::dvec2 half = half_size(rig);
-  constexpr double kAperture = 36.0;  // tenths of a unit, as the focal length is
+  constexpr double kAperture = 36.0;  // tenths of a unit, like the focal length
   std::string text = "#usda 1.0\n(\n    defaultPrim = \"ods\"\n    metersPerUnit = 1\n    upAxis = \"Y\"\n";
   text += fmt::format("    startTimeCode = 1\n    endTimeCode = {}\n", rig.views.size());
   text += "    timeCodesPerSecond = 24\n    framesPerSecond = 24\n)\n";
@@ -63,7 +64,7 @@ struct Keys {
   std::vector<float> times, places, turns;
 };
 
-// A view's key is half a frame before its time, so that rounding of times never shows the previous view.
+// A view's key is half a frame before its time, so that rounding of times cannot show the previous view.
 Keys keys_of(const SlitRig& rig) {
   Keys keys;
   for (size_t i = 0; i < rig.views.size(); i++) {
@@ -132,14 +133,13 @@ RigExport rig_to_gltf(const SlitRig& rig, const std::string& name) {
     animation["samplers"].push_back({{"input", 0}, {"output", output}, {"interpolation", "STEP"}});
   }
   json["animations"].push_back(animation);
-  result.scripts.push_back(
-      {".gltf", json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"});
+  result.scripts.push_back({".gltf", json_document(json, 1) + "\n"});
   return result;
 }
 
 // --- CSV ------------------------------------------------------------------------------------------------------------
 
-// The file has no comment: programs that read CSV would take it for a line of data.
+// The file has no comment, because programs that read CSV would read it as a line of data.
 RigExport rig_to_csv(const SlitRig& rig, const std::string&) {
   const glm::dvec2 half = half_size(rig);
   std::string text = "number,eye,slit,pitch,x,y,z";

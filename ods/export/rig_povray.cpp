@@ -20,8 +20,8 @@ static std::string vectors(const SlitRig& rig, const char* word, glm::dvec3 View
   return text + "}\n";
 }
 
-// Writes which rig the views belong to. A folder is for one rig; otherwise +C would continue among another rig's views.
-// POV-Ray's strings have at most 255 characters.
+// The line that identifies the rig of the views. A folder belongs to one rig; otherwise +C would continue among another
+// rig's views. POV-Ray's strings have at most 255 characters.
 static std::string mark_text(const SlitRig& rig) {
   constexpr size_t kLongest = 100;
   const std::string literal = mark_literal(rig);

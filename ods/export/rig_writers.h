@@ -34,8 +34,8 @@ std::string matrix_rows(const ViewPose& pose);  // 12 numbers: three rows of rig
 // The text of the folder's mark (ods/stitch/rig_mark.h) as a string literal for Python, JavaScript and C#.
 std::string mark_literal(const SlitRig& rig);
 
-// The head of every script: what it is for, what must not move, what comes next. `views` are the names of the files
-// that it writes, with a placeholder for the number.
+// The head of every script: its purpose, the things that must not move, and the next step. `views` are the names of the
+// files that it writes, with a placeholder for the number.
 struct ScriptHead {
   std::string title;
   std::string views = "views/####.png";

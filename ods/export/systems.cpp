@@ -14,7 +14,7 @@
 namespace ods {
 namespace {
 
-// The system's names of a layout and the eyes; empty: the system does not have it.
+// The system's names of a layout and the eyes; empty if the system does not support it.
 struct ModeNames {
   std::string_view mono, left, right, side_by_side, top_bottom;
 };

@@ -19,19 +19,19 @@ struct Abilities {
   bool partial = false;  // part of a lat-long picture
 };
 
-// What a camera needs and the abilities lack, one phrase each. The caller handles merges, projections other than
-// lat-long, and layouts. None of these systems supports another axis, a rotated picture, a mirrored world or a lens
-// like ours.
+// The requirements of a camera that the abilities lack, one phrase each. The caller handles merges, projections other
+// than lat-long, and layouts. None of these systems supports another axis, a rotated picture, a mirrored world or a
+// lens like ours.
 std::vector<std::string> lacking(const Sidecar& file, const Abilities& abilities);
 
 bool is_plain_cosine(const PoleMergeSetting& merge);   // exponent 1, up to the pole
 std::string one_merge(const PoleMergeSetting& merge);  // "cosine from 60 to 90 degrees"
 std::string merge_text(const StereoCamera& camera);    // for both poles
 std::string camera_title(const Sidecar& file);         // "both eyes, top-bottom, lat-long"
-Extent picture_size(const Sidecar& file);              // of the whole file; 0x0 if unknown
+Extent picture_size(const Sidecar& file);              // size of the whole file; 0x0 if unknown
 std::string yaw_pitch_roll(const StereoCamera& camera);
 
-// Comment lines: a title, and what the target lacks.
+// Comment lines: a title, and the features that the target lacks.
 std::string comment_block(const std::string& mark, const std::string& title, const std::vector<std::string>& warnings);
 
 // The camera's pose in a right-handed world with +Y up: right, up, back and position.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "ods/base/error.h"
 #include "ods/base/quote.h"
 #include "ods/farm/scheduler.h"
 
@@ -9,9 +10,19 @@ namespace ods {
 
 namespace {
 
+// Flamenco replaces {NAME} by its variables, and has no way to escape one.
+std::string flamenco_word(const std::string& word) {
+  const size_t open = word.find('{');
+  if (open != std::string::npos && word.find('}', open) != std::string::npos) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("'{}' has {{...}}, where Flamenco expects a variable; rename the file", word));
+  }
+  return json_text(word);
+}
+
 std::string group_text(const FarmPlan& plan, const TaskGroup& group) {
   std::string words;
-  for (const std::string& word : group.command) words += json_text(word) + ", ";
+  for (const std::string& word : group.command) words += flamenco_word(word) + ", ";
   if (plan.cpus > 0) words += fmt::format("\"--threads\", \"{}\", ", plan.cpus);
   words.resize(words.size() - 2);
   return fmt::format("  {{ name: {}, option: {}, tasks: {}, args: [{}] }},\n", json_text(group.name),
@@ -53,7 +64,7 @@ function compileJob(job) {{
 std::vector<FarmFile> write_flamenco(const FarmPlan& plan, const SchedulerWishes&) {
   std::string groups;
   for (const TaskGroup& group : plan.groups) groups += group_text(plan, group);
-  return {{plan.name + ".js", fmt::format(kFlamencoScript, json_text(plan.name), json_text(plan.program), groups)}};
+  return {{plan.name + ".js", fmt::format(kFlamencoScript, json_text(plan.name), flamenco_word(plan.program), groups)}};
 }
 
 }  // namespace ods

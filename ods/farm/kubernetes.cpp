@@ -13,10 +13,10 @@ namespace ods {
 
 namespace {
 
-// Of an object: small letters, digits and "-", with an end that is no "-". A pod's host name has the task's number
-// behind it, and is at most 63 long.
+// Names an object: small letters, digits and "-", with an end that is not "-". A pod's host name appends the task's
+// number, its own name five random characters more; both are at most 63 long.
 std::string object_name(const std::string& plan, const std::string& group) {
-  const size_t kLongest = 63 - std::string("-1000000").size();
+  const size_t kLongest = 63 - std::string("-1000000-abcde").size();
   std::string name = plan.substr(0, kLongest - 1 - group.size()) + "-" + group;
   for (char& c : name) {
     c = std::isalnum(static_cast<unsigned char>(c)) ? static_cast<char>(std::tolower(static_cast<unsigned char>(c)))
@@ -37,7 +37,8 @@ std::string resources(const FarmPlan& plan, const TaskGroup& group) {
   return fmt::format("requests: {0}\n            limits: {0}", both);
 }
 
-// An exit code of 2 is a command line that is wrong on every machine; an evicted pod is no failure of its task.
+// An exit code of 2 is a command line that is wrong on every machine, 5 a verdict, which is the same on all; an evicted
+// pod is not a failure of its task.
 std::string job_of(const FarmPlan& plan, const TaskGroup& group, const SchedulerWishes& wishes) {
   std::vector<std::string> words = {"exec", plan.program};
   words.insert(words.end(), group.command.begin(), group.command.end());
@@ -59,6 +60,8 @@ spec:
     rules:
       - action: FailJob
         onExitCodes: {{containerName: ods, operator: In, values: [2]}}
+      - action: FailIndex
+        onExitCodes: {{containerName: ods, operator: In, values: [5]}}
       - action: Ignore
         onPodConditions: [{{type: DisruptionTarget, status: "True"}}]
   template:
@@ -82,7 +85,7 @@ spec:
 
 void check_mount(const FarmPlan& plan, const SchedulerWishes& wishes) {
   for (const PlanPath& path : plan.paths) {
-    if (path.path.starts_with(wishes.mount + "/") || wishes.mount == "/") continue;
+    if (path.path == wishes.mount || path.path.starts_with(wishes.mount + "/") || wishes.mount == "/") continue;
     throw Error(ErrorKind::kUsage, fmt::format("'{}' is outside '{}', where the pods see the volume: --mount DIR names "
                                                "a folder that has all files, --copy-scene copies the scene",
                                                path.path, wishes.mount));
@@ -91,8 +94,8 @@ void check_mount(const FarmPlan& plan, const SchedulerWishes& wishes) {
 
 constexpr const char* kKubernetesSubmit = R"sh(#!/bin/sh
 # Sends the jobs to the cluster that kubectl knows, each when the one before is complete, and waits for the last; ends
-# with 1 when one fails. Started again it goes on: a job that runs is waited for, one that has ended is sent anew, and
-# its tasks skip what is there.
+# with 1 when one fails, with 5 when one has judged its input and found a fault. Started again it resumes: it waits for
+# a job that runs, and sends one that has ended again, whose tasks skip what is there.
 set -eu
 cd "$(dirname "$0")"
 die() {
@@ -107,6 +110,11 @@ look() {  # JOB OPTION...: sets ended
     *) ended=no ;;
   esac
 }
+found_fault() {  # JOB
+  codes=$(kubectl get pods --selector="job-name=$1" \
+    --output='jsonpath={.items[*].status.containerStatuses[*].state.terminated.exitCode}')
+  case " $codes " in *" 5 "*) ;; *) return 1 ;; esac
+}
 run() {  # JOB FILE
   look "$1" --ignore-not-found
   [ $ended = no ] || kubectl delete job "$1"
@@ -119,6 +127,10 @@ run() {  # JOB FILE
     [ $misses != 0 ] || [ $ended = no ] || break
     sleep 5
   done
+  if [ $ended = failed ] && found_fault "$1"; then
+    echo "$1 has found a fault: kubectl logs --selector=job-name=$1"
+    exit 5
+  fi
   [ $ended = complete ] || die "$1 has failed: kubectl describe job $1; kubectl logs --selector=job-name=$1"
   echo "$1 is complete"
 }

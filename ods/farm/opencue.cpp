@@ -9,9 +9,17 @@ namespace ods {
 
 namespace {
 
-// Cuebot takes at least three characters.
+// Cuebot requires at least three characters.
 std::string job_name(const std::string& plan) {
   return plan.size() < 3 ? "job_" + plan : plan;
+}
+
+// Cuebot replaces #IFRAME#, #FRAME#, #LAYER#, #JOB# and more everywhere, and has no way to escape one. Shell quotes are
+// placed so that "#" and a name are never adjacent.
+std::string cue_word(const std::string& word) {
+  std::string parted;
+  for (const char c : shell_word(word)) parted += c == '#' ? "#''" : std::string(1, c);
+  return parted;
 }
 
 // OpenCue fills in #IFRAME#, the task's number. Its own jobs of frames in chunks run over the end. No layer is of type
@@ -21,7 +29,8 @@ std::string layer_of(const FarmPlan& plan, const TaskGroup& group) {
   std::vector<std::string> words = {plan.program};
   words.insert(words.end(), group.command.begin(), group.command.end());
   if (plan.cpus > 0) words.insert(words.end(), {"--threads", fmt::format("{}", plan.cpus)});
-  std::string line = shell_line(words);
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + cue_word(word);
   if (!group.option.empty()) line += fmt::format(" {} #IFRAME#/{}", group.option, group.tasks);
   const std::string range = group.tasks == 1 ? "1" : fmt::format("1-{}", group.tasks);
   return fmt::format(R"(      <layer name="{}" type="{}">

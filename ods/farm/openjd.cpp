@@ -8,6 +8,7 @@
 
 #include "ods/base/error.h"
 #include "ods/base/json_reader.h"
+#include "ods/base/quote.h"
 #include "ods/farm/scheduler.h"
 
 namespace ods {
@@ -23,7 +24,7 @@ struct PathParameter {
   PlanPath path;
 };
 
-// Outputs are folders: the frames lie beside the video, and each step's output is the next one's input.
+// Outputs are folders: the frames are beside the video, and each step's output is the next one's input.
 std::vector<PathParameter> parameters_of(const FarmPlan& plan) {
   std::vector<PathParameter> parameters;
   for (PlanPath path : plan.paths) {
@@ -51,7 +52,7 @@ Json definition_of(const PathParameter& parameter) {
            {{"control", is_folder ? "CHOOSE_DIRECTORY" : "CHOOSE_INPUT_FILE"}, {"label", parameter.name}}}};
 }
 
-// The word with its path replaced by the parameter that a farm may map to another place.
+// The argument with its path replaced by the parameter that a farm may map to another place.
 std::string with_parameter(const std::string& word, const std::vector<PathParameter>& parameters) {
   if (word.find("{{") != std::string::npos) {
     throw Error(ErrorKind::kUsage, fmt::format("'{}' has {{{{, where Open Job Description expects a name", word));
@@ -112,9 +113,9 @@ std::vector<FarmFile> write_openjd(const FarmPlan& plan, const SchedulerWishes&)
     flat[parameter.name] = path;
   }
   for (const TaskGroup& group : plan.groups) job["steps"].push_back(step_of(plan, group, parameters));
-  return {{"template.json", job.dump(2) + "\n"},
-          {"parameter_values.json", Json{{"parameterValues", values}}.dump(2) + "\n"},
-          {"openjd_parameters.json", flat.dump(2) + "\n"}};
+  return {{"template.json", json_document(job, 2) + "\n"},
+          {"parameter_values.json", json_document({{"parameterValues", values}}, 2) + "\n"},
+          {"openjd_parameters.json", json_document(flat, 2) + "\n"}};
 }
 
 }  // namespace ods

@@ -76,7 +76,7 @@ std::string write_plan(const FarmPlan& plan) {
                {"memory", plan.memory}, {"paths", Json::array()},  {"groups", Json::array()}};
   for (const PlanPath& path : plan.paths) json["paths"].push_back(json_of(path));
   for (const TaskGroup& group : plan.groups) json["groups"].push_back(json_of(group));
-  return json.dump(2) + "\n";
+  return json_document(json, 2) + "\n";
 }
 
 FarmPlan read_plan(std::string_view text, const std::string& path) {
@@ -130,7 +130,7 @@ void check_quotable(const FarmPlan& plan) {
 }
 
 double halo_cost(int halo, int tasks, size_t frames) {
-  return 2.0 * halo * (tasks - 1) / static_cast<double>(frames);  // the film's ends have nothing beyond
+  return 2.0 * halo * (tasks - 1) / static_cast<double>(frames);  // the ends of the video have no neighbours
 }
 
 static constexpr double kTaskSeconds = 600.0;

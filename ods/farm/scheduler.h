@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A plan in the words of each scheduler: files to read and send. Nothing here sends them.
+// Writes a plan as the job files of each scheduler. Nothing here sends them.
 //
 //   slurm       an array of jobs per group (as many arrays as it takes), and submit.sh, which sends them in order
 //   openjd      template.json of the base specification jobtemplate-2023-09, with parameter_values.json a job bundle;
@@ -10,7 +10,7 @@
 //   flamenco    a job type in JavaScript
 //   kubernetes  an Indexed Job per group, and submit.sh, which applies one after the other
 //
-// A scheduler is here if something can judge what we write for it: its own tool, or a published schema.
+// A scheduler is here if its job files can be checked: by its own tool, or by a published schema.
 #pragma once
 #include <string>
 #include <string_view>
@@ -21,7 +21,7 @@
 
 namespace ods {
 
-// What a plan does not say because only some schedulers ask for it.
+// Settings that only some schedulers need, and that are not in the plan.
 struct SchedulerWishes {
   int largest_array = 1001;         // Slurm's MaxArraySize: indices are below it
   std::vector<std::string> extras;  // Slurm: options of sbatch, "--partition=render"
@@ -35,7 +35,7 @@ struct FarmFile {
   std::string text;
 };
 
-// Throw Error(kUsage) for words that the scheduler's language cannot hold. Precondition: check_quotable().
+// Throw Error(kUsage) for arguments that the scheduler's language cannot express. Precondition: check_quotable().
 std::vector<FarmFile> write_slurm(const FarmPlan& plan, const SchedulerWishes& wishes);
 std::vector<FarmFile> write_openjd(const FarmPlan& plan, const SchedulerWishes& wishes);
 std::vector<FarmFile> write_opencue(const FarmPlan& plan, const SchedulerWishes& wishes);
@@ -48,7 +48,7 @@ struct SchedulerRow {
   Scheduler member;
   std::string_view name;
   std::vector<FarmFile> (*write)(const FarmPlan& plan, const SchedulerWishes& wishes);
-  std::string_view next;  // how people go on, in the plan's folder
+  std::string_view next;  // the next step for people, in the plan's folder
 };
 
 inline constexpr SchedulerRow kSchedulerTable[] = {

@@ -53,7 +53,7 @@ std::string command_line(const FarmPlan& plan, const TaskGroup& group) {
   return line;
 }
 
-// What a part has before its file is there; nothing for other groups.
+// The file that a part has before its own file exists; empty for other groups.
 std::string unfinished_file(const TaskGroup& group) {
   const auto output = std::ranges::find(group.command, "-o");
   if (group.option != "--part" || output == group.command.end()) return "";
@@ -63,11 +63,11 @@ std::string unfinished_file(const TaskGroup& group) {
                      shell_word(names->after + ".unfinished"));
 }
 
-// A line per start is in "starts", what the command makes in "files". A command line that is wrong (exit code 2) is so
-// on every machine; all else goes back into the queue, for another node if there is one, since disks fill and empty,
-// network disks show files late, and machines break; so does a task at the end of its time limit, whose next start
-// finds what it left. The third start without a file is the last, also of a task whose node dies under it or takes it
-// back.
+// "starts" has a line per start, "files" the files that the command makes. A wrong command line (exit code 2) is wrong
+// on every machine, and a verdict (5) is the same on all; after any other failure the task is requeued, for another
+// node if there is one, since disks fill and empty, network disks show files late, and machines break; a task at the
+// end of its time limit is requeued, too, and its next start resumes. The third start without a file is the last, also
+// if the node fails or preempts the task.
 constexpr const char* kSlurmScript = R"sh(#!/bin/sh
 {0}
 folder={1}
@@ -126,14 +126,14 @@ if [ $late = yes ]; then
   wait "$child" || :
   code=143
 fi
-case $code in 0 | 2) end "$code" ;; esac
+case $code in 0 | 2 | 5) end "$code" ;; esac
 is_stuck || again "$code"
 [ $late = no ] ||
   echo "ods: error: the time limit was over three times before a file was made: more time (--sbatch --time=...) or less work"
 end "$code"
 )sh";
 
-// Whether no option of sbatch says which nodes may have the tasks.
+// Returns whether no option of sbatch restricts the nodes of the tasks.
 bool runs_anywhere(const SchedulerWishes& wishes) {
   constexpr std::array<std::string_view, 9> kOthers = {"--partition", "-p", "--time",    "-t",    "--qos",
                                                        "-q",          "-A", "--account", "--nice"};
@@ -158,6 +158,7 @@ set -eu
 folder={}
 all="" group="" before=""
 trap 'code=$?; [ $code = 0 ] || [ -z "$all" ] || scancel $all' EXIT
+trap 'exit 143' HUP INT TERM
 next() {{ before="--dependency=afterok$group --kill-on-invalid-dep=yes" group=""; }}
 send() {{  # SCRIPT COMMENT
   id=$(sbatch --parsable $before --comment="$2:$folder" "$folder/$1")

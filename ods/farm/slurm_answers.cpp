@@ -101,7 +101,7 @@ std::optional<double> number_in(const json& job, const char* key) {
   return number_in(*found, "number");
 }
 
-// A state was a word until version 23, since then it is a list of words.
+// A state was a string until version 23, since then it is a list of strings.
 std::string word_in(const json& job, const char* key) {
   const auto found = job.find(key);
   if (found == job.end()) return "";
@@ -109,7 +109,7 @@ std::string word_in(const json& job, const char* key) {
   return found->is_string() ? found->get<std::string>() : "";
 }
 
-// Those of an array that wait stand together: "7-40,60%8".
+// The waiting tasks of an array are one entry: "7-40,60%8".
 std::vector<int> indices_of(const json& job) {
   const std::string list = word_in(job, "array_task_string");
   if (const auto index = number_in(job, "array_task_id"); index && list.empty()) {
@@ -180,8 +180,8 @@ std::vector<SlurmTask> read_account(std::string_view text, const std::map<std::s
     std::string_view id = take_field(line, '|');
     const std::string_view word = take_field(line, '|');
     const int seconds = number_of(take_field(line, '|')).value_or(0);
-    const auto array = arrays.find(std::string(take_field(id, '_')));          // "812_7"; one that is no array, "812"
-    if (array == arrays.end() || word.empty() || id.starts_with('[')) return;  // those that wait: squeue knows
+    const auto array = arrays.find(std::string(take_field(id, '_')));          // "812_7"; "812" if it is not an array
+    if (array == arrays.end() || word.empty() || id.starts_with('[')) return;  // waiting tasks: squeue reports them
     tasks.push_back(task_of(array->first, array->second, number_of(id).value_or(1), word, seconds));
   });
   return tasks;

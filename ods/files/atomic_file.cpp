@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/file.h>
+#include <sys/random.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -64,7 +66,7 @@ static void remove_temporary(std::string& temporary) {
 void remove_unfinished_files() {
   for (const std::atomic<const char*>& entry : unfinished) {
     const char* name = entry;
-    if (name != nullptr && unlink(name) != 0 && errno == EISDIR) remove_folder_of_files(name);
+    if (name != nullptr && unlink(name) != 0 && errno == EISDIR) remove_folder(name);
   }
 }
 
@@ -76,16 +78,15 @@ static std::string temporary_prefix(const std::string& path) {
   return fmt::format(".{}.tmp.{}.", fs::path(path).filename().native().substr(0, 120), host);
 }
 
-// Creates a file with a name unique to this host and process, locked while it is open. Null,
-// with errno set, on failure.
+// Creates a file with a new name that cannot be guessed, locked while it is open. Null, with errno set, on failure.
 static std::FILE* create_temporary(const fs::path& folder, const std::string& path, std::string& temporary) {
-  static std::atomic<unsigned> counter{0};
   const std::string prefix = temporary_prefix(path);
-  // A name is taken if a killed process with our number left it, or another machine has our host name.
   const int kTries = 100;
   std::FILE* stream = nullptr;
   for (int i = 0; i < kTries; i++) {
-    temporary = folder / fmt::format("{}{}.{}", prefix, getpid(), counter++);
+    uint64_t number = 0;
+    if (getrandom(&number, sizeof(number), 0) != sizeof(number)) break;
+    temporary = folder / fmt::format("{}{}.{:016x}", prefix, getpid(), number);
     replace_unfinished(nullptr, temporary.c_str());  // before it exists, so that no signal falls between
     stream = std::fopen(temporary.c_str(), "wbxe");
     if (stream != nullptr) break;
@@ -98,7 +99,7 @@ static std::FILE* create_temporary(const fs::path& folder, const std::string& pa
   return stream;
 }
 
-// Nobody has it open. The lock also sees processes in other containers, which have other process numbers.
+// No process has it open. The lock also detects processes in other containers, which have other process numbers.
 static bool is_left_alone(const fs::path& file) {
   const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   if (descriptor < 0) return false;
@@ -107,7 +108,7 @@ static bool is_left_alone(const fs::path& file) {
   return is_free;
 }
 
-// Removes what killed processes left of the same file.
+// Removes the temporary files that killed processes left of this file.
 static void remove_leftovers(const fs::path& folder, const std::string& path) {
   const std::string prefix = temporary_prefix(path);
   std::error_code error;
@@ -143,7 +144,7 @@ void check_writable(const std::string& path) {
   }
   if (!fs::is_directory(folder, ignored))
     throw cannot_write(path, fmt::format("'{}' is not a folder", folder.native()));
-  // Only trying tells: root may write anywhere by its permissions, but nobody can write in /proc.
+  // Only an attempt shows it: root's permissions allow writing anywhere, but /proc cannot be written.
   std::string temporary;
   std::FILE* stream = create_temporary(folder, path, temporary);
   if (stream == nullptr) {
@@ -153,12 +154,22 @@ void check_writable(const std::string& path) {
   remove_temporary(temporary);
 }
 
+// Returns whether Linux itself would follow a link (fs.protected_symlinks): in a folder where all users may leave
+// files, only a link of ours or of the folder's owner.
+static bool may_follow(const fs::path& link) {
+  struct stat own, folder;
+  if (lstat(link.c_str(), &own) != 0 || stat(folder_of(link.native()).c_str(), &folder) != 0) return false;
+  const bool is_shared = (folder.st_mode & S_ISVTX) && (folder.st_mode & S_IWOTH);
+  return !is_shared || own.st_uid == geteuid() || own.st_uid == folder.st_uid;
+}
+
 // Follows links, so that the link stays and its target is replaced.
 static std::string behind_links(const std::string& path) {
   const int kMaxLinks = 40;  // as Linux has it
   fs::path target = path;
   std::error_code error;
   for (int i = 0; i < kMaxLinks && fs::is_symlink(target, error); i++) {
+    if (!may_follow(target)) throw cannot_write(path, "it is another user's link; choose another name");
     target = target.parent_path() / fs::read_symlink(target, error);  // an absolute one replaces the folder
   }
   return target.native();
@@ -177,6 +188,15 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(behind_li
 AtomicFile::~AtomicFile() {
   if (stream_ != nullptr) std::fclose(stream_);
   if (!temporary_.empty()) remove_temporary(temporary_);
+}
+
+void AtomicFile::write(const void* bytes, size_t count) {
+  std::fwrite(bytes, 1, count, stream_);
+  position_ += count;
+}
+
+void AtomicFile::seek(uint64_t position) {
+  if (fseeko(stream_, static_cast<off_t>(position), SEEK_SET) == 0) position_ = position;
 }
 
 void AtomicFile::finish() {
@@ -205,13 +225,33 @@ void write_file(const std::string& path, std::string_view bytes) {
   file.commit();
 }
 
+// An empty file, or folder, of ours takes the name first: replacing it loses nothing.
+static bool rename_over_own(const std::string& from, const std::string& to) {
+  std::error_code error;
+  const bool is_folder = fs::is_directory(from, error);
+  const int made =
+      is_folder ? mkdir(to.c_str(), 0777) : open(to.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (made < 0) return false;
+  if (!is_folder) close(made);
+  if (std::rename(from.c_str(), to.c_str()) == 0) return true;
+  const int why = errno;
+  std::remove(to.c_str());
+  errno = why;
+  return false;
+}
+
 bool rename_as_new(const std::string& from, const std::string& to) {
   if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
   if (errno == EEXIST) return false;
-  if (errno == EINVAL || errno == ENOSYS) {  // not on network shares; a hard link replaces nothing either
-    if (link(from.c_str(), to.c_str()) == 0) return unlink(from.c_str()) == 0;
-    if (errno == EEXIST) return false;
+  if (errno != EINVAL && errno != ENOSYS && errno != EPERM && errno != EOPNOTSUPP) {
+    throw cannot_write(to, std::strerror(errno));
   }
+  // Network shares do not support this. A hard link does not replace anything either, but some shares and all folders
+  // lack hard links.
+  if (link(from.c_str(), to.c_str()) == 0) return unlink(from.c_str()) == 0;
+  if (errno == EEXIST) return false;
+  if (rename_over_own(from, to)) return true;
+  if (errno == EEXIST) return false;
   throw cannot_write(to, std::strerror(errno));
 }
 

@@ -120,7 +120,7 @@ std::chrono::nanoseconds in_ns(const timespec& time) {
   return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
 }
 
-// How long the claim has gone without an update, by the clock of the disk it is on, because machines' clocks differ.
+// The time since the last update of the claim, by the clock of its disk, because machines' clocks differ.
 std::chrono::nanoseconds silence_of(int file, const std::string& path) {
   struct stat claim, now;
   if (fstat(file, &claim) != 0) return {};
@@ -147,7 +147,7 @@ File make_claim(const std::string& path) {
   File file(open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
   if (file.number() < 0 && errno != EEXIST) throw cannot_claim(path, std::strerror(errno));
   if (file.number() < 0) return file;
-  lock(file.number(), LOCK_EX);  // somebody may be looking at it
+  lock(file.number(), LOCK_EX);  // another process may be reading it
   write_holder(file.number(), path);
   return file;
 }
@@ -163,7 +163,7 @@ File open_claim(const std::string& path) {
 
 enum class Verdict { kGone, kEmpty, kHeld, kDied, kSilent };
 
-// Decides what another process's claim is worth. Removes it if its holder is dead. An empty one is removed, too: its
+// Decides whether another process's claim is valid. Removes it if its holder is dead. An empty one is removed, too: its
 // maker died before writing, or will write once we release the lock, and then find that it lost the claim.
 Verdict judge(const std::string& path, const ClaimTimes& times, bool was_empty, std::string& words) {
   const File file = open_claim(path);

@@ -39,7 +39,7 @@ class Claim {
   // Releases the claim. So does a signal handler that calls remove_unfinished_files().
   ~Claim();
 
-  // Whether another machine has taken the claim over.
+  // Returns whether another machine has taken over the claim.
   bool is_lost() const { return lost_; }
   // Throws Error(kOutput) if the claim is lost.
   void check() const;
@@ -59,12 +59,13 @@ class Claim {
 // The claim file of `path`.
 std::string claim_path(const std::string& path);
 
-// Null if another process holds the claim; `holder` then says who: "process 812 on 'render7', since 2026-11-22 08:45:44
-// UTC". Creates the parent folders. Throws Error(kOutput): the claim file cannot be created, or another kind of file
-// has its name.
+// Returns null if another process holds the claim; `holder` then names it: "process 812 on 'render7', since 2026-11-22
+// 08:45:44 UTC". Creates the parent folders. Throws Error(kOutput): the claim file cannot be created, or another kind
+// of file has its name.
 std::unique_ptr<Claim> try_claim(const std::string& path, std::string& holder, ClaimTimes times = {});
 
-// As try_claim(), but throws an Error(kOutput) that names the other holder, if it holds the claim for so long.
+// Claims as try_claim() does, but throws an Error(kOutput) that names the other holder, if it holds the claim for so
+// long.
 std::unique_ptr<Claim> claim(const std::string& path, std::chrono::seconds patience = std::chrono::seconds(0));
 
 }  // namespace ods

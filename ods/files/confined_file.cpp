@@ -16,20 +16,21 @@ namespace fs = std::filesystem;
 
 namespace ods {
 
-static bool lies_within(const fs::path& file, const std::string& folder) {
-  return file.native().starts_with(folder.ends_with('/') ? folder : folder + "/");
-}
-
-ConfinedFile::ConfinedFile(const std::string& path, const std::string& folder) : path_(path), opened_(path) {
+ConfinedFile::ConfinedFile(const std::string& path, const std::string& folder, Reach reach)
+    : path_(path), opened_(path) {
   if (folder.empty()) return;
   const Error outside = cannot_read(path, fmt::format("it lies outside '{}'", folder));
   std::error_code error;
-  if (!lies_within(fs::weakly_canonical(fs::absolute(path), error), folder)) throw outside;
-  file_size(path);  // says what is wrong with it by this name
+  const auto is_allowed = [&](const fs::path& real) {
+    if (reach == Reach::kDirectly) return real == fs::path(folder) / fs::path(path).filename();
+    return real.native().starts_with(folder.ends_with('/') ? folder : folder + "/");
+  };
+  if (!is_allowed(fs::weakly_canonical(fs::absolute(path), error))) throw outside;
+  file_size(path);  // throws the error with this name
   descriptor_ = open(path.c_str(), O_PATH | O_CLOEXEC);
   if (descriptor_ < 0) throw cannot_read(path, std::strerror(errno));
   opened_ = fmt::format("/proc/self/fd/{}", descriptor_);
-  if (lies_within(fs::read_symlink(opened_, error), folder)) return;
+  if (is_allowed(fs::read_symlink(opened_, error))) return;
   close(descriptor_);
   throw outside;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files named by untrusted input: only those inside one folder may be read.
+// Files named by untrusted input: only files inside one folder may be read, or only files directly in it.
 #pragma once
 #include <string>
 
@@ -9,13 +9,18 @@
 
 namespace ods {
 
-// Holds the file open, so that nobody can replace it between the check and the read.
+enum class Reach {
+  kWithin,    // in the folder or in one below it; links may lead there
+  kDirectly,  // in the folder itself, and not a link
+};
+
+// Holds the file open, so that it cannot be replaced between the check and the read.
 class ConfinedFile {
  public:
   // folder: an absolute path without links, as std::filesystem::canonical() returns it; empty: any file is allowed.
-  // Throws Error(kInput), as read_file.h. Follows every link, and throws the same error for every path outside the
-  // folder, whether or not that file exists.
-  ConfinedFile(const std::string& path, const std::string& folder);
+  // Throws Error(kInput), as read_file.h does. Resolves every link, and throws the same error for every path that is
+  // not allowed, whether or not that file exists.
+  ConfinedFile(const std::string& path, const std::string& folder, Reach reach = Reach::kWithin);
   ConfinedFile(const ConfinedFile&) = delete;
   ConfinedFile& operator=(const ConfinedFile&) = delete;
   ~ConfinedFile();

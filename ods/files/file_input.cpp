@@ -97,11 +97,4 @@ void FileInput::give_mode(AtomicFile& file) const {
   }
 }
 
-std::string take_file(const std::string& path) {
-  const FileInput file(path);
-  std::string bytes = file.read(0, file.size());
-  std::remove(path.c_str());
-  return bytes;
-}
-
 }  // namespace ods

@@ -13,7 +13,7 @@ namespace ods {
 
 class FileInput {
  public:
-  // Throws Error(kInput), as read_file.h.
+  // Throws Error(kInput), as read_file.h does.
   explicit FileInput(const std::string& path);
   FileInput(const FileInput&) = delete;
   FileInput& operator=(const FileInput&) = delete;
@@ -22,9 +22,9 @@ class FileInput {
   const std::string& path() const { return path_; }
   uint64_t size() const { return size_; }
 
-  // Bytes [offset, offset + count). Throws Error(kInput) if the file is, or has become, too short.
+  // Returns bytes [offset, offset + count). Throws Error(kInput) if the file is, or has become, too short.
   std::string read(uint64_t offset, uint64_t count) const;
-  // The same into memory; false if the file is, or has become, too short or cannot be read.
+  // Reads bytes into memory. Returns false if the file is, or has become, too short or cannot be read.
   bool read(uint64_t offset, void* to, size_t count) const;
 
   // Appends a range of this file to another: a file system copy where supported, else through a buffer of a few MiB.
@@ -44,9 +44,6 @@ class FileInput {
   std::function<void(uint64_t)> watcher_;
   mutable uint64_t copied_ = 0;
 };
-
-// The bytes of a file that was only made for them: it is removed. Throws Error(kInput).
-std::string take_file(const std::string& path);
 
 // Appends bytes where FileInput::copy() appends. Throws Error(kOutput).
 void append(AtomicFile& file, const std::string& bytes);

@@ -30,7 +30,7 @@ struct FrameNames {
 
   std::string path(int frame) const;
 };
-// Nothing if the name has no placeholder.
+// Returns nullopt if the name has no placeholder.
 std::optional<FrameNames> frame_names(const std::string& path);
 
 // The frames that exist as files, ascending. A file counts only if path() gives exactly its name. Throws Error(kInput):

@@ -16,7 +16,7 @@ class MemoryFile {
   MemoryFile& operator=(const MemoryFile&) = delete;
   ~MemoryFile();
 
-  // Valid while the object lives; readers that have opened it may keep reading.
+  // Valid during the lifetime of the object; readers that have opened it may keep reading.
   std::string path() const;
 
  private:

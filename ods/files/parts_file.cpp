@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/files/parts_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -16,7 +17,8 @@
 
 namespace ods {
 
-static constexpr std::string_view kHead = "omnistereo parts, 1\n";
+static constexpr std::string_view kHead = "omnistereo parts, 2\n";
+static constexpr size_t kMaxSettings = size_t{64} << 20;
 static constexpr size_t kCheckpoint = 0xffffffff;
 
 static std::string number(uint64_t value, size_t count) {
@@ -59,18 +61,25 @@ void PartsFile::open_old(const Settings& settings, bool restart) {
   if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path_))) {
     throw Error(ErrorKind::kOutput, fmt::format("'{}' is no file of parts: remove it, or choose another name", path_));
   }
-  stream_.reset(std::fopen(path_.c_str(), "r+be"));
+  const int file = open(path_.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  check(file >= 0);
+  stream_.reset(fdopen(file, "r+b"));
   check(stream_ != nullptr);
   const std::string head = read_bytes(stream_.get(), kHead.size()), length = read_bytes(stream_.get(), 4);
-  if (head != kHead || length.size() != 4) {
+  if (!kHead.starts_with(head)) {
     throw Error(ErrorKind::kOutput,
                 fmt::format("'{}' was not written by this version of ods: remove it, or choose another name", path_));
   }
-  const Settings then = parse_settings(read_bytes(stream_.get(), get_number(length, 0, 4)));
+  const size_t size = length.size() == 4 ? get_number(length, 0, 4) : 0;
+  const std::string text = size <= kMaxSettings ? read_bytes(stream_.get(), size) : "";
   begin_ = end_ = place_in(stream_.get());
-  find_end();
+  if (text.size() == size && size > 0) find_end();
   if (restart || count_ == 0) return remove();
-  expect_same_settings(path_, then, settings);
+  const std::optional<Settings> then = parse_settings(text);
+  if (!then) {
+    throw Error(ErrorKind::kInput, fmt::format("'{}' is damaged: `restart` discards it and starts over", path_));
+  }
+  expect_same_settings(path_, *then, settings);
 }
 
 void PartsFile::find_end() {

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a long job has made of a file so far, for the next run of the same job if this one is killed: FILE.unfinished,
-// beside it.
+// The finished parts of a file, saved in FILE.unfinished beside it, so that the same job can resume after it was
+// killed.
 //
-// It holds records, and marks after which all records so far are on the disk: each mark ends a part. What follows the
-// last mark, which a killed process wrote, is cut off. One process at a time has it (claim.h).
+// The file contains records, and marks after which all records so far are on the disk: each mark ends a part. Bytes
+// after the last mark, which a killed process wrote, are cut off. One process at a time holds the file (claim.h).
 //
-// Bytes: the line "omnistereo parts, 1", where 1 is the version of the format; the length of the settings as 4 bytes,
+// Bytes: the line "omnistereo parts, 2", where 2 is the version of the format; the length of the settings as 4 bytes,
 // and the settings; then for each record its length as 4 bytes, and its bytes. A mark has the length 0xffffffff and is
 // followed by its own place in the file, 8 bytes. Numbers are big-endian.
 #pragma once
@@ -25,13 +25,13 @@ namespace ods {
 
 class PartsFile {
  public:
-  // Opens the parts of the file at `path`. settings: all that they depend on. `restart` removes existing parts. Throws
-  // Error(kUsage) if there are parts that were made with other settings; Error(kOutput): another process makes that
-  // file, or FILE.unfinished is none of ours.
+  // Opens the parts of the file at `path`. settings: everything that they depend on. `restart` removes existing parts.
+  // Throws Error(kUsage) if there are parts that were made with other settings; Error(kInput) if the parts are damaged;
+  // Error(kOutput) if another process makes that file, or FILE.unfinished was not written by ods.
   PartsFile(const std::string& path, const Settings& settings, bool restart = false);
   PartsFile(const PartsFile&) = delete;
   PartsFile& operator=(const PartsFile&) = delete;
-  // Without a part nothing stays on the disk.
+  // Removes the file if it has no part.
   ~PartsFile();
 
   const std::string& path() const { return path_; }
@@ -43,7 +43,7 @@ class PartsFile {
   void add(std::string_view record);
   void end_part();
 
-  // When the file itself is complete.
+  // Removes the parts. Call it when the file itself is complete.
   void remove();
 
  private:

@@ -18,15 +18,15 @@ Error cannot_read(const std::string& path, const std::string& why);
 
 size_t file_size(const std::string& path);
 
-// Size and modification time, "517 bytes, of 1700000000123"; they change with the contents.
+// Returns size and modification time, "517 bytes, of 1700000000123"; they change with the contents.
 // Empty if there is no such file.
 std::string file_identity(const std::string& path);
 
-// The whole file. Throws Error(kInput) before reading if it has more than `most` bytes, Error(kMemory) if it does not
-// fit in memory.
+// Returns the whole file. Throws Error(kInput) before reading if it has more than `most` bytes, Error(kMemory) if it
+// does not fit in memory.
 std::vector<unsigned char> read_file(const std::string& path, size_t most);
 
-// The first `count` bytes, or the whole file if it is shorter. Throws as read_file().
+// Returns the first `count` bytes, or the whole file if it is shorter. Throws as read_file().
 std::vector<unsigned char> read_start(const std::string& path, size_t count);
 
 // Copies `size` bytes at an offset of a file, or of a source like one; false if it is too short.

@@ -50,7 +50,7 @@ static void* map_file(const std::string& folder, size_t size) {
   return map;
 }
 
-// Why an open file cannot be used; empty if it can. An empty file is what a killed process left.
+// The reason why an open file cannot be used; empty if it can. An empty file was left by a killed process.
 static std::string fault_of(int file, std::string_view mark) {
   struct stat info;
   if (fstat(file, &info) != 0) return std::strerror(errno);
@@ -87,7 +87,7 @@ static int make_room(int file, off_t length, std::string_view mark) {
   return posix_fallocate(file, 0, length);
 }
 
-// From the heap, which reuses the pages of freed pictures.
+// Allocated on the heap, which reuses the pages of freed pictures.
 static void* allocate(size_t size) {
   check_memory(size, "the picture", "use a machine with more, or a smaller picture");
   void* memory = std::calloc(size, 1);

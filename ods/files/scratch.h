@@ -15,11 +15,11 @@ class Scratch {
   // Zero-initialized. A block above `most_in_memory` bytes goes into an unlinked file in `folder`; without a folder it
   // stays in memory. Throws Error(kOutput) if the disk is too small, Error(kMemory) if memory is.
   Scratch(size_t size, const std::string& folder, size_t most_in_memory);
-  // The same in a file that outlives the process. Keeps the bytes that an earlier process left if the size matches;
+  // A block in a file that outlives the process. Keeps the bytes that an earlier process left if the size matches;
   // otherwise zeros after `mark`, with which the file begins. After a power loss the caller must find out which bytes
-  // had reached the disk. Throws Error(kOutput) as above, if another process has the file open, and if the name belongs
-  // to something else, which is left untouched: a link, another user's file, a file that does not begin with the mark.
-  // Precondition: size >= mark.size().
+  // had reached the disk. Throws Error(kOutput) as the constructor above, if another process has the file open, and if
+  // something else has the name, which is left untouched: a link, another user's file, a file that does not begin with
+  // the mark. Precondition: size >= mark.size().
   Scratch(size_t size, const std::string& file, std::string_view mark);
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;

@@ -35,7 +35,7 @@ static std::string words(zip_error_t* error) {
   return fmt::format("it is damaged, or not supported ({})", one_line(zip_error_strerror(error)));
 }
 
-// As others refer to it; empty for a folder, and for a name that leads out of the archive.
+// The name by which other files refer to it; empty for a folder, and for a name that leads out of the archive.
 static std::string plain_name(std::string name) {
   std::replace(name.begin(), name.end(), '\\', '/');  // some Windows programs
   if (name.empty() || name.starts_with('/') || name.ends_with('/')) return "";

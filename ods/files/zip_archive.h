@@ -14,7 +14,7 @@
 
 namespace ods {
 
-// Whether these bytes, at least the first four of a file, start a .zip archive.
+// Returns whether these bytes, at least the first four of a file, start a .zip archive.
 bool is_zip(std::span<const unsigned char> start);
 
 class ZipArchive {
@@ -32,7 +32,7 @@ class ZipArchive {
   // The first file with this name in any letter case; empty if there is none.
   std::string find_ignoring_case(const std::string& name) const;
 
-  // Bytes of a file after decompression, as the archive states it; 0 if there is no such file.
+  // The size of a file after decompression, as the archive records it; 0 if there is no such file.
   size_t size_of(const std::string& name) const;
 
   // The whole file; any thread may call this. Throws Error(kInput) if there is no such file, if it is damaged or
@@ -50,7 +50,7 @@ class ZipArchive {
   std::string path_;
   std::unique_ptr<Handle> handle_;
   std::map<std::string, Entry> entries_;
-  std::map<std::string, std::string> names_;  // by their small letters
+  std::map<std::string, std::string> names_;  // by their lower-case names
   size_t budget_;                             // bytes that may still be read
   std::mutex mutex_;
 };

@@ -14,7 +14,7 @@ namespace {
 // Low resolution averages noise out and makes the match less sensitive to parallax.
 constexpr int kCoarseWidth = 192;
 
-constexpr double kMatchPrecision = 0.25;  // of a match, in pixels of its view
+constexpr double kMatchPrecision = 0.25;  // precision of a match, in pixels of its view
 
 double sign_of(const Match& match, float pixel) {
   const double moved = static_cast<double>(match.around / pixel) / kMatchPrecision;

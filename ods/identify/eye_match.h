@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether two images are the eyes of one picture.
+// Decides whether two images are the eyes of one picture.
 #pragma once
 #include <vector>
 
@@ -9,17 +9,17 @@
 
 namespace ods {
 
-// Two eyes at one place show nearly the same; two parts of one picture do not. Parallax has one sign; where a scene is
-// alike on two sides, what matches has both.
+// Two eyes at one place show nearly the same; two parts of one picture do not. Parallax has one sign; matches between
+// two similar sides of a scene have both.
 struct EyeMatch {
-  int places = 0;         // with detail in both images
-  double share = 0.0;     // of the places: found in the other image
-  double one_sign = 0.0;  // of the parallax, 0..1; 1 if nothing moves
-  double mark() const;    // -1: two parts of one picture; 1: two eyes; 0: the images do not tell
+  int places = 0;         // places with detail in both images
+  double share = 0.0;     // fraction of the places that is found in the other image
+  double one_sign = 0.0;  // fraction of the parallax that has one sign, 0..1; 1 if nothing moves
+  double mark() const;    // -1 for two parts of one picture, 1 for two eyes, 0 if undecided
 };
 
-// Luminance of both images, linear, 1 channel, of equal size. Whatever their projection is, they are compared as they
-// are stored.
+// Compares the luminance of both images, linear, 1 channel, of equal size. The images are compared as stored, whatever
+// their projection.
 EyeMatch match_eyes(const std::vector<Image>& eyes);
 
 }  // namespace ods

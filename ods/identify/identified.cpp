@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Words first, pixels last.
+// Reads the metadata first, and the pixels only if necessary.
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "ods/base/error.h"
+#include "ods/files/private_folder.h"
 #include "ods/identify/identify.h"
 #include "ods/identify/lenses.h"
 #include "ods/video/container/complete_metadata.h"
@@ -18,8 +17,8 @@ StoredPicture open_whole(const std::string& path) {
   OpenOptions open;
   open.color_only = true;
   open.format.layout = Layout::kSeparate;
-  open.format.projection = ProjectionSetting();  // any: the pixels are taken as stored
-  open.scratch_folder = std::filesystem::temp_directory_path().string();
+  open.format.projection = ProjectionSetting();  // any: the pixels are used as stored
+  open.scratch_folder = temporary_folder();
   return open_picture(path, open);
 }
 
@@ -32,7 +31,7 @@ FormatHint with_words(const FormatHint& known, const StereoFormat& format) {
   return all;
 }
 
-// Whether the pixels speak against what the shape of the file suggests.
+// Returns whether the pixels contradict the format that the aspect ratio suggests.
 static bool excludes_shape(const Identity& identity, const StereoFormat& format) {
   constexpr double kExcluded = 0.05;
   double certainty = 0.0;
@@ -63,7 +62,7 @@ std::optional<Identity> identify_if_open(const std::string& path, const StereoFo
 }
 
 std::optional<Identity> identify_video(const std::string& path, uint64_t track, const FormatHint& known) {
-  constexpr int kMostFrames = 61, kStep = 20;  // films begin in the dark
+  constexpr int kMostFrames = 61, kStep = 20;  // films start with dark frames
   std::optional<Identity> best;
   try {
     VideoDecoder decoder(path, track);
@@ -86,14 +85,14 @@ std::optional<Identity> identify_video(const std::string& path, uint64_t track, 
   return best;
 }
 
-// A picture of which nothing is likely is not taken for anything.
+// Rejects a picture if none of its readings is likely.
 static void refuse_unlikely(const std::string& path, const Identity& identity) {
   if (identity.is_likely()) return;
   throw Error(ErrorKind::kInput,
               fmt::format("nothing tells what '{}' shows: it may be {}", path, doubt_text(identity)));
 }
 
-// Nor is one that shows nothing and has no shape to go by.
+// Rejects a picture that shows nothing and whose aspect ratio suggests nothing.
 static void refuse_shapeless(const std::string& path, const StereoFormat& format) {
   if (format.layout.source != LayoutSource::kNothing) return;
   throw Error(ErrorKind::kInput,
@@ -123,7 +122,7 @@ static FormatHint identified_picture(const std::string& path, const FormatHint& 
 static FormatHint identified_film(const std::string& path, const FormatHint& known, std::vector<std::string>& notes) {
   const VideoFile info = read_video_file(path);
   const VideoTrack& track = choose_track(info, {}, path);
-  if (track.layers) return known;  // it says itself what its eyes show
+  if (track.layers) return known;  // its metadata specifies the eyes
   SphericalMetadata told;
   if (known.layout) {
     told.stereo = *known.layout == Layout::kSeparate ? VideoStereo::kOneView : video_stereo(*known.layout);
@@ -148,7 +147,7 @@ static FormatHint identified_film(const std::string& path, const FormatHint& kno
 
 FormatHint identified(const std::string& path, const FormatHint& known, std::vector<std::string>& notes) {
   const bool is_film = !names_eye(path) && is_video(path);
-  // Before the pixels' other marks: two circles may pass for many things.
+  // Before the other evidence of the pixels, because two circles are ambiguous.
   const FormatHint all = with_lenses(path, known, notes);
   if (!all.lenses.empty()) return all;
   return (is_film ? identified_film : identified_picture)(path, all, notes);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every layout is tried with every projection that its eyes have the shape of. The marks of the pixels speak for some
-// readings and against others; what they say adds up as logarithms of odds.
+// Tries every layout with every projection that fits the shape of its eyes. The evidence from the pixels is added up as
+// logarithms of odds for or against each reading.
 #include "ods/identify/identify.h"
 
 #include <fmt/format.h>
@@ -24,25 +24,25 @@ namespace {
 
 constexpr double kSure = 0.9, kLikely = 0.5;
 constexpr int kLeastSide = 128;         // pixels of the file
-constexpr double kLeastDetail = 0.001;  // the mean difference of neighbours
+constexpr double kLeastDetail = 0.001;  // mean difference of adjacent pixels
 
-// How the file may be cut, and what is then seen. Squeezed layouts cut it as full ones do.
+// One way to cut the file, and the evidence in the resulting eyes. Squeezed layouts cut it as full ones do.
 struct Cut {
   EyePacking how = EyePacking::kAlone;
-  double two_eyes = 0.0;  // as EyeMatch::mark(); of one eye: that no other cut shows two
+  double two_eyes = 0.0;  // as EyeMatch::mark(); for one eye, that no other cut shows two
   std::string reason;
   std::vector<Image> eyes;   // linear
-  Image shown;               // of the first
-  Marks marks;               // likewise
-  bool has_bars = false;     // black ones around the file
+  Image shown;               // the first eye, as a display shows it
+  Marks marks;               // marks of the first eye
+  bool has_bars = false;     // black bars around the file
   double broken = 0.0;       // as breaks_in_middle()
-  double other_faces = 0.0;  // how surely it has faces of a cube in an order that is none of ours
-  PointPairs pairs;          // of both
+  double other_faces = 0.0;  // evidence that it has the faces of a cube in an order that we do not support
+  PointPairs pairs;          // pairs between both eyes
 };
 
 struct Candidate {
   Reading reading;
-  double odds = 0.0;  // logarithm
+  double odds = 0.0;  // logarithm of the odds
   std::string reason;
 };
 
@@ -70,15 +70,15 @@ double between(double value, double no, double yes) {
   return std::clamp(2.0 * (value - no) / (yes - no) - 1.0, -1.0, 1.0);
 }
 
-// How surely rows or columns alternate between the eyes: there neighbours differ more than every other one, and more
-// than along the other direction. Noise differs as much everywhere.
+// Evidence that rows or columns alternate between the eyes: then adjacent ones differ more than every other one, and
+// more than in the perpendicular direction. Noise differs equally everywhere.
 double alternate(double along, double across) {
   if (along <= 0.0 || across <= 0.0) return -1.0;
   return std::min(between(along, 0.85, 1.0), between(along / across, 1.1, 1.5));
 }
 
-// Of a checkerboard the diagonals differ more than neighbours in a row or a column; in other pictures less, and as much
-// where there is noise.
+// Evidence of a checkerboard: its diagonals differ more than adjacent pixels in a row or a column. In other pictures
+// they differ less, and with noise equally.
 double alternate_both_ways(const Thumbnail& thumbnail) {
   const auto [less, more] = std::minmax(thumbnail.other_rows, thumbnail.other_columns);
   if (less <= 0.0) return -1.0;
@@ -130,18 +130,18 @@ std::vector<Cut> all_cuts(const StoredPicture& whole, const Thumbnail& thumbnail
 
 // --- the projection --------------------------------------------------------------------------------------------------
 
-// A mark speaks for a reading or against it: as much as this, at most.
+// Maximum weight of each kind of evidence, for a reading or against it.
 constexpr double kEyes = 6.0, kCircle = 5.0, kBall = 2.5, kDome = 1.6, kPoles = 2.5, kSeam = 2.5, kFaces = 4.0;
 constexpr double kTurnedCube = 12.0, kBroken = 4.0;
-constexpr double kUnknownUp = 0.15;  // a cube of which nothing tells what is up is not ours, rather
-constexpr double kLevel = 0.25;      // of the likelihood of parallax: its pairs are not independent
+constexpr double kUnknownUp = 0.15;  // against our cubes, if the direction of up is undecided
+constexpr double kLevel = 0.25;      // weight of the likelihood of parallax: its pairs are not independent
 constexpr double kMostLevel = 12.0;
 constexpr int kManyPairs = 120;
-constexpr double kLeftFirst = 2.0;  // nearly everybody has the left eye first
+constexpr double kLeftFirst = 2.0;  // nearly all files have the left eye first
 constexpr double kOrder = 7.0;
-constexpr double kOther = -3.0;                           // a projection that is not ours
-constexpr double kElse = 20.0;                            // what is known to circulate and none of these
-constexpr double kSqueezed = 0.84, kSqueezedLess = 0.94;  // aspects of an eye beside another in 16:9
+constexpr double kOther = -3.0;                           // an unsupported projection
+constexpr double kElse = 20.0;                            // known formats that are none of these
+constexpr double kSqueezed = 0.84, kSqueezedLess = 0.94;  // aspect ratios of an eye beside another in 16:9
 
 bool fits_shape(const ProjectionSetting& setting, Extent eye) {
   const int natural = natural_height(setting, eye.width);
@@ -168,7 +168,7 @@ void judge_circle(const Cut& cut, Candidate& candidate) {
   }
 }
 
-// A cube that an eye has the shape of.
+// Evidence for one kind of cube that fits the eye's shape.
 struct CubeMarks {
   int kind = kCube3x2;
   double joins = 0.0;   // as faces_join()
@@ -189,7 +189,8 @@ std::vector<CubeMarks> marks_of_cubes(const Cut& cut, Extent whole) {
   return cubes;
 }
 
-// What the marks of an eye say of a projection: each speaks for those that have it and against all others.
+// Adds the evidence of an eye about the projection: each mark counts for the readings that have the feature and against
+// all others.
 void judge_projection(const Cut& cut, const std::vector<CubeMarks>& cubes, Candidate& candidate) {
   const Marks& marks = cut.marks;
   const ProjectionSetting& setting = candidate.reading.projection;
@@ -200,7 +201,7 @@ void judge_projection(const Cut& cut, const std::vector<CubeMarks>& cubes, Candi
     if (cube.kind == kind) {
       add_reason(candidate, cube.joins, kFaces, "its faces join as a cube's");
       candidate.odds -= std::max(cube.y_up + kUnknownUp, 0.0) * kTurnedCube;
-    } else {  // also of a cube whose faces have another order
+    } else {  // cubes with the faces in another order, too
       candidate.odds -= std::max({0.0, cube.joins, is_cube(kind) ? 0.0 : cube.breaks}) * kFaces;
     }
   }
@@ -219,7 +220,7 @@ void judge_projection(const Cut& cut, const std::vector<CubeMarks>& cubes, Candi
 
 // --- all readings ----------------------------------------------------------------------------------------------------
 
-// kSeparate is one eye.
+// kSeparate stands for one eye.
 bool allows(const FormatHint& known, Layout layout) {
   if (known.one_eye) return layout == Layout::kSeparate;
   return !known.layout || arrangement_of(*known.layout) == arrangement_of(layout);
@@ -230,7 +231,7 @@ std::vector<ProjectionSetting> settings_for(const FormatHint& known, double aspe
   if (known.camera) return {known.camera->projection};
   std::vector<ProjectionSetting> settings;
   for (const NamedProjection& named : named_projections()) settings.push_back(named.setting);
-  if (aspect > 2.05 && aspect < 6.0) {  // all around, but not up to the poles
+  if (aspect > 2.05 && aspect < 6.0) {  // a full turn, but not up to the poles
     settings.emplace_back().latitude = vec2(-1.0f, 1.0f) * static_cast<float>(180.0 / aspect);
   }
   return settings;
@@ -246,14 +247,14 @@ std::vector<Layout> layouts_of(EyePacking how) {
   return layouts;
 }
 
-// Windows are square or somewhat wide, as a rule.
+// Perspective pictures usually are square or somewhat wider.
 double window_odds(double aspect) {
   constexpr double kNarrow = 0.9, kWide = 1.9;
   const double beyond = std::max({0.0, std::log(kNarrow / aspect), std::log(aspect / kWide)});
   return beyond > 0.0 ? -1.5 - 2.0 * beyond : 0.0;
 }
 
-// Where the picture breaks as between faces that no cube of ours joins.
+// Evidence that the picture is cut into faces that none of our cubes joins.
 double other_faces_in(const std::vector<CubeMarks>& cubes) {
   double joins = 0.0, breaks = 0.0;
   double turned = 0.0;
@@ -264,7 +265,8 @@ double other_faces_in(const std::vector<CubeMarks>& cubes) {
   return std::max({0.0, breaks - joins, turned});
 }
 
-// vr180 or a sphere above a sphere, squeezed into a file of 16:9, as many programs export them.
+// Returns whether this is vr180 side by side, or two spheres above each other, squeezed into a 16:9 file, as many
+// programs export them.
 bool is_squeezed(const Cut& cut, const ProjectionSetting& setting, double aspect) {
   const bool is_half = is_vr180(setting) && cut.how == EyePacking::kBeside;
   const bool is_sphere = is_full_lat_long(setting) && cut.how == EyePacking::kStacked;
@@ -297,7 +299,7 @@ void add_candidates(Cut& cut, Layout layout, const FormatHint& known, Extent fil
     if (layout != Layout::kSeparate) candidate.reading.layout = layout;
     const bool is_part = setting.kind == kLatLong && !is_full_lat_long(setting) && !is_vr180(setting);
     candidate.odds += (is_part ? -4.0 : find_projection(name)->usual) + kEyes * cut.two_eyes;
-    if (layout == Layout::kSeparate && is_vr180(setting)) candidate.odds -= 2.0;  // square photographs are many
+    if (layout == Layout::kSeparate && is_vr180(setting)) candidate.odds -= 2.0;  // square photographs are common
     if (layout == Layout::kSeparate && !is_cube(setting.kind)) candidate.odds -= kBroken * std::max(0.0, cut.broken);
     if (cut.how == EyePacking::kBeside) candidate.odds += 0.5 * kBroken * std::max(0.0, cut.broken);
     if (arrangement_of(layout).squeezed) candidate.odds -= 1.0;
@@ -307,13 +309,13 @@ void add_candidates(Cut& cut, Layout layout, const FormatHint& known, Extent fil
   }
 }
 
-// The eyes in the wrong order have parallax below 0.
+// Eyes in the wrong order have negative parallax.
 double order_odds(const Parallax& parallax, bool right_first) {
   const double left = kLeftFirst + kOrder * parallax.order;
   return -std::log1p(std::exp(right_first ? left : -left));
 }
 
-// In the right projection parallax is level.
+// In the right projection, parallax is horizontal.
 void judge_parallax(const std::vector<Cut>& cuts, std::vector<Candidate>& candidates) {
   for (const Cut& cut : cuts) {
     std::vector<std::pair<Candidate*, double>> judged;
@@ -330,7 +332,7 @@ void judge_parallax(const std::vector<Cut>& cuts, std::vector<Candidate>& candid
   }
 }
 
-// Two circles that show nothing in common.
+// Evidence for two circles that show nothing in common.
 double front_and_back_mark(const std::vector<Cut>& cuts) {
   double most = 0.0;
   for (const Cut& cut : cuts) {
@@ -341,8 +343,8 @@ double front_and_back_mark(const std::vector<Cut>& cuts) {
   return most;
 }
 
-// Something else is always possible: a projection that nobody here knows. `seen`: how much it looks like something that
-// is known and none of these.
+// Converts odds to certainties. An unknown projection always remains possible. seen: evidence that it is a known
+// format, but none of the readings.
 void share_certainty(const std::vector<Cut>& cuts, double seen, std::vector<Candidate>& candidates) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.odds > b.odds; });
@@ -393,7 +395,7 @@ static Identity identify_all(const StoredPicture& whole, const FormatHint& known
   return identity;
 }
 
-// Bars around a window belong to it: nothing else depends on where its edges are.
+// Bars around a perspective picture belong to it: nothing depends on where its edges are.
 static Identity with_bars_in_windows(Identity identity, Extent file) {
   identity.bars = {};
   for (Reading& reading : identity.readings) {
@@ -404,7 +406,7 @@ static Identity with_bars_in_windows(Identity identity, Extent file) {
   return identity;
 }
 
-// Whether the reading is one that knows where its edges are.
+// Returns whether the projection fixes the directions at the picture's edges.
 static bool is_whole(const Reading& reading) {
   const ProjectionSetting& projection = reading.projection;
   const EyeArrangement eyes = reading.layout ? arrangement_of(*reading.layout) : EyeArrangement();

@@ -44,7 +44,7 @@ class Correlation {
  public:
   void add(double a, double b) { count_++, a_ += a, b_ += b, aa_ += a * a, bb_ += b * b, ab_ += a * b; }
   double count() const { return count_; }
-  // -1 if hardly anything differs.
+  // The correlation; -1 if the values hardly vary.
   float value() const {
     const double va = aa_ / count_ - a_ * a_ / count_ / count_, vb = bb_ / count_ - b_ * b_ / count_ / count_;
     if (!(va > 1e-4 && vb > 1e-4)) return -1.0f;
@@ -57,14 +57,14 @@ class Correlation {
 
 }  // namespace
 
-// The correlation of what both lenses see beside them; -1 if that is nothing.
+// The correlation of the images in the zone that both lenses see beside them; -1 if there is none.
 static float alikeness(const Halves& halves, const std::vector<FisheyeLens>& lenses) {
   constexpr int kAround = 720, kAcross = 9;
   const Extent size{halves.first.width, halves.first.height};
   FisheyeLens back = lenses[1];
   back.yaw += 180.0f;
   const auto first = make_map(lenses[0], size), second = make_map(back, size);
-  const float most = 0.9f * glm::radians(0.5f * lenses[0].fov - 90.0f);  // the very rim is dark
+  const float most = 0.9f * glm::radians(0.5f * lenses[0].fov - 90.0f);  // the outermost rim is dark
   Correlation both;
   for (int i = 0; i < kAround * kAcross; i++) {
     const float around = 2.0f * kPi * static_cast<float>(i % kAround) / kAround;
@@ -77,7 +77,7 @@ static float alikeness(const Halves& halves, const std::vector<FisheyeLens>& len
   return both.count() < kAround ? -1.0f : both.value();
 }
 
-// The same of equal places in both circles: two eyes see nearly the same there.
+// The correlation of equal positions in both circles: two eyes see nearly the same there.
 static float sameness(const Halves& halves, const std::vector<FisheyeLens>& lenses) {
   constexpr int kSide = 64;
   const vec2 size(static_cast<float>(halves.first.width), static_cast<float>(halves.first.height));
@@ -97,7 +97,7 @@ static void set_fov(std::vector<FisheyeLens>& lenses, float fov) {
   for (FisheyeLens& lens : lenses) lens.fov = fov;
 }
 
-// One number after the other, in ever smaller steps.
+// Optimizes one parameter after another, in decreasing steps.
 static float refine(const Halves& halves, std::vector<FisheyeLens>& lenses) {
   float best = alikeness(halves, lenses);
   using Change = void (*)(std::vector<FisheyeLens>&, float);
@@ -121,7 +121,7 @@ static float refine(const Halves& halves, std::vector<FisheyeLens>& lenses) {
   return best;
 }
 
-// How much brighter it is above than below, -1..1, in both lenses.
+// The brightness above minus the brightness below, -1..1, in both lenses.
 static float light_from_above(const Halves& halves, const std::vector<FisheyeLens>& lenses) {
   const Extent size{halves.first.width, halves.first.height};
   double up = 0.0, all = 0.0;
@@ -143,15 +143,15 @@ static float light_from_above(const Halves& halves, const std::vector<FisheyeLen
   return all > 0.0 ? static_cast<float>(up / all) : 0.0f;
 }
 
-// The overlap tells how the lenses are rolled against each other, not which way is up: light comes from there.
+// The overlap gives the relative roll of the lenses, but not which way is up: light comes from there.
 static void turn_upright(const Halves& halves, std::vector<FisheyeLens>& lenses) {
-  const float kLead = 0.15f;  // most cameras store what is above above
+  const float kLead = 0.15f;  // most cameras store the upper side up
   std::vector<FisheyeLens> best = lenses;
   float lightest = light_from_above(halves, lenses) + kLead;
   for (const float roll : {90.0f, 180.0f, 270.0f}) {
     std::vector<FisheyeLens> turned = lenses;
     turned[0].roll += roll;
-    // The world turns about the first one's axis; the second one looks the other way.
+    // Rotates the world about the axis of the first lens; the second one looks the other way.
     turned[1].roll -= roll;
     const float c = std::cos(glm::radians(roll)), s = std::sin(glm::radians(roll));
     const float yaw = turned[1].yaw, pitch = turned[1].pitch;
@@ -165,7 +165,7 @@ static void turn_upright(const Halves& halves, std::vector<FisheyeLens>& lenses)
   lenses = best;
 }
 
-// How alike the halves are where both lenses see, at best; the lenses then say so.
+// Aligns the lenses where both see the same, and returns the best correlation.
 static float align(const Halves& halves, std::vector<FisheyeLens>& lenses) {
   std::vector<FisheyeLens> best = lenses;
   float most = -1.0f;
@@ -214,7 +214,7 @@ static Image cut(const Image& image, EyeCorner corner, Extent size) {
   return part;
 }
 
-// A file, or a frame of one, as one picture; nothing if it cannot be decoded.
+// A file, or a frame of a video, as one picture. Returns nullopt if it cannot be decoded.
 static std::optional<StoredPicture> look_at(const std::string& path) {
   if (!is_video(path)) return open_whole(path);
   try {
@@ -231,7 +231,7 @@ static std::optional<StoredPicture> look_at(const std::string& path) {
   }
 }
 
-// Whole pixels become one, so that no place moves.
+// Averages whole blocks of pixels, so that positions do not move.
 static Image reduced(const Image& image, int by) {
   Image small(image.width / by, image.height / by, 1);
   for (int y = 0; y < small.height; y++) {
@@ -250,7 +250,8 @@ static bool is_inscribed(const FisheyeLens& lens, Extent eye) {
   return length(lens.center - 0.5f * size) < near && std::abs(lens.radius - 0.5f * std::min(size.x, size.y)) < near;
 }
 
-// Two lenses are apart; one circle that fills the picture is cut by its middle, and each half has a rim of it.
+// Two lenses have separate circles; a single circle that fills the picture is cut at its middle, and each half has a
+// part of its rim.
 static bool are_apart(const std::vector<FisheyeLens>& lenses, Layout layout, Extent eye) {
   const EyeCorner first = eye_corner(layout, eye, 0), second = eye_corner(layout, eye, 1);
   const vec2 shift(static_cast<float>(second.x - first.x), static_cast<float>(second.y - first.y));
@@ -261,7 +262,8 @@ static std::string lens_text(const FisheyeLens& lens) {
   return fmt::format("{:.1f},{:.1f},{:.1f}", lens.center.x, lens.center.y, lens.radius);
 }
 
-// Whether no word tells what the file shows. That of a video which was not stitched (V1) says only what it is not.
+// Returns whether the metadata leaves the format open. V1 metadata of a video that was not stitched only excludes
+// formats.
 static bool is_untold(const std::string& path, const FormatHint& known) {
   if (!is_video(path)) return find_format(read_info(path), path, known).is_open;
   const VideoFile file = read_video_file(path);
@@ -286,13 +288,13 @@ FormatHint with_lenses(const std::string& path, const FormatHint& known, std::ve
   if (!layout) layout = is_wide ? Layout::kSideBySide : Layout::kTopBottom;
   const std::optional<Extent> eye = unpacked_size(*layout, without_middle(*layout, whole->size));
   if (!eye) return known;
-  constexpr int kLongest = 1100;  // of a half
+  constexpr int kLongest = 1100;  // maximum side of a half, pixels
   const int by = 1 + std::max(eye->width, eye->height) / kLongest;
   const Image grey = grey_eyes(*whole)[0];
   const auto half = [&](int index) { return shown(reduced(cut(grey, eye_corner(*layout, *eye, index), *eye), by)); };
   std::optional<SeenLenses> seen = find_lenses(half(0), half(1), told ? told->fov : 180.0f);
   if (!seen) return known;
-  if (known.front_and_back && !seen->front_and_back) return known;  // as told, by the edges of the halves
+  if (known.front_and_back && !seen->front_and_back) return known;  // circles that touch the halves' edges
   for (FisheyeLens& lens : seen->lenses) lens.center *= static_cast<float>(by), lens.radius *= static_cast<float>(by);
   if (!are_apart(seen->lenses, *layout, *eye)) return known;
   FormatHint all = known;

@@ -14,14 +14,14 @@ namespace ods {
 
 namespace {
 
-constexpr double kDark = 0.08;      // as a display shows it: black, with what JPEG adds to it
-constexpr double kVisible = 0.006;  // a mean difference that is more than rounding
+constexpr double kDark = 0.08;      // as displayed: black, including JPEG's artifacts
+constexpr double kVisible = 0.006;  // a mean difference larger than rounding
 
 double value(const Image& eye, int x, int y) {
   return static_cast<double>(*eye.at(x, y));
 }
 
-// From 0 to 1 as there is more to see.
+// Rises from 0 to 1 with the visible difference.
 double enough(double difference) {
   return std::clamp(difference / kVisible - 0.2, 0.0, 1.0);
 }
@@ -34,7 +34,7 @@ struct Ring {
   double share() const { return count > 0 ? static_cast<double>(dark) / count : 0.0; }
 };
 
-constexpr int kRings = 50;  // as many have the radius 1
+constexpr int kRings = 50;  // number of rings within the radius 1
 
 std::vector<Ring> rings_of(const Image& eye) {
   std::vector<Ring> rings(2 * kRings);
@@ -67,7 +67,7 @@ void find_circle(const Image& eye, Marks& marks) {
   marks.circle = std::clamp(2.0 * (0.9 - inside.share()), 0.0, 1.0);  // in the dark everything is black
 }
 
-// How much more a picture differs along its radii than around, in a ring.
+// The ratio of differences along the radii to differences around, in a ring.
 double stretch_in_ring(const Image& eye, double inner, double outer) {
   double out = 0.0, around = 0.0;
   for (int y = 1; y + 1 < eye.height; y++) {
@@ -82,7 +82,7 @@ double stretch_in_ring(const Image& eye, double inner, double outer) {
   return around > 0.0 ? out / around : 1.0;
 }
 
-// The mean difference of places of a ring that are a twelfth of it apart.
+// The mean difference of points of a ring that are a twelfth of it apart.
 double far_apart_on_ring(const Image& eye, double radius) {
   constexpr size_t kPlaces = 192, kWide = 5;
   std::vector<double> places(kPlaces);
@@ -97,7 +97,8 @@ double far_apart_on_ring(const Image& eye, double radius) {
   return sum;
 }
 
-// Near the rim of a mirror ball little is far around, and much further out; its very rim is one point.
+// Near the rim of a mirror ball the picture varies little around, and much more farther out; its rim itself is one
+// point.
 double ball_of(const Image& eye) {
   const double texel = 2.0 / std::min(eye.width, eye.height);
   const double rim = far_apart_on_ring(eye, 1.0 - 2.0 * texel);
@@ -107,7 +108,7 @@ double ball_of(const Image& eye) {
   return enough(off) * std::clamp((stretch + std::log((off + 0.001) / (rim + 0.001)) - 1.4) / 0.5, -1.0, 1.0);
 }
 
-// How much of the differences inside the circle the bands of a picture explain, 0..1: rings or rows.
+// Fraction of the variance inside the circle that the means of bands explain, 0..1. The bands are rings or rows.
 double explained_by(const Image& eye, bool rings) {
   constexpr size_t kBands = 24;
   std::vector<double> sum(kBands), square(kBands), count(kBands);
@@ -131,15 +132,16 @@ double explained_by(const Image& eye, bool rings) {
 
 void find_kind_of_circle(const Image& eye, Marks& marks) {
   marks.ball = ball_of(eye);
-  // A lens that looks ahead has the sky above and the ground below: rows explain more of it than rings.
+  // A lens that looks ahead has the sky above and the ground below, so rows explain more of it than rings.
   const double rings = explained_by(eye, true) - explained_by(eye, false);
   marks.dome = std::clamp((rings + 0.12) / 0.12, -1.0, 1.0);
 }
 
 // --- pairs of texels -------------------------------------------------------------------------------------------------
 
-// How well pairs of texels join, compared with neighbours inside the picture and with pairs that have nothing to do
-// with each other: 1 as neighbours, -1 as strangers. Roots of differences count: one sharp edge must not outvote all.
+// Measures how well pairs of texels join, compared with adjacent texels inside the picture and with unrelated pairs: 1
+// like adjacent texels, -1 like unrelated ones. Roots of differences are summed, so that one sharp edge does not
+// outvote all others.
 struct Joins {
   double pairs = 0.0, neighbours = 0.0, strangers = 0.0;
   int count = 0;
@@ -162,8 +164,8 @@ double root_of(double difference) {
 
 // --- the poles -------------------------------------------------------------------------------------------------------
 
-// The mean difference of places of a row that are a twelfth of it apart: an edge that leads through a pole, as of a
-// tile below the viewer, parts few of them. Each place is the mean of some neighbours, against noise.
+// The mean difference of points of a row that are a twelfth of it apart. An edge that passes through a pole, such as a
+// tile's below the viewer, separates few of them. Each point is the mean of several texels, against noise.
 double far_apart(const Image& eye, int y) {
   const int wide = std::max(eye.width / 32, 1);
   std::vector<double> sums(static_cast<size_t>(eye.width));
@@ -175,8 +177,8 @@ double far_apart(const Image& eye, int y) {
   return sum / eye.width;
 }
 
-// How much more a picture differs down than along in the rows from `begin` to `end` of its height; nothing if hardly
-// anything differs there.
+// The ratio of vertical to horizontal differences in the rows from `begin` to `end` of the height. Returns nullopt if
+// the picture hardly varies there.
 std::optional<double> stretch_in_rows(const Image& eye, double begin, double end) {
   constexpr double kDiffers = 0.02, kEnough = 0.05;
   double along = 0.0, down = 0.0;
@@ -195,7 +197,7 @@ std::optional<double> stretch_in_rows(const Image& eye, double begin, double end
   return down / along;
 }
 
-// Whether a row continues in the one above it, as Joins::mark().
+// Evidence that a row continues in the one above it, as Joins::mark().
 double continues_upwards(const Image& eye, int y) {
   Joins joins;
   for (int x = 0; x < eye.width; x++) {
@@ -215,8 +217,8 @@ double row_difference(const Image& eye, const Image& other, int y) {
   return sum / eye.width;
 }
 
-// How many rows at the bottom show no world, but what somebody put over the tripod: both eyes have it in the same
-// place, or it ends in an edge from side to side. It has detail, where a nadir would be one point.
+// The number of rows at the bottom that are covered by a patch over the tripod: it is at the same place in both eyes,
+// or ends at an edge from side to side. It has detail, whereas a nadir would be one point.
 int covered_rows(const Image& eye, const Image* other) {
   constexpr double kSame = 0.02, kBreak = -0.2, kPoint = 0.04;
   const int most = eye.height / 4, least = std::max(2, eye.height / 50);
@@ -230,7 +232,7 @@ int covered_rows(const Image& eye, const Image* other) {
   return 0;
 }
 
-// Towards a pole a picture is stretched along its rows, more and more.
+// Towards a pole, a picture is increasingly stretched along its rows.
 double stretched_at_ends(const Image& eye, bool has_nadir) {
   double most = -1e9;
   for (const bool is_top : {true, false}) {
@@ -258,7 +260,7 @@ void find_poles(const Image& eye, bool has_nadir, Marks& marks) {
     both += 0.5 * weight * likely;
     marks.spread = std::max(marks.spread, spread);
   }
-  both = std::min(both, least + 0.5);  // a sky without clouds looks like a pole; both ends do not
+  both = std::min(both, least + 0.5);  // a sky without clouds looks like a pole; both ends together do not
   marks.poles = std::clamp(std::max(both, -0.6) + stretched_at_ends(eye, has_nadir), -1.0, 1.0);
 }
 
@@ -309,10 +311,10 @@ Marks marks_of(const Image& eye, const Image* other) {
 namespace {
 
 struct Side {
-  size_t edge;           // of the face
-  int x, y;              // of a texel at the edge of a face
-  int inner_x, inner_y;  // the next one inwards
-  int outer_x, outer_y;  // and outwards, beyond the face
+  size_t edge;           // edge of the face
+  int x, y;              // a texel at the edge of a face
+  int inner_x, inner_y;  // the next texel inwards
+  int outer_x, outer_y;  // the next texel outwards, beyond the face
 };
 
 std::vector<Side> sides_of(const Cell& cell) {
@@ -330,7 +332,7 @@ std::vector<Side> sides_of(const Cell& cell) {
 
 }  // namespace
 
-constexpr size_t kWorstEdges = 4;  // of 24, that a stitcher or a codec may have spoilt
+constexpr size_t kWorstEdges = 4;  // out of 24, tolerated because a stitcher or a codec may have spoilt them
 
 double faces_join(const Image& eye, const ProjectionSetting& cube) {
   const int columns = width_step(cube), rows = 6 / columns;
@@ -351,7 +353,7 @@ double faces_join(const Image& eye, const ProjectionSetting& cube) {
       const double here = value(eye, side.x, side.y);
       joins.pairs += root_of(here - value(eye, there.x, there.y));
       joins.neighbours += root_of(here - value(eye, side.inner_x, side.inner_y));
-      // The same place of the next faces.
+      // The same position on the next faces.
       for (int k = 1; k < 6; k++) {
         const int x = (side.x + (k % columns) * (eye.width / columns)) % eye.width;
         const int y = (side.y + (k / columns) * (eye.height / rows)) % eye.height;
@@ -360,7 +362,7 @@ double faces_join(const Image& eye, const ProjectionSetting& cube) {
       joins.count++;
     }
   }
-  // In another order of faces some edges join, too.
+  // Some edges also join if the faces are in another order.
   Joins all;
   std::array<double, 24> marks;
   for (size_t i = 0; i < edges.size(); i++) all += edges[i], marks[i] = edges[i].mark();
@@ -368,7 +370,7 @@ double faces_join(const Image& eye, const ProjectionSetting& cube) {
   return std::min(all.mark(), marks[kWorstEdges] + 0.5);
 }
 
-// A border between two cells: its texels at (x, y), and on to the next ones.
+// Evidence for a border between two cells, whose texels start at (x, y) and continue by (dx, dy).
 static double border_mark(const Image& eye, int x, int y, int dx, int dy, int length) {
   Joins joins;
   for (int i = 0; i < length; i++) {

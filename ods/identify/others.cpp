@@ -17,8 +17,8 @@ namespace ods {
 
 // --- anaglyphs -------------------------------------------------------------------------------------------------------
 
-// The share of the places of one part that stand aside in the other, all as far above or below: cameras need not be
-// level.
+// Fraction of the places of one part that are shifted sideways in the other, all by the same height: cameras need not
+// be level.
 static double aside(const Image& one, const Image& other) {
   constexpr size_t kLeast = 16;                               // places
   constexpr float kAside = 0.9f, kLevel = 0.6f, kFar = 2.5f;  // pixels; colour fringes of lenses are narrower
@@ -47,7 +47,7 @@ double anaglyph_mark(const StoredPicture& whole, Extent size) {
 
 namespace {
 
-// What bands of equal height explain of a quantity, 0..1, where up is one of the axes.
+// Fraction of the variance that bands of equal height explain, 0..1, with one of the axes up.
 class Bands {
  public:
   void add(double height, double value) {

@@ -11,13 +11,13 @@ namespace ods {
 namespace {
 
 constexpr int kTile = 14;           // pixels
-constexpr int kReach = 9;           // of the search in the coarse image, pixels
-constexpr int kCoarse = 4;          // how much smaller that is
-constexpr double kDetail = 0.012;   // the least standard deviation of a tile
-constexpr double kAlike = 0.8;      // the least correlation of a pair
-constexpr double kLead = 0.03;      // of the best place over others
-constexpr double kPrecision = 0.2;  // of a pair, pixels
-constexpr double kOutliers = 0.15;  // share of pairs that are none
+constexpr int kReach = 9;           // search radius in the coarse image, pixels
+constexpr int kCoarse = 4;          // scale of the coarse image
+constexpr double kDetail = 0.012;   // minimum standard deviation of a tile
+constexpr double kAlike = 0.8;      // minimum correlation of a pair
+constexpr double kLead = 0.03;      // minimum lead of the best position over others
+constexpr double kPrecision = 0.2;  // precision of a pair, pixels
+constexpr double kOutliers = 0.15;  // fraction of wrong pairs
 
 struct Shift {
   double x = 0.0, y = 0.0;
@@ -36,10 +36,10 @@ Image smaller(const Image& image, int by) {
   return small;
 }
 
-// A tile of one image and its places in another.
+// A tile of one image, and the search for it in another.
 class Tile {
  public:
-  // Without detail it matches nothing.
+  // A tile without detail matches nothing.
   Tile(const Image& from, int x, int y, int side)
       : x_(x), y_(y), side_(side), values_(static_cast<size_t>(side * side)) {
     float sum = 0.0f, square = 0.0f;
@@ -65,7 +65,7 @@ class Tile {
     return static_cast<double>(product) / (std::sqrt(spread) * static_cast<double>(spread_));
   }
 
-  // The best shift within `reach` of one; nothing if there are two or it is at the edge.
+  // The best shift within `reach` of one. Returns nullopt if there are two or it is at the edge.
   std::optional<Shift> find(const Image& to, Shift from, int reach) const {
     const int side = 2 * reach + 1, x0 = static_cast<int>(std::lround(from.x)),
               y0 = static_cast<int>(std::lround(from.y));
@@ -102,9 +102,9 @@ struct Pyramid {
   Image fine, coarse;
 };
 
-// From a tile of one image to the other: far in the coarse images, then exactly in the fine ones.
+// Finds a tile of one image in the other: within a wide range in the coarse images, then precisely in the fine ones.
 std::optional<Shift> find_there(const Pyramid& from, const Pyramid& to, int x, int y) {
-  constexpr int kSide = 10;  // of a coarse tile
+  constexpr int kSide = 10;  // side of a coarse tile
   const int cx = std::clamp((x + kTile / 2) / kCoarse - kSide / 2, 0, from.coarse.width - kSide);
   const int cy = std::clamp((y + kTile / 2) / kCoarse - kSide / 2, 0, from.coarse.height - kSide);
   const Tile far(from.coarse, cx, cy, kSide);
@@ -140,7 +140,7 @@ PointPairs find_pairs(const Image& left, const Image& right) {
   return pairs;
 }
 
-// --- what a projection makes of them ---------------------------------------------------------------------------------
+// --- how well a projection explains the pairs
 
 namespace {
 
@@ -154,12 +154,12 @@ struct Looker {
   Projection projection;
   vec2 size;
 
-  // `home`: a pixel of the same face.
+  // home: a pixel of the same face.
   ViewDirection at(vec2 home, vec2 pixel) const { return look_of(projection, home / size, pixel / size); }
   bool is_one_face(const PointPair& pair) const { return same_face(projection, pair.left / size, pair.right / size); }
 };
 
-// Of two directions: how far around and how far up the first is from the second.
+// The difference of two directions: how far the first is around and up from the second.
 struct Apart {
   double around = 0.0, up = 0.0;
 };
@@ -175,20 +175,20 @@ Apart on_circle(vec3 a, vec3 b) {
   return {turned(heading(a) - heading(b)) * std::cos(height(a)), height(a) - height(b)};
 }
 
-// Two cameras that look ahead: directions differ along the great circles through the line that joins them.
+// Two cameras that look ahead: directions differ along the great circles through the line between the cameras.
 Apart of_cameras(vec3 a, vec3 b) {
   const auto side = [](vec3 d) { return std::asin(std::clamp(static_cast<double>(d.x), -1.0, 1.0)); };
   const auto up = [](vec3 d) { return std::atan2(static_cast<double>(d.y), -static_cast<double>(d.z)); };
   return {side(a) - side(b), turned(up(a) - up(b)) * std::cos(side(a))};
 }
 
-// How a pair moves, in pixels.
+// The parallax of a pair, in pixels.
 struct Move {
   double around = 0.0, up = 0.0;
   double height = 0.0;  // above the horizon, radians
 };
 
-// Nothing if a place is not in the picture.
+// Returns nullopt if a position is outside the picture.
 std::optional<Move> move_of(const PointPair& pair, const Looker& looker, Apart (*apart)(vec3 a, vec3 b)) {
   const ViewDirection a = looker.at(pair.left, pair.left), b = looker.at(pair.left, pair.right),
                       beside = looker.at(pair.left, pair.left + vec2(1.0f, 0.0f)),
@@ -200,8 +200,8 @@ std::optional<Move> move_of(const PointPair& pair, const Looker& looker, Apart (
               static_cast<double>(a.elevation)};
 }
 
-// Whether parallax grows downwards below the horizon, -1..1. As the ground comes nearer it does, wherever the eyes
-// converge; it decreases if they are swapped.
+// Evidence that parallax grows downwards below the horizon, -1..1. It does for eyes in the right order, because the
+// ground gets closer, wherever the eyes converge; it decreases if they are swapped.
 double growth_downwards(const std::vector<Move>& moves) {
   double n = 0.0, depth = 0.0, around = 0.0, both = 0.0, depths = 0.0, arounds = 0.0;
   for (const Move& move : moves) {
@@ -223,7 +223,7 @@ double order_of(const std::vector<Move>& moves) {
     signs += sign, all += std::abs(sign);
   }
   if (all == 0.0) return 0.0;
-  // Eyes that converge close by have parallax below 0, too; then only the ground decides.
+  // Eyes that converge nearby have negative parallax, too; then only the ground decides.
   const double converge = signs < 0.0 ? 0.5 - 0.5 * std::tanh(6.0 * (growth_downwards(moves) - 0.2)) : 1.0;
   return converge * signs / (all + 4.0);
 }
@@ -232,7 +232,7 @@ Parallax parallax_of(const PointPairs& pairs, const Looker& looker, Apart (*apar
   Parallax parallax;
   std::vector<Move> moves;
   for (const PointPair& pair : pairs.found) {
-    // What does not move is the same in every projection.
+    // Pairs without parallax are the same in every projection.
     if (length(pair.left - pair.right) < 0.4f || !looker.is_one_face(pair)) continue;
     parallax.count++;
     const std::optional<Move> move = move_of(pair, looker, apart);
@@ -240,7 +240,7 @@ Parallax parallax_of(const PointPairs& pairs, const Looker& looker, Apart (*apar
     if (move) moves.push_back(*move);
   }
   if (parallax.count > 0) parallax.level /= parallax.count;
-  const double explained = std::clamp((1.6 + parallax.level) / 0.6, 0.0, 1.0);  // of bad pairs the signs tell nothing
+  const double explained = std::clamp((1.6 + parallax.level) / 0.6, 0.0, 1.0);  // the signs of bad pairs mean nothing
   parallax.order = explained * order_of(moves);
   return parallax;
 }

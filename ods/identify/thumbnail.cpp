@@ -13,8 +13,7 @@ namespace ods {
 
 namespace {
 
-// Fills a row of the file with luminance, or with what `part` makes of its colours; NaN and light below 0 count as
-// black.
+// Fills a row of the file with luminance, or with `part` of its colours. NaN and negative light count as black.
 using Rows = std::function<void(int y, std::vector<float>& row)>;
 
 Rows rows_of(const StoredPicture& whole, const std::function<float(vec3)>& part = luminance) {
@@ -40,7 +39,7 @@ Rows rows_of(const StoredPicture& whole, const std::function<float(vec3)>& part 
   };
 }
 
-// The largest size up to `most` that keeps halves, thirds and sixths of a side on borders of pixels.
+// The largest size up to `most` that keeps halves, thirds and sixths of a side on pixel borders.
 int reduced(int side, int most) {
   constexpr int kParts = 12;
   return side <= most ? side : most / kParts * kParts;
@@ -84,7 +83,7 @@ void expose(std::vector<Image*> images) {
   }
 }
 
-// About.
+// Approximate display curve.
 float as_shown(float light) {
   return std::sqrt(std::min(light, 1.0f));
 }
@@ -93,10 +92,10 @@ float difference(float a, float b) {
   return std::abs(as_shown(a) - as_shown(b));
 }
 
-// At some places all over the file, in its own pixels.
+// Compares pixels at some places all over the file, at full resolution.
 void compare_neighbours(const Rows& rows, Thumbnail& thumbnail) {
   constexpr int kRows = 96;
-  double beside[2] = {}, below[2] = {};  // of neighbours, and of every other one
+  double beside[2] = {}, below[2] = {};  // differences of adjacent pixels, and of every other one
   double along = 0.0, down = 0.0, diagonal = 0.0;
   std::vector<float> here, next, other;
   for (int i = 0; i < kRows; i++) {
@@ -118,15 +117,15 @@ void compare_neighbours(const Rows& rows, Thumbnail& thumbnail) {
   if (std::min(along, down) > 0.0) thumbnail.crossed = diagonal / std::min(along, down);
 }
 
-constexpr float kBlack = 0.07f;  // as a display shows it, with what codecs add
+constexpr float kBlack = 0.07f;  // as displayed, including codec artifacts
 
-// How much of a row or a column is not black.
+// Fraction of a row or a column that is not black.
 double lit_share(const std::vector<float>& lights) {
   const auto lit = std::count_if(lights.begin(), lights.end(), [](float light) { return as_shown(light) > kBlack; });
   return static_cast<double>(lit) / static_cast<double>(lights.size());
 }
 
-// How many of the first entries, looked at from both ends, are black, up to one where much is not.
+// The number of black entries at one end, up to the first one that is mostly not black.
 int bar_of(int count, const std::function<double(int)>& lit, bool from_end) {
   constexpr double kNothing = 0.003, kMuch = 0.5;
   constexpr int kBlurred = 4;
@@ -139,7 +138,7 @@ int bar_of(int count, const std::function<double(int)>& lit, bool from_end) {
   return 0;
 }
 
-// Of both ends, if they are as wide.
+// The width of the bars at both ends, if they are equal; otherwise 0.
 int bars_at_ends(int count, const std::function<double(int)>& lit) {
   const int first = bar_of(count, lit, false), last = bar_of(count, lit, true), least = std::max(3, count / 100);
   return std::min(first, last) >= least && std::abs(first - last) <= std::max(2, count / 200) ? std::min(first, last)
@@ -158,7 +157,7 @@ Bars bars_of(const StoredPicture& whole) {
     rows(y, row);
     return lit_share(row);
   });
-  std::vector<double> lit(static_cast<size_t>(size.width));  // how many of some rows
+  std::vector<double> lit(static_cast<size_t>(size.width));  // count of lit pixels over some rows
   for (int i = 0; i < kRows; i++) {
     rows(bars.top + static_cast<int>(static_cast<int64_t>(size.height - 2 * bars.top) * i / kRows), row);
     for (size_t x = 0; x < lit.size(); x++) lit[x] += as_shown(row[x]) > kBlack ? 1.0 / kRows : 0.0;
@@ -209,7 +208,7 @@ std::vector<Image> interleaved_eyes(const StoredPicture& whole, Layout layout) {
       for (size_t x = 0; x < own.size(); x++)
         own[x] = row[static_cast<size_t>(across) * x + static_cast<size_t>(first)];
     };
-    const int high = how == EyePacking::kCheckerboard ? all.height / 2 : all.height;  // as reduced as its rows are
+    const int high = how == EyePacking::kCheckerboard ? all.height / 2 : all.height;  // scaled down like its rows
     eyes.push_back(reduce(rows_of_eye, all, {reduced(all.width, kThumbnailSide), reduced(high, kThumbnailSide)}));
   }
   if (whole.is_float) expose({&eyes[0], &eyes[1]});

@@ -108,7 +108,7 @@ std::optional<glm::dmat3> to_rec709(const Chromaticities& from) {
 }
 
 glm::dmat3 rec709_of_d50_xyz() {
-  const glm::dvec3 d50(0.9642, 1.0, 0.8249);  // as ICC.1 defines it
+  const glm::dvec3 d50(0.9642, 1.0, 0.8249);  // as defined by ICC.1
   return glm::inverse(xyz_matrix(kRec709)) * bradford(d50, xyz_of(kRec709.white));
 }
 

@@ -23,15 +23,15 @@ struct ColorSpace {
     kLinear,
     kOther,
   };
-  std::string name;   // for people: "gAMA 0.55556", "ICC profile 'Display P3'"; empty: unspecified
-  std::string fault;  // why the file's colour space is ignored; empty: it is not
+  std::string name;   // for users: "gAMA 0.55556", "ICC profile 'Display P3'"; empty if unspecified
+  std::string fault;  // the reason why the file's colour space is ignored; empty if it is used
   Curve curve = Curve::kDefault;
-  std::array<std::vector<float>, 3> light;  // of kLinear and kOther: linear light, 0..1, of each 16-bit code value
+  std::array<std::vector<float>, 3> light;  // for kLinear and kOther: linear light, 0..1, of each 16-bit code value
   bool has_our_primaries = true;
   glm::dmat3 to_rec709{1.0};  // from the file's linear light
 };
 
-// Whether the file uses our own colour space.
+// Returns whether the file uses our own colour space.
 bool is_our_own(const ColorSpace& color, bool is_float);
 
 // Maps a code value to light, both 0..1.
@@ -48,11 +48,11 @@ struct Chromaticities {
 };
 inline constexpr Chromaticities kRec709{{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.3127, 0.3290}};
 
-// From linear light of these primaries to that of Rec. 709; white maps to white (Bradford adaptation). Nothing if the
-// primaries do not span a triangle.
+// The matrix from linear light of these primaries to linear Rec. 709; white maps to white (Bradford adaptation).
+// Returns nullopt if the primaries do not span a triangle.
 std::optional<glm::dmat3> to_rec709(const Chromaticities& from);
 
-// The same from CIE XYZ relative to D50, the reference of ICC profiles.
+// The matrix from CIE XYZ relative to D50, the reference of ICC profiles, to linear Rec. 709.
 glm::dmat3 rec709_of_d50_xyz();
 
 // Linear Rec. 709 light from three code values, 0..1, or from three floats, which are light of the file's primaries.
@@ -63,7 +63,7 @@ vec3 light_of_floats(const ColorSpace& color, vec3 light);
 class SrgbConverter {
  public:
   explicit SrgbConverter(const ColorSpace& color);
-  // Pixels with `channels` samples each: R, G, B first; with fewer than three channels, grey first.
+  // Converts pixels with `channels` samples each: R, G, B first; with fewer than three channels, grey first.
   void convert(std::span<uint16_t> pixels, size_t channels) const;
 
  private:

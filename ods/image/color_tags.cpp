@@ -56,7 +56,7 @@ static std::map<std::string, std::string> color_chunks(const FileInput& file) {
   return chunks;
 }
 
-// ITU-T H.273. Television curves count as sRGB, because their code values are shown as such, here and in videos.
+// ITU-T H.273. Television curves count as sRGB, because their code values are displayed as sRGB, here and in videos.
 static ColorSpace of_cicp(const std::string& data) {
   if (data.size() != 4) return ignored("cICP", "is damaged");
   const uint64_t primaries = get_number(data, 0, 1), transfer = get_number(data, 1, 1);
@@ -91,7 +91,7 @@ static std::string unpacked(std::string_view packed) {
   return bytes;
 }
 
-// A name ended by a zero, the compression method (0), the profile.
+// A name with a terminating zero, the compression method (0), the profile.
 static ColorSpace of_iccp(const std::string& data) {
   const size_t end = data.find('\0');
   if (end == std::string::npos || end + 2 > data.size()) return ignored("ICC profile", "is damaged");
@@ -119,7 +119,7 @@ static ColorSpace of_gama_and_chrm(const std::string& gama, const std::string& c
   return of_curve(name, curve, {xy(1), xy(2), xy(3), xy(0)});
 }
 
-// A tag that cannot be used gives way to the next in rank; if there is none, it is reported.
+// If a tag cannot be used, the next one in rank is tried; if there is none, the error is reported.
 static ColorSpace read_png(const FileInput& file) {
   std::map<std::string, std::string> chunks = color_chunks(file);
   ColorSpace color;
@@ -139,7 +139,7 @@ static ColorSpace read_png(const FileInput& file) {
 
 // --- JPEG ------------------------------------------------------------------------------------------------------------
 
-// A profile may be split: after its marker comes the piece's number, from 1, and the number of pieces.
+// A profile may be split: its marker is followed by the piece's number, from 1, and the number of pieces.
 static ColorSpace read_jpeg(const FileInput& file) {
   constexpr unsigned char kApp2 = 0xE2;
   constexpr std::string_view kMarker{"ICC_PROFILE\0", 12};
@@ -232,7 +232,7 @@ static ColorSpace read_webp(const FileInput& file) {
   return {};
 }
 
-// 2: unspecified. libheif has made full-range RGB of it.
+// 2 is unspecified. libheif has converted the pixels to full-range RGB.
 static ColorSpace read_heif(const FileInput& file) {
   const HeifItems items = read_heif_items(file);
   if (!items.icc.empty()) return read_icc_profile(items.icc);
@@ -274,7 +274,7 @@ ColorSpace read_color_space(const std::string& path, FileFormat format, const Fi
   try {
     color = read_said(path, format, info);
   } catch (const Error&) {
-    return {};  // reading the pixels reports the fault
+    return {};  // reading the pixels reports the error
   } catch (const MalformedFile&) {
     return {};
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reads the colour space of a picture file from wherever its format stores it:
+// Reads the colour space of a picture file from the place where its format stores it:
 //
 //   PNG    the first of cICP, iCCP, sRGB, gAMA with cHRM, as the PNG specification (third edition) ranks them
 //   JPEG   an ICC profile in APP2
@@ -10,7 +10,7 @@
 //   HEIF   an ICC profile, else nclx
 //   EXR    chromaticities
 //
-// A gAMA within 5 % of 1/2.2 is taken for sRGB, as libpng does: programs write 0.45455 for sRGB.
+// A gAMA within 5 % of 1/2.2 counts as sRGB, as in libpng, because programs write 0.45455 for sRGB.
 #pragma once
 #include <string>
 
@@ -21,8 +21,9 @@ namespace ods {
 
 struct FileInfo;
 
-// The default colour space if the file does not specify one, or cannot be read: reading its pixels reports why. Floats
-// are always linear: only the primaries of a float file are used, and a transfer curve is a fault.
+// Returns the default colour space if the file does not specify one, or cannot be read, in which case reading its
+// pixels reports the error. Floats are always linear: only the primaries of a float file are used, and a transfer curve
+// is a fault.
 ColorSpace read_color_space(const std::string& path, FileFormat format, const FileInfo& info);
 
 }  // namespace ods

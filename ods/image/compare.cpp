@@ -14,20 +14,20 @@
 
 namespace ods {
 
-static void check_same_shape(const std::vector<Image>& a, const std::vector<Image>& b) {
-  const auto differ = [](const char* what, size_t one, size_t other) {
-    return Error(ErrorKind::kInput, fmt::format("the pictures have {} and {} {}", one, other, what));
+static std::string shape_of(const std::vector<Image>& eyes) {
+  if (eyes.empty()) return "no eyes";
+  return fmt::format("{} eye{} of {}x{} pixels and {} channels", eyes.size(), eyes.size() == 1 ? "" : "s",
+                     eyes[0].width, eyes[0].height, eyes[0].channels);
+}
+
+static void check_same_shape(const std::vector<Image>& a, const std::vector<Image>& b,
+                             const std::array<std::string, 2>& names) {
+  const auto is_same = [](const Image& one, const Image& other) {
+    return one.width == other.width && one.height == other.height && one.channels == other.channels;
   };
-  if (a.size() != b.size()) throw differ("eyes", a.size(), b.size());
-  for (size_t i = 0; i < a.size(); i++) {
-    if (a[i].width != b[i].width || a[i].height != b[i].height) {
-      throw Error(ErrorKind::kInput, fmt::format("the pictures' eyes have {}x{} and {}x{} pixels", a[i].width,
-                                                 a[i].height, b[i].width, b[i].height));
-    }
-    if (a[i].channels != b[i].channels) {
-      throw differ("channels", static_cast<size_t>(a[i].channels), static_cast<size_t>(b[i].channels));
-    }
-  }
+  if (std::ranges::equal(a, b, is_same)) return;
+  throw Error(ErrorKind::kInput, fmt::format("{} has {}, {} has {}: only pictures of the same size can be compared",
+                                             names[0], shape_of(a), names[1], shape_of(b)));
 }
 
 static bool is_finite(const float* pixel, int channels) {
@@ -91,8 +91,9 @@ static Errors errors_of(const Sums& sums) {
           sums.largest, sums.not_finite};
 }
 
-Comparison compare_eyes(const std::vector<Image>& a, const std::vector<Image>& b) {
-  check_same_shape(a, b);
+Comparison compare_eyes(const std::vector<Image>& a, const std::vector<Image>& b,
+                        const std::array<std::string, 2>& names) {
+  check_same_shape(a, b, names);
   Comparison comparison;
   Sums whole;
   for (size_t i = 0; i < a.size(); i++) {

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How different two pictures are. e = b - a, per channel and pixel.
+// Measures the difference of two pictures: e = b - a, per channel and pixel.
 //
-// Pixels that hold NaN or infinity in either picture are counted, and excluded from everything else.
+// Pixels with NaN or infinity in either picture are counted, and excluded from everything else.
 #pragma once
+#include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "ods/image/image.h"
@@ -41,23 +43,25 @@ struct Comparison {
   Errors whole;  // every pixel of every eye
 };
 
-// Throws Error(kInput), one line, if the pictures differ in number of eyes, size or channels.
-Comparison compare_eyes(const std::vector<Image>& a, const std::vector<Image>& b);
+// names: of the pictures, for messages. Throws Error(kInput), one line, if the pictures differ in number of eyes, size
+// or channels.
+Comparison compare_eyes(const std::vector<Image>& a, const std::vector<Image>& b,
+                        const std::array<std::string, 2>& names = {"the first picture", "the second one"});
 
 // b - a; 0 where a pixel is not finite. Precondition: equal sizes.
 Image difference(const Image& a, const Image& b);
 
 // Tests whether e is only noise, for estimates with known variance: z = e / sqrt(variance of a + of b). For unbiased
 // pictures with independent noise, mean is 0, rms 1 and beyond_3 0.0027 (normal distribution). A filter wider than a
-// pixel correlates neighbouring pixels, but these three expectations still hold. Values without variance in either
-// picture are excluded, but counted if they differ.
+// pixel correlates adjacent pixels, but these three expectations still hold. Values without variance in either picture
+// are excluded, but counted if they differ.
 struct ZTest {
   int64_t values = 0;
   double mean = 0.0;
   double rms = 0.0;
   double beyond_3 = 0.0;         // fraction with |z| > 3
   double largest = 0.0;          // |z|
-  int64_t sure_differences = 0;  // without variance, yet e is not 0
+  int64_t sure_differences = 0;  // values without variance where e is not 0
 };
 
 // Precondition: four lists of equal length, all images of equal size.

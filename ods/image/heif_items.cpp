@@ -18,7 +18,7 @@ static uint32_t read_primary(const Box& meta) {
   return static_cast<uint32_t>(get_number(primary->body, 4, bytes));
 }
 
-// The left eye's picture and the right one's, of the first stereo group.
+// The pictures of the left and the right eye in the first stereo group.
 static std::vector<uint32_t> read_pair(Box& meta) {
   Box* groups = find_child(meta, box_type("grpl"));
   if (groups == nullptr) return {};
@@ -30,7 +30,7 @@ static std::vector<uint32_t> read_pair(Box& meta) {
   return {};
 }
 
-// Pictures that are made of others: grids of tiles, overlays.
+// Pictures that consist of others: grids of tiles, overlays.
 using Parts = std::map<uint32_t, std::vector<uint32_t>>;
 
 static Parts read_parts(Box& meta) {
@@ -50,7 +50,7 @@ static Parts read_parts(Box& meta) {
   return parts;
 }
 
-// A few hundred bytes can ask for billions of tiles, or for a grid of itself, and decoders follow.
+// A few hundred bytes can request billions of tiles, or a grid of itself, which decoders would follow.
 static void count_parts(const Parts& parts, uint32_t item, int depth, int& count) {
   constexpr int kDeepest = 4, kMost = 1 << 18;
   if (depth > kDeepest) throw MalformedFile("its pictures are made of each other, again and again");
@@ -66,7 +66,7 @@ static void check_parts(Box& meta) {
   for (const auto& [item, of] : parts) count_parts(parts, item, 0, count);
 }
 
-// The numbers of an item's properties, from 1.
+// The indices of an item's properties, from 1.
 static std::vector<size_t> properties_of(const Box& associations, uint32_t item) {
   const std::string& body = associations.body;
   const uint64_t version = get_number(body, 0, 1), flags = get_number(body, 1, 3), count = get_number(body, 4, 4);
@@ -77,7 +77,7 @@ static std::vector<size_t> properties_of(const Box& associations, uint32_t item)
     const uint64_t id = get_number(body, at, id_bytes), own = get_number(body, at + id_bytes, 1);
     at += id_bytes + 1;
     for (uint64_t k = 0; k < own; k++, at += bytes) {
-      const uint64_t number = get_number(body, at, bytes) & (bytes == 2 ? 0x7fff : 0x7f);  // the rest: it is essential
+      const uint64_t number = get_number(body, at, bytes) & (bytes == 2 ? 0x7fff : 0x7f);  // other bit: essential
       if (id == item) numbers.push_back(number);
     }
   }
@@ -93,7 +93,7 @@ static void read_color(const Box& property, HeifItems& items) {
   }
 }
 
-// The focal length is a fraction of the picture's width.
+// The focal length is relative to the picture's width.
 static void read_camera(const Box& property, HeifItems& items) {
   const uint64_t flags = get_number(property.body, 1, 3);
   const double unit = std::exp2(static_cast<double>(flags >> 8 & 0x1f));
@@ -121,7 +121,7 @@ static void read_properties(Box& meta, HeifItems& items) {
     }
   }
   if (!items.icc.empty() || items.color) return;
-  for (const Box& property : all.children) {  // of a grid, some programs describe only the tiles
+  for (const Box& property : all.children) {  // for a grid, some programs describe only the tiles
     if (property.type == box_type("colr")) return read_color(property, items);
   }
 }

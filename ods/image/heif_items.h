@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a HEIF file (HEIC, AVIF) says of its pictures beside their pixels. Source: ISO/IEC 23008-12, "Image File
-// Format": item properties, entity groups, camera properties.
+// Reads the metadata of the pictures in a HEIF file (HEIC, AVIF). Source: ISO/IEC 23008-12, "Image File Format": item
+// properties, entity groups, camera properties.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -15,15 +15,16 @@
 namespace ods {
 
 struct HeifItems {
-  uint32_t primary = 0;        // the picture that programs show
-  std::vector<uint32_t> pair;  // of its stereo group (ster): the left eye's picture and the right one's; or empty
-  std::string icc;             // its ICC profile; empty: none
+  uint32_t primary = 0;        // the picture that programs display
+  std::vector<uint32_t> pair;  // pictures of the left and the right eye in its stereo group (ster); or empty
+  std::string icc;             // its ICC profile; empty if it has none
   // Its colour primaries and transfer curve by ITU-T H.273 (nclx), if it has no profile.
   std::optional<std::array<uint16_t, 2>> color;
-  float fov = 0.0f;  // degrees across, of its camera (cmin); 0: unknown
+  float fov = 0.0f;  // field of view of its camera (cmin), horizontal degrees; 0 if unknown
 };
 
-// Throws MalformedFile, also for pictures that are made of each other or of more than decoders stand; Error(kInput).
+// Throws MalformedFile, also for pictures that contain themselves or more pictures than decoders can handle;
+// Error(kInput).
 HeifItems read_heif_items(const FileInput& file);
 
 }  // namespace ods

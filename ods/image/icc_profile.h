@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ICC profiles (ICC.1), through Little CMS (icc_profile.cpp alone knows it).
+// Reads ICC profiles (ICC.1) through Little CMS, which only icc_profile.cpp uses.
 #pragma once
 #include <string>
 
@@ -9,8 +9,8 @@
 
 namespace ods {
 
-// The colour space of a profile that is grey or consists of three curves and a matrix, as those of displays, cameras
-// and working spaces do. For others (CMYK, look-up tables) and for damaged ones ColorSpace::fault says why not.
+// The colour space of a profile that is grey or consists of three curves and a matrix, like the profiles of displays,
+// cameras and working spaces. For others (CMYK, look-up tables) and for damaged ones ColorSpace::fault has the reason.
 ColorSpace read_icc_profile(const std::string& profile);
 
 }  // namespace ods

@@ -15,7 +15,7 @@ namespace ods {
 
 constexpr uint16_t kOrientation = 274;
 
-// A TIFF in a segment of its own.
+// The TIFF in an Exif segment.
 static uint64_t in_exif(std::string_view tiff) {
   const bool is_little = tiff.starts_with("II");
   const auto number = [&](size_t at, size_t count) {
@@ -49,7 +49,7 @@ int orientation_of(const FileInput& file) {
     const uint64_t orientation = stated(file);
     return orientation >= 1 && orientation <= 8 ? static_cast<int>(orientation) : 1;
   } catch (const Error&) {
-    return 1;  // reading the pixels reports the fault
+    return 1;  // reading the pixels reports the error
   } catch (const MalformedFile&) {
     return 1;
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Capitals, digits and a few signs as straight strokes: lettering for generated geometry.
+// Capitals, digits and a few symbols as straight strokes: lettering for generated geometry.
 #pragma once
 #include <string_view>
 #include <vector>

@@ -22,12 +22,12 @@ static vec3 neutral(vec3 color) {
 }
 
 vec3 tone_map(vec3 light, float exposure, ToneCurve curve) {
-  // Far above any light, and far enough from the largest float that the curve cannot overflow.
+  // Far above any light, but far enough from the largest float that the curve cannot overflow.
   const float kBrightest = 1e30f;
   const float scale = std::exp2(exposure);
   for (int i = 0; i < 3; i++) {
     const float value = light[i] * scale;
-    light[i] = value > 0.0f ? min(value, kBrightest) : 0.0f;  // NaN is not above 0
+    light[i] = value > 0.0f ? min(value, kBrightest) : 0.0f;  // also for NaN
   }
   if (curve == ToneCurve::kNeutral) light = neutral(light);
   return clamp(light, 0.0f, 1.0f);

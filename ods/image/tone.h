@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From scene-linear light to a display: exposure, tone curve, sRGB.
+// Converts scene-linear light for a display: exposure, tone curve, sRGB.
 #pragma once
 #include <string_view>
 #include <vector>
@@ -28,8 +28,8 @@ constexpr std::string_view tone_curve_name(ToneCurve curve) {
 }
 
 // Multiplies the light by 2^exposure, then applies the curve. Input and output are linear Rec. 709; the output is 0..1.
-// NaN and negative light become 0; infinite light counts as the largest number. Source of neutral: Khronos, "PBR
-// Neutral Tone Mapper Specification" (github.com/KhronosGroup/ToneMapping).
+// NaN and negative light become 0; infinite light counts as the largest float. Source of neutral: Khronos, "PBR Neutral
+// Tone Mapper Specification" (github.com/KhronosGroup/ToneMapping).
 vec3 tone_map(vec3 light, float exposure, ToneCurve curve);
 
 // IEC 61966-2-1: linear 0..1 <-> encoded 0..1.

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What lobes reflect of light that comes from everywhere, from the tables (ods/render/tables.h).
+// Albedos of the lobes, from the tables (ods/render/tables.h): the fraction of light from all directions that a lobe
+// reflects.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/microfacets.h"
@@ -9,7 +10,7 @@
 namespace ods {
 #endif
 
-// A place between the nodes of one axis of a table: the node before it, and the weight of the next.
+// A position between two nodes on one axis of a table: the node before it, and the weight of the next.
 struct TablePlace {
   int node;
   float share;
@@ -45,9 +46,10 @@ struct AlbedoReader : LayerReader {
     return vec2(x, y);
   }
 
-  // Albedo of the rough glass lobe: reflection and transmission together.
+  // Albedo of the rough glass lobe, reflection and transmission together.
   inline float glass_albedo(float eta, float roughness, float cosine) {
-    // The axes are stretched towards eta = 1, where nothing happens, and so that total reflection starts in mid-table.
+    // The axes are stretched towards eta = 1, where glass has no effect, and total reflection starts at the middle of
+    // the table.
     float reflectance = sqrt(abs((eta - 1.0f) / (eta + 1.0f)) * 2.0f);
     float place = sqrt(cosine);
     float critical = sqrt(max(1.0f - eta * eta, 0.0f));

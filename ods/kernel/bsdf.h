@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a surface scatters light: glTF 2.0's metallic-roughness model with transmission, energy-conserving.
+// The scattering of light by a surface: glTF 2.0's metallic-roughness model with transmission, energy-conserving.
 //
 // Every material mixes three lobes:
 //   specular GGX reflection of metals and dielectrics with Schlick's Fresnel term, scaled up by the energy that single
@@ -13,7 +13,7 @@
 //
 // Radiance is carried divided by the square of the refractive index, so refraction does not change it.
 // The path loop only calls make_bsdf, bsdf_value and sample_bsdf. Surfaces with layers (clearcoat, sheen and others)
-// have their own lobes in layer_lobes.h, to which these functions lead.
+// have their own lobes in layer_lobes.h; these functions call them.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/layered_bsdf.h"
@@ -21,7 +21,7 @@ namespace ods {
 #endif
 
 struct Bsdf {
-  int view;  // the surface has layers: kOwnView or kOtherView, where layered[] has all that is known of it; else -1
+  int view;  // for surfaces with layers: kOwnView or kOtherView, the index of the lobes in layered[]; otherwise -1
   vec3 wo;   // towards the viewer, in the frame
   Frame frame;
   vec3 geometric;
@@ -43,8 +43,9 @@ struct Bsdf {
 struct BsdfEvaluator : LayeredEvaluator {
 #endif
 
-  // direction: of the incoming ray. eta: index beyond the surface over the index on the ray's side. view: for the
-  // layers, which are those that read_layers() saw last; a BSDF with layers lasts until the next of the same view.
+  // Makes the BSDF for a ray. direction: the incoming ray's. eta: index beyond the surface over the index on the ray's
+  // side. view: kOwnView or kOtherView, for surfaces with layers. Their layers are those last read by read_layers(),
+  // and the BSDF is valid until the next one of the same view is made.
   inline Bsdf make_view_bsdf(int view, Surface surface, vec3 direction, float eta) {
     Bsdf bsdf;
     bsdf.view = -1;
@@ -125,7 +126,7 @@ struct BsdfEvaluator : LayeredEvaluator {
     return vec2(value, pdf);
   }
 
-  // Value and pdf of refraction to wi (wi.z < 0), likewise.
+  // Value and pdf of refraction to wi (wi.z < 0), without the Fresnel term.
   inline vec2 refraction_value(Bsdf bsdf, vec3 wi) {
     RefractingFacet facet = refracting_facet(bsdf.wo, wi, bsdf.eta);
     if (facet.cosine <= 0.0f) return vec2(0.0f);
@@ -134,8 +135,8 @@ struct BsdfEvaluator : LayeredEvaluator {
     return vec2(d / (1.0f + lambda_o + ggx_lambda(wi, bsdf.alpha)), d / (1.0f + lambda_o));
   }
 
-  // BSDF times cosine towards a direction (world space), and the pdf with which sample_bsdf() samples it. Mirrors do
-  // not contribute.
+  // BSDF times cosine towards a direction (world space), and the pdf with which sample_bsdf() samples it. Mirrors
+  // contribute nothing.
   inline BsdfValue bsdf_value(Bsdf bsdf, vec3 direction) {
     if (bsdf.view >= 0) return layered_value(bsdf.view, direction);
     BsdfValue result;
@@ -171,8 +172,8 @@ struct BsdfEvaluator : LayeredEvaluator {
     return result;
   }
 
-  // Glass: chooses reflection or transmission by Fresnel, with what remains of pick (rescaled
-  // to 0..1). Local directions.
+  // Samples the glass lobe: chooses reflection or transmission by Fresnel, using the rest of `pick`, rescaled to 0..1.
+  // Local directions.
   inline vec3 sample_glass(Bsdf bsdf, vec3 h, float pick) {
     bool reflected = pick < glass_fresnel(bsdf, dot(bsdf.wo, h));
     vec3 mirror = h * (2.0f * dot(bsdf.wo, h)) - bsdf.wo;
@@ -181,7 +182,7 @@ struct BsdfEvaluator : LayeredEvaluator {
     return refract_through(bsdf.wo, h, bsdf.eta);
   }
 
-  // The mirror-like parts of a smooth surface have no pdf; each is chosen with its own probability.
+  // The mirror-like parts of a smooth surface have no pdf. Each is chosen with its own probability.
   inline BsdfSample sample_mirror(Bsdf bsdf, bool glass, float pick) {
     vec3 up = vec3(0.0f, 0.0f, 1.0f);
     vec3 wi = glass ? sample_glass(bsdf, up, pick) : vec3(-bsdf.wo.x, -bsdf.wo.y, bsdf.wo.z);
@@ -200,7 +201,8 @@ struct BsdfEvaluator : LayeredEvaluator {
     return result;
   }
 
-  // What goes straight through smooth glass, thin or seen as straight (ods/kernel/path_light.h).
+  // Fraction of light that passes straight through smooth glass, which is thin or treated as straight
+  // (ods/kernel/path_light.h).
   inline vec3 straight_transmittance(Bsdf bsdf) {
     if (bsdf.view >= 0) return layered_transmittance(bsdf.view);
     return bsdf.glass * (bsdf.glass_gain * (1.0f - glass_fresnel(bsdf, bsdf.wo.z)));

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where the other eye's picture shows what a sample of this eye's picture shows, so that one path can serve both.
+// Finds the place in the other eye's picture that shows the same point of the scene as a sample of this eye's picture,
+// so that one path can serve both.
 //
 // A sample is a pixel and an offset from its centre. Its counterpart is the pixel of the other eye for which the same
 // point of the scene has nearly the same offset: less than half a pixel apart. (With a box filter, which ends at the
@@ -9,9 +10,9 @@
 // counterpart, and no two samples of a pixel compete.
 //
 // `density` turns probabilities of this eye into those of the other: the filter there over the filter here, times the
-// image area that a piece of the scene has here over the one that it has there. A point has the same elevation,
-// distance and circle in both eyes, since they are mirror images of each other. So that ratio is the solid angle of the
-// picture here over that there, times cos(there) / cos(here) of the angles at the surface (path.h knows those).
+// image area of a piece of the scene here over its image area there. A point has the same elevation, distance and
+// circle in both eyes, since they are mirror images of each other. So that ratio is the solid angle of the picture here
+// over the solid angle there, times cos(there) / cos(here) of the angles at the surface, which path.h adds.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/camera/project.h"
@@ -23,13 +24,13 @@ struct Counterpart {
   bool exists;
   int x;  // the pixel
   int y;
-  vec3 origin;  // of the other eye's ray to the point
+  vec3 origin;  // origin of the other eye's ray to the point
   vec3 direction;
   float distance;
   float density;  // without the cosines
 };
 
-// Whether project_point() is a closed form for the points on rays of this direction (unit length).
+// Returns whether project_point() is a closed form for the points on rays of this direction (unit length).
 inline bool projects_quickly(Camera camera, vec3 direction) {
   if (camera.neck != 0.0f || has_head_tilt(camera)) return false;
   vec3 axis = camera.axis.x * camera.right + camera.axis.y * camera.up + camera.axis.z * camera.back;
@@ -45,7 +46,8 @@ inline bool wraps_around(Projection projection) {
   return has_range(projection.kind) && projection.span.x > 2.0f * kPi - 1e-4f;
 }
 
-// point: what the sample at uv of pixel (x, y) shows, by a ray of this direction. size: of the picture, pixels.
+// point: the scene point that the sample at uv of pixel (x, y) shows, by a ray of this direction. size: the picture's,
+// pixels.
 inline Counterpart counterpart_of(Camera camera, int filter_shape, vec2 size, int eye, vec2 pixel, vec2 uv,
                                   vec3 direction, vec3 point) {
   Counterpart found;

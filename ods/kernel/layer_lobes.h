@@ -1,24 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a surface with layers (SurfaceLayers) scatters light: the lobes of bsdf.h as glTF's extensions change them, and
-// theirs. From the top:
+// The scattering of light by a surface with layers (SurfaceLayers): the lobes of bsdf.h as glTF's extensions change
+// them, and the lobes that the extensions add. From the top:
 //
-//   clearcoat  GGX of index 1.5 about its own normal. It replaces the share clearcoat * F(cosine of the viewer) of all
-//              that is below it, emission included (KHR_materials_clearcoat). Inside a volume there is none: the coat
-//              is outside.
-//   sheen      takes max(sheen color) * its albedo from what is below it (KHR_materials_sheen: of the two forms that it
-//              names the one with the viewer's cosine, in which a white surface stays white).
+//   clearcoat  GGX of index 1.5 about its own normal. It replaces the fraction clearcoat * F(cosine of the viewer) of
+//              everything below it, emission included (KHR_materials_clearcoat). It has no effect inside a volume,
+//              because the coat is outside.
+//   sheen      takes max(sheen color) * its albedo from everything below it (KHR_materials_sheen has two forms; this
+//              is the one with the viewer's cosine, in which a white surface stays white).
 //   specular   Schlick's term with f0 = min(f0 of the index * color, 1) * weight and f90 = weight
 //              (KHR_materials_specular); two alphas (KHR_materials_anisotropy); a thin film in the place of Schlick's
-//              term (KHR_materials_iridescence; like the Khronos sample viewer without the specular weight). What is
-//              below a dielectric loses the largest of the three colors' albedos, so it keeps its hue.
-//   diffuse    Lambert, of which a share goes through to the other side (KHR_materials_diffuse_transmission).
+//              term (KHR_materials_iridescence; like the Khronos sample viewer without the specular weight). The layers
+//              below a dielectric lose the largest of the three colors' albedos, so they keep their hue.
+//   diffuse    Lambert; a part of it is transmitted to the other side (KHR_materials_diffuse_transmission).
 //   glass      as in bsdf.h, by the exact Fresnel term F: reflection goes from f0 to f90 as (F - F0) / (1 - F0) does
-//              (Cycles' reading), but total reflection stays total. What is not reflected passes.
+//              (Cycles' reading), but total reflection stays total. The rest is transmitted.
 //
-// The energy that single scattering loses is given back as in bsdf.h. With every layer's default, the result is that of
-// bsdf.h.
+// The energy that single scattering loses is given back as in bsdf.h. If every layer has its default, the result equals
+// that of bsdf.h.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/albedo.h"
@@ -27,25 +27,25 @@ namespace ods {
 
 const float kSmoothAlpha = 1e-3f;  // below this the specular and glass lobes are mirrors: one direction, no pdf
 
-// For whom: the eye that the path began at, or the other.
+// The eye for which a BSDF is evaluated: the one that the path began at, or the other.
 const int kOwnView = 0;
 const int kOtherView = 1;
 
 struct BsdfValue {
   vec3 value;  // BSDF times cosine
-  float pdf;   // of sample_bsdf(), per solid angle
+  float pdf;   // pdf with which sample_bsdf() samples the direction, per solid angle
 };
 
 struct BsdfSample {
   vec3 direction;  // world, unit length
   vec3 weight;     // BSDF times cosine over pdf; 0 ends the path
-  float pdf;       // per solid angle; 0: a mirror direction, which light sampling cannot find
+  float pdf;       // per solid angle; 0 for a mirror direction, which light sampling cannot find
   bool through;    // the direction leaves on the other side of the surface
 };
 
 struct LayeredBsdf {
-  Frame frame;  // of all lobes but the coat; the surface is rougher along its tangent
-  vec3 wo;      // towards the viewer, in it
+  Frame frame;  // the frame of all lobes but the coat; the surface is rougher along its tangent
+  vec3 wo;      // towards the viewer, in `frame`
   vec3 geometric;
   vec2 alpha;
   bool mirror;  // specular and glass have no width
@@ -58,13 +58,13 @@ struct LayeredBsdf {
   float iridescence;
   vec3 film_dielectric;  // weights of the film's reflectance over the dielectric and over the metal
   vec3 film_metal;
-  vec3 dielectric_f0;  // what is under the film
+  vec3 dielectric_f0;  // reflectance of the layer under the film
   vec3 metal_f0;
   vec3 diffuse;  // albedo, including all weights
   vec3 diffuse_through;
   vec3 glass;        // tint of the transmitted light
   float glass_gain;  // weight and energy compensation
-  vec3 glass_color;  // of the reflection at normal incidence, and the weight of all reflection
+  vec3 glass_color;  // color of the reflection at normal incidence, and the weight of all reflection
   float glass_weight;
   vec3 wave_eta;  // see SurfaceLayers
   vec3 sheen;
@@ -92,7 +92,7 @@ inline BsdfValue no_value() {
   return value;
 }
 
-// --- what the microfacets of the base reflect
+// --- reflectance of the base's microfacets
 
 // Reflectance of the base's specular lobe at a microfacet, including weights.
 inline vec3 layered_fresnel(LayeredBsdf b, float cosine) {
@@ -117,12 +117,12 @@ inline vec3 glass_reflectance(LayeredBsdf b, float cosine, float eta) {
   return mix(reflected, film_fresnel(b.film, in_air, colored), b.iridescence);
 }
 
-// What glass that reflects this much lets through.
+// Transmittance of glass with this reflectance.
 inline float glass_transmittance(vec3 reflectance) {
   return max(1.0f - largest(reflectance), 0.0f);
 }
 
-// The chance with which it is sampled by reflection.
+// The probability of sampling the glass lobe by reflection.
 inline float reflection_chance(vec3 reflectance) {
   float reflected = luminance(reflectance);
   return reflected / (reflected + glass_transmittance(reflectance));
@@ -136,7 +136,7 @@ inline vec2 layered_reflection(LayeredBsdf b, vec3 wi) {
   return vec2(d / (1.0f + lambda_o + ggx_lambda(wi, b.alpha)), d / (1.0f + lambda_o));
 }
 
-// Value and pdf of refraction to wi (wi.z < 0), likewise.
+// Value and pdf of refraction to wi (wi.z < 0), without the Fresnel term.
 inline vec2 layered_refraction(LayeredBsdf b, vec3 wi) {
   RefractingFacet facet = refracting_facet(b.wo, wi, b.eta);
   if (facet.cosine <= 0.0f) return vec2(0.0f);
@@ -147,7 +147,7 @@ inline vec2 layered_refraction(LayeredBsdf b, vec3 wi) {
 
 // --- value and pdf of all lobes
 
-// Of all lobes but the coat, towards a direction above the surface, in b.frame.
+// Value and pdf of all lobes but the coat, towards a direction above the surface, in b.frame.
 inline BsdfValue layered_above(LayeredBsdf b, vec3 wi) {
   BsdfValue result;
   result.value = b.diffuse * (wi.z / kPi);
@@ -169,7 +169,7 @@ inline BsdfValue layered_above(LayeredBsdf b, vec3 wi) {
   return result;
 }
 
-// Towards a direction below it.
+// Value and pdf of all lobes but the coat, towards a direction below the surface, in b.frame.
 inline BsdfValue layered_below(LayeredBsdf b, vec3 wi) {
   BsdfValue result;
   result.value = b.diffuse_through * (-wi.z / kPi);
@@ -184,7 +184,7 @@ inline BsdfValue layered_below(LayeredBsdf b, vec3 wi) {
   return result;
 }
 
-// Of the coat.
+// Value and pdf of the coat.
 inline BsdfValue coat_value(LayeredBsdf b, vec3 direction) {
   vec3 wi = to_frame(b.coat_frame, direction);
   if (b.p_coat <= 0.0f || b.coat_alpha < kSmoothAlpha || wi.z < 1e-6f) return no_value();
@@ -197,7 +197,7 @@ inline BsdfValue coat_value(LayeredBsdf b, vec3 direction) {
   return result;
 }
 
-// BSDF times cosine towards a direction (world space), and the pdf with which sample_layers() samples it.
+// BSDF times cosine towards a direction (world space), and the pdf with which sample_of_layers() samples it.
 inline BsdfValue value_of_layers(LayeredBsdf b, vec3 direction) {
   BsdfValue result = no_value();
   bool outside = dot(direction, b.geometric) > 0.0f;
@@ -226,9 +226,9 @@ inline BsdfSample sample_towards(vec3 direction, vec3 weight, bool through) {
   return result;
 }
 
-// Smooth glass. pick in [0, 1) decides between reflection and transmission by the eta of this path's colour. All three
-// colours reflect in one direction, so they all go on: each by its own reflectance over the chance of this direction,
-// which is the mean over the three colours that the path might have.
+// Samples smooth glass. `pick` in [0, 1) decides between reflection and transmission by the eta of this path's colour.
+// All three colours are reflected in one direction, so all three continue: each is weighted by its own reflectance over
+// the probability of this direction, which is the mean over the three colours that the path might have.
 inline BsdfSample sample_smooth_glass(LayeredBsdf b, float pick) {
   vec3 up = vec3(0.0f, 0.0f, 1.0f);
   vec3 reflectance = glass_reflectance(b, b.wo.z, b.eta);
@@ -250,7 +250,7 @@ inline BsdfSample sample_smooth_glass(LayeredBsdf b, float pick) {
   return sample_towards(from_frame(b.frame, wi), weight, true);
 }
 
-// A sampled mirror direction carries nothing if it is on the wrong side of the triangle.
+// Drops a sampled mirror direction that is on the wrong side of the triangle.
 inline BsdfSample checked_mirror(LayeredBsdf b, BsdfSample found) {
   float size = length(found.direction);
   bool lost = !(size > 0.5f) || found.through != (dot(found.direction, b.geometric) < 0.0f);
@@ -259,7 +259,8 @@ inline BsdfSample checked_mirror(LayeredBsdf b, BsdfSample found) {
   return found;
 }
 
-// A direction of a lobe with width: its weight is that of all lobes together. through: of the lobe that chose it.
+// The sample for a direction drawn from a lobe with width. Its weight is the sum of all lobes. through: whether the
+// chosen lobe transmits.
 inline BsdfSample checked_sample(LayeredBsdf b, vec3 direction, bool through) {
   BsdfSample result = sample_towards(direction, vec3(0.0f), dot(direction, b.geometric) < 0.0f);
   float size = length(direction);
@@ -283,7 +284,7 @@ inline BsdfSample sample_coat(LayeredBsdf b, vec2 uv) {
   return checked_sample(b, from_frame(b.coat_frame, wi), false);
 }
 
-// Specular, or glass with what remains of pick, rescaled to 0..1.
+// Samples the specular lobe, or the glass lobe with the rest of `pick`, rescaled to 0..1.
 inline BsdfSample sample_microfacets(LayeredBsdf b, bool glass, float pick, vec2 uv) {
   if (glass && (b.mirror || b.straight)) return checked_mirror(b, sample_smooth_glass(b, pick));
   if (b.mirror) {

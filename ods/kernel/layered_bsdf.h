@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Makes the LayeredBsdf of a surface with layers, and keeps it: two at most are in use, one per eye.
+// Makes the LayeredBsdf of a surface with layers, and keeps it. At most two are in use, one per eye.
 //
 // They are not part of Bsdf, and in C++ these functions are never inlined into the path loop, so that surfaces without
-// layers cost what they did before there were any.
+// layers do not become slower.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/layer_lobes.h"
 namespace ods {
 #endif
 
-// Microfacets over which the mean reflectance of a film is taken.
+// Number of microfacets over which the mean reflectance of a film is taken.
 const int kFilmNormals = 16;
 
 #ifdef __cplusplus
@@ -20,14 +20,14 @@ struct LayeredEvaluator : AlbedoReader {
 
   LayeredBsdf layered[2];  // kOwnView, kOtherView; set by make_layered()
 
-  // The film's reflectance over a base, averaged over what the microfacets reflect.
+  // The film's reflectance over a base, averaged over the reflecting microfacets.
   inline vec3 mean_film(LayeredBsdf b, vec3 base_f0) {
     if (b.mirror) return film_fresnel(b.film, b.wo.z, base_f0);
     vec3 sum = vec3(0.0f);
     float total = 0.0f;
     float lambda = ggx_lambda(b.wo, b.alpha);
     for (int i = 0; i < kFilmNormals; i++) {
-      // More of them where u.y is close to 1, as for the tables.
+      // Denser samples where u.y is close to 1, as for the tables.
       float at = float(i) + 0.5f;
       float rest = 1.0f - at / float(kFilmNormals);
       vec3 h = ggx_sample_visible(b.wo, b.alpha, vec2(fract(0.618034f * at), 1.0f - rest * rest));
@@ -41,7 +41,7 @@ struct LayeredEvaluator : AlbedoReader {
     return total > 0.0f ? sum * (1.0f / total) : film_fresnel(b.film, b.wo.z, base_f0);
   }
 
-  // Frame and alphas.
+  // Sets the frame and the alphas.
   inline LayeredBsdf layered_frame(Surface surface, vec3 direction) {
     LayeredBsdf b;
     b.frame = frame_around(surface.normal);
@@ -68,7 +68,7 @@ struct LayeredEvaluator : AlbedoReader {
     return b;
   }
 
-  // Albedo of the microfacets in Schlick's two parts, as ggx_albedo().
+  // Albedo of the microfacets in Schlick's two parts, like ggx_albedo().
   inline vec2 microfacet_albedo(LayeredBsdf b, float roughness) {
     float s = schlick(b.wo.z);
     if (b.mirror) return vec2(1.0f - s, s);
@@ -76,7 +76,7 @@ struct LayeredEvaluator : AlbedoReader {
     return ggx_albedo(roughness, b.wo.z);
   }
 
-  // Specular and diffuse.
+  // Sets the specular and the diffuse lobe.
   inline LayeredBsdf layered_base(LayeredBsdf b, Surface surface, vec2 albedo) {
     float metal = clamp(surface.metallic, 0.0f, 1.0f);
     float opaque = (1.0f - metal) * (1.0f - clamp(surface.transmission, 0.0f, 1.0f));
@@ -117,8 +117,8 @@ struct LayeredEvaluator : AlbedoReader {
     return b;
   }
 
-  // What single scattering leaves of the light at rough glass. The table has one alpha and the reflectance of plain
-  // indices; if this glass reflects another share, that is weighted anew.
+  // The fraction of light that single scattering keeps at rough glass. The table has one alpha and the reflectance of
+  // plain indices; for glass with another reflectance, reflection and transmission are re-weighted.
   inline float kept_by_volume(LayeredBsdf b, vec2 albedo) {
     float kept = glass_albedo(b.eta, sqrt(sqrt(b.alpha.x * b.alpha.y)), b.wo.z);
     if (b.eta <= 1.0f) return kept;
@@ -150,7 +150,7 @@ struct LayeredEvaluator : AlbedoReader {
     return b;
   }
 
-  // Sheen and coat, and what they leave of all that is below them.
+  // Sets sheen and coat, and scales all lobes below them by the light that they leave.
   inline LayeredBsdf layered_top(LayeredBsdf b, Surface surface, vec3 direction) {
     bool outside = b.thin || surface.front;
     vec3 sheen = clamp(surface_layers.sheen_color, vec3(0.0f), vec3(1.0f));
@@ -195,7 +195,7 @@ struct LayeredEvaluator : AlbedoReader {
     return b;
   }
 
-  // Makes layered[view] of the surface that read_layers() saw last. direction, eta: as for make_bsdf().
+  // Makes layered[view] of the surface last passed to read_layers(). direction, eta: as for make_bsdf().
 #ifdef __cplusplus
   [[gnu::noinline, gnu::flatten]]
 #endif
@@ -242,7 +242,7 @@ struct LayeredEvaluator : AlbedoReader {
     return sample_of_layers(layered[view], pick, uv);
   }
 
-  // What goes straight through smooth glass.
+  // Fraction of light that passes straight through smooth glass.
 #ifdef __cplusplus
   [[gnu::noinline]]
 #endif
@@ -252,8 +252,8 @@ struct LayeredEvaluator : AlbedoReader {
     return b.glass * (b.glass_gain * glass_transmittance(glass_reflectance(b, b.wo.z, b.eta)));
   }
 
-  // The colour by which a denoiser knows the surface: what it would reflect and let through of white light from
-  // everywhere, about.
+  // The albedo for the denoiser: roughly the fraction of white light from all directions that the surface reflects and
+  // transmits.
 #ifdef __cplusplus
   [[gnu::noinline]]
 #endif

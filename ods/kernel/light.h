@@ -3,10 +3,10 @@
 //
 // Picks a light and a point on it, and gives the pdf (probability density) with which sampling would have found the
 // light that a given ray hits.
-// Suns, the environment, and all other lights as one are picked in proportion to their power, from Walker's alias
-// table, which the host builds (ods/render/lights.h). Among the others a tree decides, which the host builds, too: a
-// binary tree whose nodes know where their lights are, which way they shine, and their power. On the way down a random
-// number chooses at each node between its two children, in proportion to what they may bring to the surface.
+// Suns, the environment, and all other lights together are picked in proportion to their power from Walker's alias
+// table, which the host builds (ods/render/lights.h). The other lights are in a binary tree, also built by the host,
+// whose nodes store bounds of position and direction, and the power. On the way down, a random number chooses between
+// the two children of each node in proportion to their possible contribution to the surface.
 // Source: Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", 2018.
 #ifdef __cplusplus
 #pragma once
@@ -14,28 +14,29 @@
 namespace ods {
 #endif
 
-// That the environment is seen in a direction that leads through no portal, though there are some.
+// Probability that the environment is visible in a direction outside all portals, if there are portals.
 const float kChanceBesidePortals = 0.05f;
 
 const float kFarAway = 1e30f;  // distance of the environment and of directional lights
 
 const int kTreeRoot = 0;
-const int kTreeOfLights = -1;     // LightPick::light: whichever the tree picks
-const float kLeastFacing = 0.1f;  // of a light that a surface hardly faces: normals may be bent
+const int kTreeOfLights = -1;     // value of LightPick::light: a light picked by the tree
+const float kLeastFacing = 0.1f;  // minimum facing factor of a light at grazing angles: normals may be bent
 
-// A surface as a light sees it.
+// The receiving point, for light sampling.
 struct Receiver {
   vec3 position;
-  vec3 normal;  // 0: it takes light from both sides
+  vec3 normal;  // 0 if it takes light from both sides
 };
 
 struct TreePick {
   int light;
-  float probability;  // 0: the tree's lights bring nothing
+  float probability;  // 0 if the tree's lights contribute nothing
 };
 
-// What the node's lights may bring to the receiver. A light shines below 90 degrees from the way it faces; `spread` and
-// the angle under which the node is seen make that wider. It is 0 only where no light of the node shines.
+// Estimated contribution of the node's lights to the receiver. A light shines within 90 degrees of the direction that
+// it faces; `spread` and the angle under which the node is seen widen this. It is 0 only where no light of the node
+// shines.
 inline float node_importance(LightNode node, Receiver receiver) {
   vec3 to_node = node.center - receiver.position;
   float radius2 = node.radius * node.radius;
@@ -53,10 +54,11 @@ inline float node_importance(LightNode node, Receiver receiver) {
 struct LightSample {
   vec3 direction;  // towards the light, unit length
   float distance;
-  vec3 end;       // where a shadow ray ends, just in front of the light; unused at kFarAway
-  vec3 radiance;  // arriving; of lights without size (pdf 0) already divided by the probability of picking them
+  vec3 end;       // end of a shadow ray, just in front of the light; unused at kFarAway
+  vec3 radiance;  // arriving radiance; for lights without size (pdf 0) already divided by the probability of picking
+                  // them
   float pdf;      // per solid angle, including the probability of picking the light
-  float chance;   // a guess at how likely nothing hides it: it steers what is sampled, not what comes out
+  float chance;   // an estimate of the probability that the light is unoccluded: it affects the noise, not the mean
   bool valid;
 };
 
@@ -86,7 +88,7 @@ inline float punctual_falloff(float distance, float range) {
   return inverse_square * clamp(1.0f - share2 * share2, 0.0f, 1.0f);
 }
 
-// How much of a spot's light goes in a direction: the cosine of its angle from the axis.
+// Fraction of a spot's light that goes in a direction. cosine: of its angle from the axis.
 inline float cone_falloff(Light light, float cosine) {
   float t = clamp(cosine * light.cone_scale + light.cone_offset, 0.0f, 1.0f);
   float share = light.cone == kConeSquare ? t * t : t * t * (3.0f - 2.0f * t);
@@ -105,7 +107,7 @@ inline vec3 direction_in_cone(vec3 axis, float cosine, vec2 uv) {
 struct LightSampler : BsdfEvaluator {
 #endif
 
-  // The share of the first of two children that are next to each other. If neither brings anything, by power.
+  // The probability of the first of two adjacent children. In proportion to their power if both have importance 0.
   inline float share_of_first(int first, Receiver receiver) {
     float one = node_importance(scene_light_node(first), receiver);
     float other = node_importance(scene_light_node(first + 1), receiver);
@@ -115,7 +117,7 @@ struct LightSampler : BsdfEvaluator {
     return one / (one + other);
   }
 
-  // draw: uniform in [0, 1). Precondition: there is a tree.
+  // draw: uniform in [0, 1). Precondition: the scene has a tree.
   inline TreePick pick_in_tree(Receiver receiver, float draw) {
     TreePick pick;
     pick.light = 0;
@@ -133,7 +135,7 @@ struct LightSampler : BsdfEvaluator {
     return pick;
   }
 
-  // The probability with which pick_in_tree() finds the light at the end of this way.
+  // The probability with which pick_in_tree() picks the light at the end of this path.
   inline float probability_in_tree(LightWay way, Receiver receiver) {
     uint bits = way.bits;
     float probability = 1.0f;
@@ -172,12 +174,12 @@ struct LightSampler : BsdfEvaluator {
     return radiance_of(scene_environment(), direction);
   }
 
-  // What the camera sees behind the scene: the environment, unless the scene has a background of its own.
+  // The radiance that the camera sees behind the scene: the environment, unless the scene has a background of its own.
   inline vec3 background_radiance(vec3 direction) {
     return radiance_of(scene_background(), direction);
   }
 
-  // Solid angle of a texel in row y; all texels of a row have the same.
+  // Solid angle of a texel in row y.
   inline float environment_texel_angle(EnvironmentInfo info, int y) {
     // cos a - cos b in a form that keeps its precision at the poles.
     float step = 0.5f * kPi / float(info.height);
@@ -191,13 +193,13 @@ struct LightSampler : BsdfEvaluator {
     return projected > 0.0f ? pick * distance * distance / projected : 0.0f;
   }
 
-  // --- portals: half of the directions towards the environment lead through them
+  // --- portals: half of the samples of the environment lead through them
 
   inline vec3 portal_area(Portal portal) {
     return cross(portal.along, portal.across);
   }
 
-  // Roughly the solid angle of a portal; 0 in its plane, where it has none.
+  // Roughly the solid angle of a portal; 0 for points in its plane.
   inline float portal_weight(Portal portal, vec3 from) {
     vec3 area = portal_area(portal);
     vec3 to_middle = portal.corner + 0.5f * (portal.along + portal.across) - from;
@@ -205,7 +207,7 @@ struct LightSampler : BsdfEvaluator {
     return abs(dot(area, to_middle)) / (distance2 * sqrt(distance2));
   }
 
-  // The distance at which a ray passes a portal; negative: it does not.
+  // The distance at which a ray passes through a portal; negative if it does not.
   inline float portal_distance(Portal portal, vec3 from, vec3 direction) {
     vec3 area = portal_area(portal);
     float along_ray = dot(area, direction);
@@ -246,7 +248,7 @@ struct LightSampler : BsdfEvaluator {
     return normalize(portal.corner + portal.along * uv.x + portal.across * uv.y - from);
   }
 
-  // Pdf per solid angle with which the table of the environment's texels finds this direction.
+  // Pdf per solid angle with which the table of the environment's texels samples this direction.
   inline float texel_pdf(EnvironmentInfo info, vec3 direction) {
     vec2 uv = direction_to_lat_long(direction);
     int x = clamp(int(uv.x * float(info.width)), 0, info.width - 1);
@@ -262,14 +264,14 @@ struct LightSampler : BsdfEvaluator {
     return scene_light(info.light).probability * pdf;
   }
 
-  // Pdf per solid angle with which sample_light() finds the environment in this direction.
+  // Pdf per solid angle with which sample_light() samples the environment in this direction.
   inline float environment_pdf(vec3 from, vec3 direction) {
     EnvironmentInfo info = scene_environment();
     if (info.light < 0) return 0.0f;
     return texel_or_portal_pdf(info, direction, portal_pdf(from, direction));
   }
 
-  // Pdf with which sample_light() finds the triangle that a ray from the receiver hit at this distance.
+  // Pdf with which sample_light() samples the triangle that a ray from the receiver hit at this distance.
   inline float hit_light_pdf(Hit hit, Receiver receiver, vec3 direction, float distance) {
     Instance instance = instance_now(hit.instance);
     if (instance.first_light < 0) return 0.0f;
@@ -281,7 +283,7 @@ struct LightSampler : BsdfEvaluator {
     return triangle_pdf(pick, cross(triangle.ab, triangle.ac) * 0.5f, direction, distance);
   }
 
-  // pick: the probability of the light.
+  // pick: the probability of picking the light.
   inline LightSample sample_triangle(Light light, float pick, vec3 from, vec2 uv) {
     float root = sqrt(uv.x);
     Hit hit;
@@ -308,13 +310,13 @@ struct LightSampler : BsdfEvaluator {
       float cosine = abs(dot(normalize(area), result.direction));
       result.radiance = result.radiance * emission_below_coat(material, k, cosine);
     }
-    // A ray would pass through the remaining part.
+    // A ray would pass through the rest.
     if (material.alpha_mode != kAlphaOpaque) result.radiance = result.radiance * alpha_of(material, k);
     return result;
   }
 
-  // A light with a size is a sphere of even radiance, or a disc in the sky. Its solid angle times its radiance is what
-  // it would bring as a point, times 2 / (1 + cosine of its half angle). pick: the probability of picking it.
+  // A light with a size is a sphere of uniform radiance, or a disc in the sky. Its solid angle times its radiance is
+  // its contribution as a point light, times 2 / (1 + cosine of its half angle). pick: the probability of picking it.
   inline LightSample sample_punctual(Light light, float pick, vec3 from, vec2 uv) {
     LightSample result = no_light();
     result.valid = true;

@@ -1,32 +1,32 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A light cache: the radiance that rough surfaces send out, averaged over cells of a few centimetres.
+// A light cache: the radiance that leaves rough surfaces, averaged over cells of a few centimetres.
 //
-// A picture needs such light only as what lights its first surfaces, where it is averaged once more over all directions
-// (final gathering: Jensen, "Realistic Image Synthesis Using Photon Mapping", 2001). So a path may end at its first
-// scattered hit and take the light from the cell there. The cells are filled beforehand by whole paths
-// (ods/render/cpu/fill_light_cache.h) and do not change any more: what a path finds does not depend on other paths, and
-// the same cells come of any number of threads.
+// A picture needs this radiance only as the light on its first surfaces, where it is averaged once more over all
+// directions (final gathering: Jensen, "Realistic Image Synthesis Using Photon Mapping", 2001). So a path may end at
+// its first scattered hit and take the light from the cell there. The cells are filled beforehand by whole paths
+// (ods/render/cpu/fill_light_cache.h) and do not change afterwards, so the result of a path does not depend on other
+// paths, nor the cells on the number of threads.
 //
-// A cell holds the light that leaves, over the albedo: textures are sharp again in what is looked up. Its size is a
-// power of two that follows the distance from the viewer. Each place is in two cells, one half as large: the smaller
-// counts where it has been met often enough. The two sides of a wall have normals of their own, so cells of their own.
-// A look-up is moved at random by up to half a cell, so that cells have no edges.
+// A cell stores outgoing light over albedo, so that textures stay sharp when it is looked up. Its size is a power of
+// two that follows the distance from the viewer. Each point is in two cells, one half as large as the other; the
+// smaller one is used if it has enough samples. The two sides of a wall have different normals and therefore different
+// cells. A look-up is moved at random by up to half a cell, so that cells have no visible edges.
 //
-// A path goes on where cells would show: at surfaces closer than a few cells to where the path was scattered, after
-// glossy scattering, at smooth surfaces, inside volumes, and where a cell knows too little.
+// A path continues where cells would be visible: at surfaces closer than a few cells to where the path was scattered,
+// after glossy scattering, at smooth surfaces, inside volumes, and where a cell has too few samples.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/path_light.h"
 namespace ods {
 #endif
 
-const float kCellPerDistance = 0.03f;  // the larger cells have this share of the distance from the viewer, up to twice
-const float kNearestCell = 0.5f;       // metres: closer to the viewer cells have the size that they have here
-const float kCellsAway = 3.0f;   // a look-up is this many cells away, in units of what the scattered ray spreads to
-const float kCellShift = 0.37f;  // cells: walls often lie where cells meet, so cells are moved off them
-const float kCachedRoughness = 0.3f;  // at least
+const float kCellPerDistance = 0.03f;  // size of the larger cell over its distance from the viewer, before rounding up
+const float kNearestCell = 0.5f;  // metres: closer to the viewer, cells have the size that they have at this distance
+const float kCellsAway = 3.0f;    // minimum distance of a look-up in cells, in units of the scattered ray's spread
+const float kCellShift = 0.37f;   // cells: walls often lie where cells meet, so cells are moved off them
+const float kCachedRoughness = 0.3f;  // minimum roughness
 
 // The largest power of two that is not above x. Precondition: x is positive and normal.
 inline float power_of_two_below(float x) {
@@ -40,8 +40,8 @@ inline uint axis_of(vec3 normal) {
   return normal.z < 0.0f ? 4u : 5u;
 }
 
-// The two words by which the cell is known that holds a place: together they are as good as its own name. The first is
-// where to look for it.
+// The two hashes that identify the cell of a point; together they are practically unique. The first is also the slot
+// where the search starts.
 struct CacheKey {
   uint home;
   uint check;  // not 0
@@ -63,7 +63,7 @@ inline CacheKey cache_key(CachePlace place, float cell) {
 struct LightCacheReader : PathLight {
 #endif
 
-  // Where a path's light can be kept at a surface that it meets, if it can.
+  // The place in the cache for the light of a path at a surface, if it can be cached there.
   inline CachePlace cache_place(Surface surface) {
     CachePlace place;
     place.position = surface.position;
@@ -78,7 +78,7 @@ struct LightCacheReader : PathLight {
     return place;
   }
 
-  // The light over albedo in a cell; negative: it is not there.
+  // The light over albedo in a cell; negative if the cell does not exist.
   inline vec3 light_in_cell(CacheKey key) {
     uint mask = scene_cache_mask();
     for (uint slot = key.home & mask;; slot = (slot + 1u) & mask) {
@@ -89,8 +89,8 @@ struct LightCacheReader : PathLight {
     return vec3(-1.0f);
   }
 
-  // The radiance that leaves the surface towards the path, its own emission aside; negative: the path goes on.
-  // distance: from where the path was scattered.
+  // The radiance that leaves the surface towards the path, without its own emission; negative if the path must
+  // continue. distance: from the path's last scattering.
   inline vec3 cached_light(Surface surface, float distance) {
     vec3 none = vec3(-1.0f);
     if (scene_cache_mask() == 0u || !(path.pdf > 0.0f)) return none;

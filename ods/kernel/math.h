@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// GLSL's vocabulary for C++. Only C++ reads this file: shaders have these names built in.
+// GLSL's types and functions for C++. Only C++ reads this file; shaders have these names built in.
 #ifdef __cplusplus
 #pragma once
 #include <glm/glm.hpp>

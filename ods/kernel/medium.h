@@ -61,7 +61,7 @@ inline bool inside_medium(Media media, int material) {
 }
 
 // The media before and behind the wall of a volume that a ray meets from the front or from the back. A ray that meets
-// the back of a wall which it never passed started inside.
+// the back of a wall without having passed its front started inside.
 inline Media media_before(Media media, bool front, int material) {
   if (front || inside_medium(media, material)) return media;
   return enter_medium(media, material);
@@ -98,7 +98,7 @@ struct MediumReader : LightSampler {
     return scene_material_layers(scene_material(medium).layers).dispersion;
   }
 
-  // wave: 0, 1 or 2 for red, green or blue light; otherwise the index of green.
+  // wave: 0, 1 or 2 for red, green or blue light; any other value gives green's index.
   inline float medium_ior(int medium, int wave) {
     if (medium < 0) return 1.0f;
     float ior = max(scene_material(medium).ior, 1.0f);

@@ -31,7 +31,7 @@ inline float ggx_visible_pdf(vec3 wo, vec3 h, float alpha) {
   return max(dot(wo, h), 0.0f) * ggx_distribution(h, alpha) / (wo.z * (1.0f + ggx_lambda(wo, alpha)));
 }
 
-// The same with two alphas, along x and along y, both > 0. Sources: Heitz 2014; Dupuy and Benyoub 2023.
+// Density for two alphas, along x and along y, both > 0. Sources: Heitz 2014; Dupuy and Benyoub 2023.
 inline float ggx_distribution(vec3 h, vec2 alpha) {
   float x = h.x / alpha.x;
   float y = h.y / alpha.y;
@@ -55,7 +55,7 @@ inline vec3 ggx_sample_visible(vec3 wo, vec2 alpha, vec2 u) {
   return normalize(vec3(alpha.x * h.x, alpha.y * h.y, max(h.z, 1e-9f)));
 }
 
-// Likewise with one alpha; the pdf is ggx_visible_pdf().
+// Samples a visible microfacet normal for one alpha; the pdf is ggx_visible_pdf().
 inline vec3 ggx_sample_visible(vec3 wo, float alpha, vec2 u) {
   return ggx_sample_visible(wo, vec2(alpha), u);
 }
@@ -80,8 +80,8 @@ inline float fresnel_dielectric(float cosine, float eta) {
 // The microfacet that refracts between wo and wi (wi.z < 0).
 struct RefractingFacet {
   vec3 normal;     // towards wo
-  float cosine;    // between wo and the normal; 0: no facet refracts so
-  float jacobian;  // solid angle of normals over that of wi
+  float cosine;    // between wo and the normal; 0 if no facet refracts in this way
+  float jacobian;  // solid angle of normals over the solid angle of wi
 };
 
 inline RefractingFacet refracting_facet(vec3 wo, vec3 wi, float eta) {
@@ -111,7 +111,7 @@ inline vec3 refract_through(vec3 wo, vec3 h, float eta) {
 
 // --- sheen
 
-// Fibres closer to parallel than this give a lobe too narrow for single precision.
+// Minimum roughness: with fibres closer to parallel, the lobe is too narrow for single precision.
 const float kMinSheenRoughness = 0.07f;
 
 inline float sheen_alpha(float roughness) {
@@ -119,7 +119,7 @@ inline float sheen_alpha(float roughness) {
   return r * r;
 }
 
-// Density of microfacet normals at this cosine to the surface normal.
+// Density of microfacet normals. cosine: between the microfacet normal and the surface normal.
 inline float sheen_distribution(float cosine, float alpha) {
   float sin2 = max(1.0f - cosine * cosine, 1e-7f);
   return (2.0f + 1.0f / alpha) * pow(sin2, 0.5f / alpha) / (2.0f * kPi);

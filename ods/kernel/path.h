@@ -36,6 +36,16 @@
 namespace ods {
 #endif
 
+// A surface that the path has reached.
+struct PathVertex {
+  Surface surface;
+  Hit hit;
+  Media beyond_media;  // the volumes behind the surface
+  int medium;          // the volume before the surface
+  int beyond;          // the volume behind it
+  bool unlit;
+};
+
 #ifdef __cplusplus
 struct PathTracer : LightCacheReader {
 #endif
@@ -73,15 +83,16 @@ struct PathTracer : LightCacheReader {
     path.albedo = vec3(0.0f);
   }
 
-  // The other eye sees the point that the path's first ray hits, along this direction (unit length). density: of
-  // Counterpart, times the other pixel's number of samples over this pixel's. Before the first shade().
+  // Shares the path with the other eye, which sees the point that the path's first ray hits along this direction (unit
+  // length). density: Counterpart::density, times the other pixel's number of samples over this pixel's. Call it before
+  // the first shade().
   inline void share_path(vec3 direction, float density) {
     path.both_see = true;
     path.other_direction = direction;
     path.other_density = density;
   }
 
-  // The path continues straight through a surface.
+  // Continues the path straight through a surface.
   inline void go_on(Surface surface, float t) {
     path.ray.origin = offset_point(surface.position, -surface.geometric);
     if (path.bounce == 0) path.both_see = false;
@@ -90,14 +101,14 @@ struct PathTracer : LightCacheReader {
     if (path.passed > kMaxPassed) path.alive = false;
   }
 
-  // The same where shadow rays stop: only this ray goes beyond it.
+  // Continues straight through a surface that stops shadow rays: only this ray passes it.
   inline void pass_through(Surface surface, float t) {
     path.pdf = 0.0f;
     path.other_pdf = 0.0f;
     go_on(surface, t);
   }
 
-  // From here on the path has one colour, for all three.
+  // Restricts the path to one colour, weighted for all three.
   inline void take_wave(int wave) {
     path.wave = wave;
     path.chosen_wave = -1;
@@ -105,16 +116,18 @@ struct PathTracer : LightCacheReader {
                                              wave == kBlueWave ? 3.0f : 0.0f);
   }
 
-  // The ratio of indices at the surface of a volume. If they depend on the colour of light, the path chooses one.
-  // Smooth surfaces reflect all colours alike, so there it takes the colour only if it is refracted.
+  // The ratio of indices at the surface of a volume. If they depend on the colour of light, the path chooses one
+  // colour. Smooth surfaces reflect all colours in the same direction, so there it keeps the colour only if it is
+  // refracted.
   inline float volume_eta(Surface surface, int medium, int beyond) {
     path.chosen_wave = -1;
     if (path.wave < 0 && max(medium_dispersion(medium), medium_dispersion(beyond)) > 0.0f) {
       int wave = min(int(path_random(kCandidatePair).y * 3.0f), 2);
       bool keeps_all =
           surface.layered && surface.roughness * surface.roughness < kSmoothAlpha && surface_layers.anisotropy <= 0.0f;
-      if (!keeps_all) take_wave(wave);
-      if (keeps_all) {
+      if (!keeps_all) {
+        take_wave(wave);
+      } else {
         path.chosen_wave = wave;
         surface_layers.wave_eta = vec3(medium_ior(beyond, kRedWave) / medium_ior(medium, kRedWave),
                                        medium_ior(beyond, kGreenWave) / medium_ior(medium, kGreenWave),
@@ -125,8 +138,8 @@ struct PathTracer : LightCacheReader {
     return medium_ior(beyond, wave) / medium_ior(medium, wave);
   }
 
-  // The first surface as the other eye sees it. Not shared: what only one eye sees, what lies almost in line with an
-  // eye's ray, and shading normals that were bent towards a viewer.
+  // Evaluates the first surface for the other eye. Not shared are surfaces that only one eye sees, surfaces almost in
+  // line with an eye's ray, and shading normals that were bent towards a viewer.
   inline void share_surface(Surface surface, vec3 direction, float eta) {
     float here = -dot(direction, surface.geometric);
     float there = -dot(path.other_direction, surface.geometric);
@@ -165,7 +178,7 @@ struct PathTracer : LightCacheReader {
     if (path.alive) path.throughput = path.throughput * (1.0f / chance);
   }
 
-  // clear: the glass that the path passes if it passes this surface, at this distance.
+  // Scatters the path. clear: whether the surface is clear glass; the path then passes it at the distance t.
   inline void scatter(Surface surface, Bsdf bsdf, Media beyond, bool clear, float t) {
     vec2 pick = path_random(kScatterPair);
     BsdfSample found = sample_bsdf(bsdf, pick.x, path_random(kDirectionPair));
@@ -191,10 +204,11 @@ struct PathTracer : LightCacheReader {
     play_roulette(pick.y);
   }
 
-  // A ground that goes over into the background has next to no normal and no albedo, as that, or a denoiser would keep
-  // them apart. But some normal, as bare sky is what has none.
-  // Behind clear glass it is the surface there: that is what one sees.
-  // A mirror has its own depth, but the normal and the albedo of what it shows.
+  // Stores normal and albedo for the denoiser, and the depth.
+  // A ground that fades into the background gets a tiny normal and no albedo, so that the denoiser does not separate
+  // the two. The normal is not zero: zero means sky.
+  // Clear glass is skipped: the surface behind it is stored.
+  // A mirror has its own depth, but the normal and the albedo of the surface that it reflects.
   inline void note_hit(Surface surface, float t, bool fades) {
     if (path.bounce == 0) path.depth = path.travelled + t;
     path.normal = fades ? 0.01f * surface.normal : surface.normal;
@@ -206,7 +220,8 @@ struct PathTracer : LightCacheReader {
     if (path.bounce + path.passed > 0) path.albedo = path.albedo * min(path.throughput, vec3(1.0f));
   }
 
-  // The path's first surface is a catcher: from here on it goes to a light, or to a sky that is not in the light table.
+  // Handles a catcher as the path's first surface: the path continues to a light, or to a sky that is not in the light
+  // table.
   inline void catch_shadows(Surface surface, PathSettings settings) {
     surface.base_color = vec3(1.0f);
     surface.metallic = 0.0f;
@@ -241,8 +256,8 @@ struct PathTracer : LightCacheReader {
     path.shadow_alone = path.shadow_light;
   }
 
-  // One step of such a path: it ends at the light, at a catcher or at an emitter, and passes through all else. Only
-  // clear glass lets light through.
+  // One step of a path from a catcher to a light: it ends at the light, at a catcher or at an emitter, and passes
+  // through everything else. Only clear glass lets light through.
   inline void go_to_light(Hit hit) {
     bool arrived = hit.t < 0.0f || hit.t >= path.shadow_length;
     if (arrived) {
@@ -265,7 +280,7 @@ struct PathTracer : LightCacheReader {
     if (path.passed > kMaxPassed) path.alive = false;
   }
 
-  // The path takes the light that it would find from here on out of the cache, if that knows it.
+  // Ends the path with the light from the cache instead of tracing further, if the cache has it.
   inline bool end_in_cache(PathSettings settings, Surface surface, float distance) {
     vec3 light = cached_light(surface, distance);
     if (light.x < 0.0f) return false;
@@ -283,7 +298,7 @@ struct PathTracer : LightCacheReader {
     path.vertex_radiance = path.radiance;
   }
 
-  // The light that a surface sends back along the path's ray, less what its coat keeps.
+  // The light that a surface emits back along the path's ray, less the part that its coat absorbs.
   inline vec3 emission_seen(Surface surface, Hit hit) {
     if (!surface.layered) return surface.emission;
     Material material = scene_material(scene_mesh(scene_instance(hit.instance).mesh).material);
@@ -291,7 +306,8 @@ struct PathTracer : LightCacheReader {
     return surface.emission * emission_below_coat(material, corners_of(hit), cosine);
   }
 
-  // The path goes on straight behind a lamp of the role kPureLight. A shadow ray could have found what it meets there.
+  // Continues the path straight behind a lamp of the role kPureLight. A shadow ray could have found the surfaces behind
+  // it.
   inline void pass_pure_light(Surface surface, Hit hit, PathSettings settings) {
     path.throughput = path.throughput * medium_transmittance(current_medium(path.media), hit.t);
     if (surface.emission.x + surface.emission.y + surface.emission.z > 0.0f) {
@@ -304,6 +320,87 @@ struct PathTracer : LightCacheReader {
     go_on(surface, hit.t);
   }
 
+  inline void leave_scene(PathSettings settings) {
+    path.throughput = path.throughput * medium_transmittance(current_medium(path.media), kFarAway);
+    meet_environment(settings);
+  }
+
+  // glTF culls the backs of single-sided surfaces: the camera sees through them, light does not.
+  inline bool is_culled(Surface surface, Hit hit) {
+    int material = scene_mesh(scene_instance(hit.instance).mesh).material;
+    return path.bounce == 0 && !surface.front && scene_material(material).double_sided == 0 && !surface.volume;
+  }
+
+  // Takes the path to a surface: through the volume before it, whose light it weakens.
+  inline PathVertex arrive(Surface surface, Hit hit) {
+    PathVertex vertex;
+    vertex.surface = surface;
+    vertex.hit = hit;
+    vertex.beyond_media = path.media;
+    vertex.medium = current_medium(path.media);
+    int material = scene_mesh(scene_instance(hit.instance).mesh).material;
+    vertex.unlit = scene_material(material).unlit == 1;
+    if (surface.volume) {
+      path.media = media_before(path.media, surface.front, material);
+      vertex.medium = current_medium(path.media);
+      vertex.beyond_media = media_behind(path.media, surface.front, material);
+    }
+    vertex.beyond = current_medium(vertex.beyond_media);
+    path.throughput = path.throughput * medium_transmittance(vertex.medium, hit.t);
+    return vertex;
+  }
+
+  // Adds the light that the surface emits.
+  inline void emit(PathVertex vertex, PathSettings settings) {
+    Surface surface = vertex.surface;
+    Hit hit = vertex.hit;
+    bool glows = surface.emission.x + surface.emission.y + surface.emission.z > 0.0f;
+    if (vertex.unlit || !glows) return;
+    float distance = path.travelled + hit.t;
+    vec3 emission = emission_seen(surface, hit);
+    if (path.bounce == 0 && scene_instance(hit.instance).role == kDimmedLamp) emission = dimmed(emission);
+    float light_pdf = 0.0f;
+    if (path.pdf > 0.0f) light_pdf = hit_light_pdf(hit, path.receiver, path.ray.direction, distance);
+    meet_light(settings, emission, light_pdf);
+  }
+
+  // Returns whether the path ends here: on an unlit surface, at its last bounce, or in the light cache. clear: whether
+  // the surface is clear glass, which is not a bounce.
+  inline bool ends(PathVertex vertex, bool clear, PathSettings settings) {
+    if (vertex.unlit) {
+      vec3 light = path.throughput * vertex.surface.base_color;
+      add_light(light, light);
+      path.alive = false;
+      return true;
+    }
+    if (path.bounce == settings.bounces && !clear) {
+      path.alive = false;
+      return true;
+    }
+    if (settings.keep_vertices) keep_vertex(vertex.surface);
+    return path.bounce > 0 && !clear && end_in_cache(settings, vertex.surface, path.travelled + vertex.hit.t);
+  }
+
+  // Samples a light and scatters the path; at the last bounce it only passes clear glass.
+  inline void scatter_at(PathVertex vertex, bool clear, PathSettings settings) {
+    Surface surface = vertex.surface;
+    float eta = surface.ior;
+    if (surface.volume) {
+      eta =
+          clear ? clear_eta(surface, vertex.medium, vertex.beyond) : volume_eta(surface, vertex.medium, vertex.beyond);
+    }
+    Bsdf bsdf = make_bsdf(surface, path.ray.direction, eta);
+    if (path.bounce == settings.bounces) {
+      path.throughput = path.throughput * straight_transmittance(bsdf);
+      path.media = vertex.beyond_media;
+      go_on(surface, vertex.hit.t);
+      return;
+    }
+    if (path.both_see && path.bounce == 0) share_surface(surface, path.ray.direction, eta);
+    if (settings.light_sampling != kLightSamplingBsdfOnly) aim_at_light(settings, surface, bsdf, vertex.beyond_media);
+    scatter(surface, bsdf, vertex.beyond_media, clear, vertex.hit.t);
+  }
+
   inline void shade(Hit hit, PathSettings settings) {
     path.shadow_pending = false;
     path.vertex_bounce = -1;
@@ -311,86 +408,37 @@ struct PathTracer : LightCacheReader {
       go_to_light(hit);
       return;
     }
-    int medium = current_medium(path.media);
     if (hit.t < 0.0f) {
-      path.throughput = path.throughput * medium_transmittance(medium, kFarAway);
-      meet_environment(settings);
+      leave_scene(settings);
       return;
     }
-    int material_index = scene_mesh(scene_instance(hit.instance).mesh).material;
     bool reduced = path.pdf > 0.0f && path.pdf < kBroadPdf;
     Surface surface = surface_at(hit, path.ray.direction, reduced);
     if (surface.layered) read_layers(hit, surface, path.ray.direction, reduced);
-    if (scene_instance(hit.instance).role == kPureLight) {
+    int role = scene_instance(hit.instance).role;
+    if (role == kPureLight) {
       pass_pure_light(surface, hit, settings);
       return;
     }
-
-    // glTF culls the backs of single-sided surfaces: the camera sees through them, light does not.
-    bool volume = surface.volume;
-    if (path.bounce == 0 && !surface.front && scene_material(material_index).double_sided == 0 && !volume) {
+    if (is_culled(surface, hit)) {
       pass_through(surface, hit.t);
       return;
     }
-    if (path.bounce == 0 && scene_instance(hit.instance).role == kCatcher) {
+    if (path.bounce == 0 && role == kCatcher) {
       path.depth = path.travelled + hit.t;
       catch_shadows(surface, settings);
       return;
     }
-
-    Media beyond_media = path.media;
-    if (volume) {
-      path.media = media_before(path.media, surface.front, material_index);
-      medium = current_medium(path.media);
-      beyond_media = media_behind(path.media, surface.front, material_index);
-    }
-    int beyond = current_medium(beyond_media);
-    path.throughput = path.throughput * medium_transmittance(medium, hit.t);
-    bool unlit = scene_material(material_index).unlit == 1;
-    if (!unlit && surface.emission.x + surface.emission.y + surface.emission.z > 0.0f) {
-      float distance = path.travelled + hit.t;
-      surface.emission = emission_seen(surface, hit);
-      if (path.bounce == 0 && scene_instance(hit.instance).role == kDimmedLamp)
-        surface.emission = dimmed(surface.emission);
-      float light_pdf = 0.0f;
-      if (path.pdf > 0.0f) light_pdf = hit_light_pdf(hit, path.receiver, path.ray.direction, distance);
-      meet_light(settings, surface.emission, light_pdf);
-    }
-    // The wall of a volume inside a denser volume.
-    if (volume && beyond == medium) {
-      path.media = beyond_media;
+    PathVertex vertex = arrive(surface, hit);
+    emit(vertex, settings);
+    if (surface.volume && vertex.beyond == vertex.medium) {  // the wall of a volume inside a denser volume
+      path.media = vertex.beyond_media;
       pass_through(surface, hit.t);
       return;
     }
-
-    if (path.bounce == 0 || path.mirrored) {
-      note_hit(surface, hit.t, scene_instance(hit.instance).role == kFadingGround);
-    }
-    if (unlit) {
-      add_light(path.throughput * surface.base_color, path.throughput * surface.base_color);
-      path.alive = false;
-      return;
-    }
+    if (path.bounce == 0 || path.mirrored) note_hit(surface, hit.t, role == kFadingGround);
     bool clear = surface.transmission > 0.0f && is_clear(hit, path.pdf > 0.0f);
-    bool last = path.bounce == settings.bounces;
-    if (last && !clear) {
-      path.alive = false;
-      return;
-    }
-    if (settings.keep_vertices) keep_vertex(surface);
-    if (path.bounce > 0 && !clear && end_in_cache(settings, surface, path.travelled + hit.t)) return;
-    float eta = surface.ior;
-    if (volume) eta = clear ? clear_eta(surface, medium, beyond) : volume_eta(surface, medium, beyond);
-    Bsdf bsdf = make_bsdf(surface, path.ray.direction, eta);
-    if (last) {
-      path.throughput = path.throughput * straight_transmittance(bsdf);
-      path.media = beyond_media;
-      go_on(surface, hit.t);
-      return;
-    }
-    if (path.both_see && path.bounce == 0) share_surface(surface, path.ray.direction, eta);
-    if (settings.light_sampling != kLightSamplingBsdfOnly) aim_at_light(settings, surface, bsdf, beyond_media);
-    scatter(surface, bsdf, beyond_media, clear, hit.t);
+    if (!ends(vertex, clear, settings)) scatter_at(vertex, clear, settings);
   }
 
 #ifdef __cplusplus

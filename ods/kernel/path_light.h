@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a path knows between its steps (ods/kernel/path.h), and the light that it finds, in two ways: its own ray
-// happens to hit an emitter, or it aims a shadow ray at a light. The power heuristic weighs them (Veach 1997).
+// The state of a path between its steps (ods/kernel/path.h), and the light that it finds in two ways: its own ray hits
+// an emitter, or it aims a shadow ray at a light. The power heuristic weights the two (Veach 1997).
 //
-// Clear glass stops neither: light goes on behind it unbent, less what the glass reflects and absorbs. A path that
-// passes clear glass keeps the pdf of its direction, since a shadow ray could have found what it meets there. A smooth
-// thin sheet is clear. So is a smooth solid if `straight_solids` says so, for light that surfaces scatter: the camera,
-// mirrors and glass see it refract. Rough glass is never clear: what comes through is found where paths meet it.
+// Clear glass stops neither: light continues behind it in the same direction, less the light that the glass reflects
+// and absorbs. A path that passes clear glass keeps the pdf of its direction, since a shadow ray could have found the
+// light behind it. A smooth thin sheet is clear. A smooth solid is clear if `straight_solids` is set, for light
+// scattered by surfaces; the camera, mirrors and glass see it refract. Rough glass is never clear: light through it is
+// found only by the path's own rays.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/medium.h"
@@ -22,16 +23,16 @@ const int kLightSamplingBsdfOnly = 2;
 struct PathSettings {
   int bounces;  // a path has at most bounces + 1 segments
   int light_sampling;
-  bool keep_vertices;  // for whoever fills a light cache
-  float clamp;         // the most that light brings which has met two surfaces or more: mean of R, G and B; 0: any
+  bool keep_vertices;  // for filling a light cache
+  float clamp;  // maximum of the light that has met two surfaces or more, as the mean of R, G and B; 0 for no limit
 };
 
-// Where light can be kept in the light cache, and of which albedo.
+// A point whose light can be stored in the light cache, and the albedo there.
 struct CachePlace {
   vec3 position;
-  vec3 normal;  // of the triangle, on the side that the light leaves
+  vec3 normal;  // normal of the triangle, on the side that the light leaves
   vec3 albedo;
-  float cell;  // size of the larger cell, metres; 0: nothing is kept here
+  float cell;  // size of the larger cell, metres; 0 if nothing is stored here
 };
 
 struct PathState {
@@ -41,59 +42,60 @@ struct PathState {
   bool alive;
   int bounce;
   int passed;  // surfaces passed through since the last bounce
-  float pdf;   // of the ray's direction; 0: the camera or a mirror chose it, and light sampling could not have found it
+  float pdf;   // pdf of the ray's direction; 0 if the camera or a mirror chose it, and light sampling could not have
+               // found it
   float travelled;    // distance from the last bounce to the ray's origin
   Receiver receiver;  // the surface of the last bounce
   Media media;
-  int wave;         // the one colour of a path that dispersion has split; -1: all
-  int chosen_wave;  // at a surface that splits colours: the one that the path keeps if it is refracted; else -1
-  uint seed;        // of the pixel
-  uint index;       // of the sample
+  int wave;         // the one colour of a path that dispersion has split; -1 for all
+  int chosen_wave;  // at a surface that splits colours, the colour that the path keeps if it is refracted; else -1
+  uint seed;        // the pixel's
+  uint index;       // the sample's
 
   Ray shadow_ray;
   float shadow_length;
-  Media shadow_media;  // where it is
+  Media shadow_media;  // the media that the shadow ray is in
   vec3 shadow_light;
   bool shadow_pending;
 
-  // Both eyes from one path. What a sample adds to the other eye's pixel is in units of this eye's samples: it needs no
-  // further weight.
+  // Both eyes from one path. Light for the other eye's pixel is in units of this eye's samples and needs no further
+  // weight.
   bool both_see;         // the other eye sees the first surface, too
-  vec3 other_direction;  // from the other eye to it
-  float other_density;   // of the other eye's samples there, over this eye's
-  Bsdf other;            // of the first surface
-  float own_share;       // of the light after the first surface, this eye's
-  vec3 other_ratio;      // light for the other eye over light for this one; 0: not shared
-  float alone_ratio;     // light if it were not shared, over light for this eye
+  vec3 other_direction;  // from the other eye to the first surface
+  float other_density;   // density of the other eye's samples there, over this eye's
+  Bsdf other;            // the first surface's
+  float own_share;       // fraction of the light after the first surface that goes to this eye
+  vec3 other_ratio;      // light for the other eye over light for this one; 0 if not shared
+  float alone_ratio;     // light without sharing over light for this eye
   float other_pdf;       // like pdf, as if the other eye had chosen the ray's direction
   vec3 other_radiance;   // for the other eye's pixel
-  vec3 alone_radiance;   // for this one if nothing were shared: tells how much a single path varies
+  vec3 alone_radiance;   // for this eye's pixel without sharing: shows the variance of a single path
   vec3 shadow_other;     // like shadow_light
   vec3 shadow_alone;
 
-  bool caught;          // the first surface is a catcher; the next three fields belong to such a path
-  float unblocked;      // 0: an object that is no catcher, emitter or clear glass stands before the light; else 1
+  bool caught;      // the first surface is a catcher; the next three fields are for such paths
+  float unblocked;  // 0 if an object other than a catcher, an emitter or clear glass is in front of the light; else 1
   float light_without;  // luminance that arrives if only catchers and emitters are present
   float light_with;     // luminance that arrives with the whole scene present
 
-  // PathSettings::keep_vertices: the surface that shade() met last, before it scatters the path.
+  // For PathSettings::keep_vertices: the surface that shade() met last, before it scatters the path.
   CachePlace vertex;
-  int vertex_bounce;  // -1: shade() met none
+  int vertex_bounce;  // -1 if shade() met no surface
   vec3 vertex_throughput;
-  vec3 vertex_radiance;  // what the path had found by then
+  vec3 vertex_radiance;  // light found by the path before this surface
 
-  // The first hit, for the layers beside the picture.
+  // The first hit, for the layers of the picture.
   bool mirrored;  // the path has met mirrors only
-  float depth;    // along the camera ray from its own origin; negative: the ray hit nothing
+  float depth;    // along the camera ray from its own origin; negative if the ray hit nothing
   vec3 normal;
   vec3 albedo;
 };
 
 const int kMaxPassed = 1024;
-const uint kPassedStride = 256u;  // bounces for which paths have random numbers of their own after each such surface
+const uint kPassedStride = 256u;  // bounces with separate random numbers after each surface passed through
 
 // A ray scattered with a smaller pdf than this may have gone almost anywhere: the reduced copies of textures are sharp
-// enough for what it hits, and they fit the processor's cache. The full ones cost a fifth of the time on the atrium.
+// enough for its hit, and they fit the processor's cache. The full ones cost a fifth of the time on the atrium.
 const float kBroadPdf = 2.0f;
 
 // The camera sees a kDimmedLamp no brighter than this luminance: near display white at the
@@ -101,12 +103,12 @@ const float kBroadPdf = 2.0f;
 const float kSeenLamp = 0.6f;
 
 // Paths with a throughput below this may end at random. Lower values cost time, higher ones noise: of 1, 1/2, 1/4 and
-// none, 1/4 reaches a given noise soonest on interiors (./run bench, equal noise).
+// 0, 1/4 reaches a given noise soonest on interiors (./run bench, equal noise).
 const float kRouletteThreshold = 0.25f;
 
-// The most lights that the first surface considers for its shadow ray, one for each sun, the environment and the tree
-// of all others; it chooses one by the light that it would bring. More from the tree cost more than they bring, as do
-// more than one at deeper surfaces.
+// Maximum number of lights that the first surface considers for its shadow ray, one for each sun, the environment and
+// the tree of all others; it chooses one in proportion to its contribution. Considering more from the tree, or more
+// than one at deeper surfaces, does not pay off.
 const int kLightCandidates = 3;
 
 // The pairs of random numbers of a path: pair 0 places the sample in its pixel, one places it on the lens, one in the
@@ -116,12 +118,12 @@ const uint kLensPair = 0xffffffffu;
 const uint kTimePair = 0xfffffffeu;
 const uint kScatterPair = 1u;  // lobe, roulette
 const uint kDirectionPair = 2u;
-const uint kCandidatePair = 3u;  // which candidate; which colour dispersion leaves
-const uint kLightPair = 4u;      // from here on three per candidate: light, cell of an environment, point
+const uint kCandidatePair = 3u;  // selects the candidate; the colour that remains after dispersion
+const uint kLightPair = 4u;      // from here on three pairs per candidate: light, cell of an environment, point
 const uint kPairsPerBounce = 3u + 3u * uint(kLightCandidates);
 
-// Which ray calls alpha_draw(): the path's next ray, its shadow ray, or a ray that hits every surface of at least one
-// half alpha and no other.
+// The ray that calls alpha_draw(): the path's next ray, its shadow ray, or a ray that hits exactly the surfaces with an
+// alpha of at least one half.
 const int kPathRay = 0;
 const int kShadowRay = 1;
 const int kHalfAlphaRay = 2;
@@ -135,7 +137,7 @@ struct PathLight : MediumReader {
   // Light passes smooth solids unbent. The device sets it before a path starts.
   bool straight_solids = false;
 
-  // What PathSettings::clamp leaves of light that comes by way of so many surfaces.
+  // The factor by which PathSettings::clamp scales light that has met this number of surfaces.
   inline float clamped(PathSettings settings, vec3 light, int surfaces) {
     float mean = (light.x + light.y + light.z) * (1.0f / 3.0f);
     if (settings.clamp <= 0.0f || surfaces < 2 || mean <= settings.clamp) return 1.0f;
@@ -157,14 +159,14 @@ struct PathLight : MediumReader {
     return random_pair(path.seed, path.index, pair + path_place() * kPairsPerBounce);
   }
 
-  // The random number for surfaces with alpha: one for each ray and triangle, the same however often a device asks.
+  // The random number for surfaces with alpha: one for each ray and triangle, the same for every call of a device.
   inline float alpha_draw(int ray, Hit hit) {
     if (ray == kHalfAlphaRay) return 0.5f;
     uint key = hash_pair(hash_pair(path.seed, path.index), path_place() * 2u + uint(ray));
     return unit_float(hash_pair(key, hash_pair(uint(hit.instance), uint(hit.triangle))));
   }
 
-  // Whether an instance is not there for a ray of the path. Every device calls this at each candidate hit of an
+  // Returns whether an instance is invisible to a ray of the path. Every device calls this at each candidate hit of an
   // instance of these two roles.
   inline bool is_absent(int ray, int instance) {
     int role = scene_instance(instance).role;
@@ -179,7 +181,7 @@ struct PathLight : MediumReader {
     return 1.0f / (1.0f + ratio * ratio);
   }
 
-  // Weight of light that the path's own ray hit, which light sampling finds with light_pdf.
+  // Weight of light that the path's own ray hit, and that light sampling finds with light_pdf.
   inline float scattered_weight(PathSettings settings, float pdf, float light_pdf) {
     if (pdf <= 0.0f || light_pdf <= 0.0f) return 1.0f;
     if (settings.light_sampling == kLightSamplingBsdfOnly) return 1.0f;
@@ -196,7 +198,7 @@ struct PathLight : MediumReader {
     add_light(arriving * weight, arriving * other_weight);
   }
 
-  // A lamp as the camera sees it: beyond display white, its rim would be ragged.
+  // A lamp's emission as the camera sees it. Beyond display white its rim would be ragged.
   inline vec3 dimmed(vec3 emission) {
     return emission * min(1.0f, kSeenLamp / luminance(emission));
   }
@@ -215,7 +217,8 @@ struct PathLight : MediumReader {
 
   // --- clear glass
 
-  // Whether light goes straight on through a hit: never for the camera and mirrors (scattered: false) in a solid.
+  // Returns whether light passes straight through a hit. Never in a solid for the camera and mirrors (scattered:
+  // false).
   inline bool is_clear(Hit hit, bool scattered) {
     Material material = scene_material(scene_mesh(scene_instance(hit.instance).mesh).material);
     if (!(material.transmission > 0.0f) || material.unlit == 1) return false;
@@ -226,29 +229,29 @@ struct PathLight : MediumReader {
     return roughness * roughness < kSmoothAlpha;
   }
 
-  // The ratio of indices by which clear glass reflects. A ray that leaves a solid unbent meets its wall as steeply as
-  // the refracted one would outside: it is never reflected totally.
+  // The ratio of indices by which clear glass reflects. A ray that leaves a solid without bending meets its wall at the
+  // angle that the refracted ray would have outside, so it is never totally reflected.
   inline float clear_eta(Surface surface, int medium, int beyond) {
     if (!surface.volume) return surface.ior;
     float eta = medium_ior(beyond, -1) / medium_ior(medium, -1);
     return max(eta, 1.0f / eta);
   }
 
-  // Turns the shadow ray so that it ends there.
+  // Turns the shadow ray so that it ends at a point.
   inline void end_shadow_at(vec3 end) {
     vec3 to_light = end - path.shadow_ray.origin;
     path.shadow_length = length(to_light);
     path.shadow_ray.direction = to_light * (1.0f / max(path.shadow_length, 1e-20f));
   }
 
-  // The shadow ray begins anew behind a surface that it met.
+  // Restarts the shadow ray behind a surface that it met.
   inline void shorten_shadow(Surface surface) {
     vec3 end = path.shadow_ray.origin + path.shadow_ray.direction * min(path.shadow_length, 1e10f);
     path.shadow_ray.origin = offset_point(surface.position, -surface.geometric);
     if (path.shadow_length < kFarAway) end_shadow_at(end);
   }
 
-  // The shadow ray has met clear glass: it goes on behind it with the light that passes.
+  // Continues the shadow ray behind clear glass with the transmitted light.
 #ifdef __cplusplus
   [[gnu::noinline, gnu::flatten]]
 #endif
@@ -272,7 +275,7 @@ struct PathLight : MediumReader {
     shorten_shadow(surface);
   }
 
-  // The shadow ray reached its light.
+  // Adds the light of a shadow ray that reached its light.
   inline void add_shadow_light() {
     vec3 passing = medium_transmittance(current_medium(path.shadow_media), path.shadow_length);
     path.radiance += path.shadow_light * passing;
@@ -282,7 +285,7 @@ struct PathLight : MediumReader {
 
   // --- a shadow ray
 
-  // The light that a light source would bring along the path if nothing were in between, over its pdf.
+  // The contribution of a light source to the path without occlusion, over its pdf.
   inline vec3 unshadowed_light(PathSettings settings, Bsdf bsdf, LightSample light) {
     BsdfValue scattered = bsdf_value(bsdf, light.direction);
     float weight = 1.0f;
@@ -293,8 +296,8 @@ struct PathLight : MediumReader {
     return light.radiance * scattered.value * weight;
   }
 
-  // Both ends of the ray are offset from their surfaces: it misses nothing between them, and neither surface stops it.
-  // beyond: the media on the surface's other side.
+  // Sets the shadow ray. Both ends are offset from their surfaces: it misses nothing between them, and neither surface
+  // stops it. beyond: the media on the surface's other side.
   inline void shadow_towards(Surface surface, vec3 direction, float distance, vec3 end, Media beyond) {
     bool through = dot(direction, surface.geometric) < 0.0f;
     path.shadow_ray.origin = offset_point(surface.position, through ? -surface.geometric : surface.geometric);
@@ -314,8 +317,8 @@ struct PathLight : MediumReader {
     return receiver;
   }
 
-  // Leaves a shadow ray towards a light: of several that are picked, it chooses one by the light that it would bring
-  // here.
+  // Sets a shadow ray towards a light. If several lights are picked, it chooses one in proportion to its unoccluded
+  // contribution.
   // Source: Talbot, Cline and Egbert, "Importance Resampling for Global Illumination", 2005.
   inline void aim_at_light(PathSettings settings, Surface surface, Bsdf bsdf, Media beyond) {
     int candidates = min(scene_light_pick_count(), path.bounce == 0 ? kLightCandidates : 1);

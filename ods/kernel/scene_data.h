@@ -12,7 +12,7 @@ namespace ods {
 struct Vertex {
   vec3 position;
   vec3 normal;   // unit length
-  vec4 tangent;  // xyz: unit length; w = +1 or -1: side of the bitangent (glTF); xyz = 0: no tangent
+  vec4 tangent;  // xyz: unit length, or 0 if there is no tangent; w = +1 or -1: side of the bitangent (glTF)
   vec2 uv0;
   vec2 uv1;
   vec4 color;  // linear, multiplies the base colour; 1,1,1,1 if the file has none
@@ -28,13 +28,13 @@ struct Mesh {
   int motion;  // for a mesh that deforms while the shutter is open: its first row of MotionVertex; else -1
 };
 
-// What the camera makes of an instance that it sees. In reflections and to light all are ordinary.
+// The visibility of an instance to the camera. In reflections and for light all are ordinary.
 const int kOrdinary = 0;
 const int kCatcher = 1;       // invisible except for the shadows that others cast on it (ods/kernel/path.h)
-const int kFadingGround = 2;  // as the background, it has no albedo in layers and hardly a normal
-const int kDimmedLamp = 3;    // is seen no brighter than kSeenLamp
-const int kUnseen = 4;        // the camera looks through it
-const int kPureLight = 5;     // the camera looks through it, and all light passes it: it only shines
+const int kFadingGround = 2;  // has no albedo in the layers and nearly no normal, like the background
+const int kDimmedLamp = 3;    // seen at most as bright as kSeenLamp
+const int kUnseen = 4;        // transparent for the camera
+const int kPureLight = 5;     // transparent for the camera and for all light: it only emits
 
 // A mesh placed in the world: world = (dot(row0, p1), dot(row1, p1), dot(row2, p1)) with p1 = vec4(p, 1).
 struct Instance {
@@ -44,7 +44,7 @@ struct Instance {
   int mesh;
   int first_light;  // index of the light of its first triangle, -1 if the mesh does not emit; set by make_lights()
   int motion;       // for an instance that moves while the shutter is open: its first MotionPose; else -1
-  int role;         // what the camera makes of it: kOrdinary, ...
+  int role;         // visibility to the camera: kOrdinary, ...
 };
 
 // The transform of an instance, and a vertex of a mesh that deforms, at each of the shutter's keys: evenly spaced times
@@ -85,7 +85,7 @@ struct Texture {
 // The texture that a material reads, and the transform of its coordinates (KHR_texture_transform):
 // uv' = offset + axis_u * uv.x + axis_v * uv.y.
 struct TextureSlot {
-  int texture;  // -1: none, reads as 1 everywhere
+  int texture;  // -1 for none: reads as 1 everywhere
   int uv_set;   // 0 or 1
   vec2 offset;
   vec2 axis_u;
@@ -105,14 +105,14 @@ struct Material {
   float normal_scale;
   float ior;
   float transmission;
-  float thickness;             // > 0: the mesh encloses a volume and refracts; 0: a thin sheet
+  float thickness;             // > 0 if the mesh encloses a volume and refracts, 0 for a thin sheet
   vec3 attenuation_color;      // the colour that white light has after attenuation_distance inside the volume
-  float attenuation_distance;  // metres; infinite or <= 0: clear
+  float attenuation_distance;  // metres; infinite or <= 0 if clear
   int alpha_mode;
   float alpha_cutoff;
   int double_sided;
   int unlit;
-  int layers;                           // its MaterialLayers; -1: none
+  int layers;                           // index of its MaterialLayers, or -1
   TextureSlot base_color_slot;          // rgb: colour, a: alpha
   TextureSlot metallic_roughness_slot;  // g: roughness, b: metallic
   TextureSlot normal_slot;
@@ -120,16 +120,16 @@ struct Material {
   TextureSlot transmission_slot;  // r
 };
 
-// What the other extensions of glTF add to a Material: KHR_materials_specular, _clearcoat, _sheen, _anisotropy,
-// _iridescence, _dispersion and _diffuse_transmission. Factors as in those extensions; each slot multiplies its factor.
-// Only materials that need one have this record, so all others cost what they did without it.
+// The parameters that other extensions of glTF add to a Material: KHR_materials_specular, _clearcoat, _sheen,
+// _anisotropy, _iridescence, _dispersion and _diffuse_transmission. Factors as in those extensions; each slot
+// multiplies its factor. Only materials that need one have this record, so that the others do not become slower.
 struct MaterialLayers {
   vec3 specular_color;
   float specular;
   float clearcoat;
   float clearcoat_roughness;
   float clearcoat_normal_scale;
-  vec3 sheen_color;  // black: no sheen
+  vec3 sheen_color;  // black for no sheen
   float sheen_roughness;
   float anisotropy;           // strength
   float anisotropy_rotation;  // radians, counter-clockwise from the tangent
@@ -137,7 +137,7 @@ struct MaterialLayers {
   float iridescence_ior;
   float iridescence_thinnest;  // nanometres, where the slot's texture is 0
   float iridescence_thickest;  // nanometres, where it is 1
-  float dispersion;            // 20 / Abbe number; of a volume
+  float dispersion;            // 20 / Abbe number, for volumes
   float diffuse_transmission;
   vec3 diffuse_transmission_color;
   TextureSlot specular_slot;             // a
@@ -160,32 +160,32 @@ const int kLightSpot = 2;
 const int kLightDirectional = 3;
 const int kLightEnvironment = 4;
 
-// How a spot fades from its inner to its outer cone; t goes from 0 at the outer one to 1, linear in the cosine.
+// The falloff of a spot from its inner to its outer cone; t goes from 0 at the outer one to 1, linear in the cosine.
 const int kConeSquare = 0;        // t^2, as KHR_lights_punctual suggests
-const int kConeSmooth = 1;        // t^2 (3 - 2 t), as Cycles has it
-const int kConeSmoothCosine = 2;  // times the cosine of the angle from the axis: Cycles up to Blender 3.4
+const int kConeSmooth = 1;        // t^2 (3 - 2 t), as in Cycles
+const int kConeSmoothCosine = 2;  // kConeSmooth times the cosine of the angle from the axis: Cycles up to Blender 3.4
 
 // One entry of Walker's alias table: a slot is picked uniformly, then kept with probability `threshold`; otherwise its
 // alias is taken.
 struct AliasEntry {
-  float probability;  // of picking this entry in the end
+  float probability;  // overall probability of picking this entry
   float threshold;
   int alias;
 };
 
 struct Light {
   int kind;
-  int instance;       // triangle: which instance,
-  int triangle;       //           and which triangle of its mesh
+  int instance;       // triangle: the instance,
+  int triangle;       // and the triangle of its mesh
   vec3 position;      // point, spot
   vec3 direction;     // spot, directional: unit vector along which the light shines
   vec3 intensity;     // point, spot: W/sr (glTF: cd); directional: W/m2 (glTF: lux)
-  float range;        // point, spot: metres; <= 0: unlimited
+  float range;        // point, spot: metres; unlimited if <= 0
   float cone_scale;   // spot: t = clamp(cos * scale + offset, 0, 1) fades from inner to outer cone
   float cone_offset;  //
   int cone;           //       kConeSquare, ...
-  float size;  // point, spot: radius of a sphere, metres; directional: half of its angle, radians. No ray hits it
-  float probability;  // of picking this light
+  float size;  // point, spot: radius of a sphere, metres; directional: half of its angle, radians. Rays do not hit it
+  float probability;  // probability of picking this light
 };
 
 // One slot of the alias table from which lights are picked; it contains the lights that have power.
@@ -198,7 +198,7 @@ struct LightPick {
 // One texel of a lat-long environment (rows from the top, centre of the picture along -Z of the world).
 struct EnvironmentTexel {
   vec3 radiance;
-  AliasEntry entry;  // within its row; the rows have their own table
+  AliasEntry entry;  // the texel's entry in the table of its row; the rows have a table of their own
 };
 
 // A rectangle through which a room sees the environment, such as a window pane: corner + u * along + v * across.
@@ -208,7 +208,7 @@ struct Portal {
   vec3 across;
 };
 
-// What the kernel knows of an environment besides its texels.
+// The properties of an environment besides its texels.
 struct EnvironmentInfo {
   vec3 uniform_radiance;  // used if width = 0
   int width;
@@ -220,11 +220,12 @@ struct EnvironmentInfo {
 // A slot of the light cache's table (ods/kernel/light_cache.h).
 struct CacheCell {
   uint home;
-  uint check;  // 0: the slot is empty
-  vec3 light;  // that leaves, over albedo
+  uint check;  // 0 if the slot is empty
+  vec3 light;  // outgoing light over albedo
 };
 
-// Where a ray hit the scene. (u, v) are the barycentric coordinates of the triangle's second and third corner.
+// The point where a ray hit the scene. (u, v) are the barycentric coordinates of the triangle's second and third
+// corner.
 struct Hit {
   float t;  // distance along the ray; negative if the ray left the scene
   float u;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Everything that the kernel may read. C++ sees the arrays as pointers; a shader defines the same functions over its
+// The data that the kernel may read. C++ sees the arrays as pointers; a shader defines the same functions over its
 // buffers.
 // Nothing here traces a ray.
 #ifdef __cplusplus
@@ -12,16 +12,16 @@ namespace ods {
 
 // A node of the tree of lights (ods/kernel/light.h).
 struct LightNode {
-  vec3 center;  // of a sphere around its lights
+  vec3 center;  // centre of a sphere around its lights
   float radius;
   vec3 axis;         // unit vector: the middle of the directions that they face
-  float spread;      // sine of how far from the axis they face at most; 2 from 90 degrees on
-  float power;       // that they send to the side that they face,
-  float back_power;  // and to the other
-  int child;         // the first of two, which are next to each other; negative: -1 - the only light
+  float spread;      // sine of the maximum angle between the axis and these directions; 2 for 90 degrees or more
+  float power;       // power sent to the side that they face,
+  float back_power;  // and to the opposite side
+  int child;         // the first of two adjacent children; if negative, -1 - the index of the only light
 };
 
-// The way from the root to each light: bit i is the child, 0 or 1, that follows after i others.
+// The path from the root to each light: bit i is the child, 0 or 1, that follows after i others.
 struct LightWay {
   uint bits;
 };
@@ -39,7 +39,7 @@ const int kSheenTable = kGlassTable + 2 * kGlassSize * kGlassSize * kGlassSize; 
 const int kSheenSize = 32;
 // [roughness across][roughness along][turn][cosine][2]: see anisotropic_albedo() in albedo.h
 const int kAnisotropicTable = kSheenTable + kSheenSize * kSheenSize;
-const int kAnisotropicSize = 16;  // of the first and the last
+const int kAnisotropicSize = 16;  // size of the first and the last axis
 const int kAnisotropicAlong = 8;
 const int kAnisotropicTurns = 4;
 const int kAnisotropicCells = kAnisotropicSize * kAnisotropicAlong * kAnisotropicTurns * kAnisotropicSize;
@@ -48,7 +48,7 @@ const int kTablesSize = kAnisotropicTable + 2 * kAnisotropicCells;
 // In GLSL all functions of the kernel are plain functions, included in order. C++ needs a `this` to find the scene, so
 // each header continues the struct of the previous one: SceneView, FilterSampler, TextureReader, SurfaceReader,
 // LayerReader, AlbedoReader, LayeredEvaluator, BsdfEvaluator, LightSampler, MediumReader, PathLight, LightCacheReader,
-// and PathTracer, which is complete. The inheritance means no more than that.
+// and PathTracer, which is complete. The inheritance has no other meaning.
 #ifdef __cplusplus
 struct SceneView {
   const Vertex* vertices = nullptr;
@@ -57,7 +57,7 @@ struct SceneView {
   const Instance* instances = nullptr;
   const MotionPose* motion_poses = nullptr;
   const MotionVertex* motion_vertices = nullptr;
-  int motion_keys = 0;  // 0 or 1: the shutter opens for an instant
+  int motion_keys = 0;  // 0 or 1 if the shutter opens for an instant only
   const Material* materials = nullptr;
   const MaterialLayers* material_layers = nullptr;
   const Texture* textures = nullptr;
@@ -68,16 +68,16 @@ struct SceneView {
   const LightPick* light_picks = nullptr;
   int light_pick_count = 0;
   const LightNode* light_nodes = nullptr;
-  const LightWay* light_ways = nullptr;  // by light
+  const LightWay* light_ways = nullptr;  // indexed by light
   EnvironmentInfo environment = {};
   EnvironmentInfo background = {};
   const EnvironmentTexel* environment_texels = nullptr;
   const AliasEntry* environment_rows = nullptr;
   const Portal* portals = nullptr;
-  int portal_count = 0;  // 0: the environment may be anywhere
+  int portal_count = 0;  // 0 if the environment may be visible anywhere
   const float* tables = nullptr;
   const CacheCell* cache_cells = nullptr;
-  uint cache_mask = 0;  // slots of the light cache - 1, which are a power of two; 0: there is none
+  uint cache_mask = 0;  // number of slots of the light cache - 1, a power of two - 1; 0 if there is no cache
   vec3 cache_viewer{0.0f};
 
   const Vertex& scene_vertex(uint i) const { return vertices[i]; }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A hit -> the point on the surface: its position, its normals, and its material there; and frames around a normal.
+// Finds the point on the surface for a hit: its position, its normals, and its material there. Also frames around a
+// normal.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/texture.h"
@@ -127,7 +128,8 @@ struct SurfaceReader : TextureReader {
     float wa;  // barycentric weights of the hit point
     float wb;
     float wc;
-    bool bends;   // the mesh deforms: a vertex's position, normal and tangent are in these rows plus its number
+    bool bends;  // the mesh deforms: rows `before` + vertex and `after` + vertex hold the vertex's position, normal and
+                 // tangent
     uint before;  // a row of MotionVertex
     uint after;
     float share;
@@ -177,7 +179,7 @@ struct SurfaceReader : TextureReader {
     return scene_vertex(k.a).uv1 * k.wa + scene_vertex(k.b).uv1 * k.wb + scene_vertex(k.c).uv1 * k.wc;
   }
 
-  // The fraction of a ray that a surface stops, 0..1.
+  // The fraction of a ray's light that a surface stops, 0..1.
   inline float alpha_of(Material material, Corners k) {
     // In this form three equal corners give exactly their value, which may be the cutoff.
     float a = scene_vertex(k.a).color.w;
@@ -188,15 +190,15 @@ struct SurfaceReader : TextureReader {
     return alpha;
   }
 
-  // Whether a ray passes through a hit as if nothing were there: an alpha mask, or alpha blending decided at random by
-  // draw, uniform in [0, 1). Every device calls this at each candidate hit of a material that is not opaque.
+  // Returns whether a ray passes through a hit as if nothing were there: an alpha mask, or alpha blending decided at
+  // random by draw, uniform in [0, 1). Every device calls this at each candidate hit of a material that is not opaque.
   inline bool passes(Hit hit, float draw) {
     Material material = scene_material(scene_mesh(scene_instance(hit.instance).mesh).material);
     if (material.alpha_mode == kAlphaOpaque) return false;
     return draw >= alpha_of(material, corners_of(hit));
   }
 
-  // The vertices' normals between them, on the front side. geometric: the triangle's normal there.
+  // The interpolated normal of the vertices, on the front side. geometric: the triangle's normal there.
   inline vec3 vertex_normal(Instance instance, Corners k, vec3 geometric, float handedness) {
     vec3 row0 = vec3(instance.row0.x, instance.row0.y, instance.row0.z);
     vec3 row1 = vec3(instance.row1.x, instance.row1.y, instance.row1.z);
@@ -207,8 +209,8 @@ struct SurfaceReader : TextureReader {
     return size > 1e-30f ? normal * (1.0f / size) : geometric;
   }
 
-  // The frame of tangent space around a normal on the front side. It follows the vertices' tangents as glTF defines
-  // it; where there are none, its tangent is 0.
+  // The frame of tangent space around a normal on the front side. It follows the vertices' tangents as glTF defines it;
+  // its tangent is 0 if they have none.
   inline Frame tangent_frame(Instance instance, Corners k, vec3 normal, float handedness) {
     vec3 local = tangent_now(k, k.a) * k.wa + tangent_now(k, k.b) * k.wb + tangent_now(k, k.c) * k.wc;
     float side =
@@ -246,8 +248,8 @@ struct SurfaceReader : TextureReader {
 
   inline Triangle triangle_of(Instance instance, Corners k) {
     Triangle triangle;
-    // Edges come before the translation: far from the origin,
-    // corners rounded in world space would lose small triangles.
+    // Edges are transformed before the translation: far from the origin, corners rounded in world space would lose
+    // small triangles.
     vec3 a = position_now(k, k.a);
     triangle.a = to_world(instance, a);
     triangle.ab = turn_to_world(instance, position_now(k, k.b) - a);
@@ -269,7 +271,7 @@ struct SurfaceReader : TextureReader {
     return facing > -1e-3f ? normalize(normal - direction * (facing + 2e-3f)) : normal;
   }
 
-  // reduced: use the reduced copies of textures, except for emission, which must be as light sampling finds it.
+  // reduced: use the reduced copies of textures, except for emission, which must match light sampling.
   inline Surface surface_at(Hit hit, vec3 direction, bool reduced) {
     Instance instance = instance_now(hit.instance);
     Material material = scene_material(scene_mesh(instance.mesh).material);

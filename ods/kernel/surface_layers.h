@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reads the layers of a material (MaterialLayers) at a hit: only for surfaces that have some, so others pay nothing.
+// Reads the layers of a material (MaterialLayers) at a hit. Surfaces without layers do not become slower.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/surface.h"
@@ -18,23 +18,25 @@ struct SurfaceLayers {
   vec3 sheen_color;
   float sheen_roughness;
   float anisotropy;
-  vec3 anisotropy_direction;  // world, in which the surface is rougher; 0: the mesh has no tangents
+  vec3 anisotropy_direction;  // world space, the direction in which the surface is rougher; 0 if the mesh has no
+                              // tangents
   float iridescence;
   ThinFilm film;
   float diffuse_transmission;
   vec3 diffuse_transmission_color;
-  vec3 wave_eta;  // of the interface for R, G and B, like make_bsdf()'s eta; 0: it does not split colours here
+  vec3 wave_eta;  // relative index of the interface for R, G and B, like make_bsdf()'s eta; 0 if it does not split
+                  // colours here
 };
 
 #ifdef __cplusplus
 struct LayerReader : SurfaceReader {
 #endif
 
-  // Of the surface that read_layers() saw last. Device code need not touch it.
+  // Scratch: the layers of the surface last passed to read_layers(). Device code need not touch it.
   SurfaceLayers surface_layers;
 
-  // What a coat leaves of the surface's own light (KHR_materials_clearcoat). cosine: of the viewer to the triangle's
-  // normal, without normal maps and reduced textures, so that light sampling finds the same.
+  // The fraction of the surface's own light that a coat lets through (KHR_materials_clearcoat). cosine: of the viewer
+  // to the triangle's normal, without normal maps and reduced textures, so that light sampling gets the same value.
   inline float emission_below_coat(Material material, Corners k, float cosine) {
     MaterialLayers layers = scene_material_layers(material.layers);
     float coat = layers.clearcoat * slot_at(layers.clearcoat_slot, uv0_of(k), uv1_of(k), false).x;
@@ -55,7 +57,7 @@ struct LayerReader : SurfaceReader {
     return frame.tangent * (c * d.x - s * d.y) + frame.bitangent * (s * d.x + c * d.y);
   }
 
-  // Sets surface_layers. surface: what surface_at() found for this hit; surface.layered must be true.
+  // Sets surface_layers. surface: the result of surface_at() for this hit; surface.layered must be true.
 #ifdef __cplusplus
   [[gnu::noinline]]
 #endif

@@ -8,7 +8,7 @@
 namespace ods {
 #endif
 
-// floor() to an integer, without the function call that floor() is on older processors. |x| < 2^31.
+// floor() to an integer, without the function call that floor() compiles to for older processors. |x| < 2^31.
 inline int floor_int(float x) {
   int i = int(x);
   return x < float(i) ? i - 1 : i;
@@ -22,13 +22,13 @@ inline float wrap_coordinate(float x, int wrap) {
   return clamp(x, 0.0f, 1.0f);
 }
 
-// The neighbour of an edge texel: -1 <= i <= size. The neighbour in a mirrored picture is the edge texel itself.
+// The neighbour of an edge texel: -1 <= i <= size. In a mirrored picture, an edge texel is its own neighbour.
 inline int wrap_texel(int i, int size, int wrap) {
   if (wrap == kWrapRepeat) return i < 0 ? size - 1 : (i >= size ? 0 : i);
   return clamp(i, 0, size - 1);
 }
 
-// A vector of a normal map, of any length above 0, as kTexelNormal; z < 0 counts as 0.
+// Packs a vector of a normal map, of any length above 0, as kTexelNormal. z < 0 counts as 0.
 inline uint pack_normal(vec3 n) {
   n = vec3(n.x, n.y, max(n.z, 0.0f));
   float size = length(n);
@@ -36,7 +36,8 @@ inline uint pack_normal(vec3 n) {
   return uint((n.x * 0.5f + 0.5f) * 65535.0f + 0.5f) | uint((n.y * 0.5f + 0.5f) * 65535.0f + 0.5f) << 16u;
 }
 
-// The vector as texels of bytes hold it: 0..1 for -1..1. Few textures are packed: the others must not pay for it.
+// The vector as texels of bytes store it: 0..1 for -1..1. Few textures are packed, so this is not inlined into the
+// reader of the others.
 #ifdef __cplusplus
 [[gnu::noinline, gnu::cold]]
 #endif
@@ -88,7 +89,7 @@ struct TextureReader : FilterSampler {
     return mix(top, bottom, fy);
   }
 
-  // What a material reads through a slot; 1 if the slot has no texture.
+  // The value that a material reads through a slot; 1 if the slot has no texture.
   inline vec4 slot_at(TextureSlot slot, vec2 uv0, vec2 uv1, bool reduced) {
     if (slot.texture < 0) return vec4(1.0f);
     vec2 uv = slot.uv_set == 0 ? uv0 : uv1;

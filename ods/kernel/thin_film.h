@@ -58,14 +58,14 @@ inline vec3 film_fresnel(ThinFilm film, float cosine, vec3 base_f0) {
   float path = 2.0f * ior * film.thickness * c2;
   vec3 both = clamp(bottom * top, vec3(1e-5f), vec3(0.9999f));
   vec3 amplitude = sqrt(both);
-  // Sums of what leaves after 1, 2, ... reflections at the base: the mean, then what interference adds to it.
+  // Sums of the light that leaves after 1, 2, ... reflections at the base: the mean, then the part due to interference.
   vec3 inner = bottom * (let_through * let_through) / (vec3(1.0f) - both);
   vec3 sum = vec3(top) + inner;
   vec3 wave = (inner - vec3(let_through)) * amplitude;
   sum += wave * (2.0f * film_response(path, shift));
   wave = wave * amplitude;
   sum += wave * (2.0f * film_response(2.0f * path, shift * 2.0f));
-  // The curves leave a colour outside the gamut at times; more than all light cannot return.
+  // The curves sometimes leave a colour outside the gamut; the reflectance cannot exceed 1.
   return clamp(sum, vec3(0.0f), vec3(1.0f));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Height, pitch, roll and size of one eye against the other: ods/disparity/alignment.h measures them.
+// Checks height, pitch, roll and size of one eye against the other, as measured by ods/disparity/alignment.h.
 #include "ods/disparity/alignment.h"
 
 #include <fmt/format.h>
@@ -15,8 +15,9 @@ namespace ods {
 
 namespace {
 
-// Below `harmless`, nobody notices; above `painful`, everybody. Eyes fuse what differs in height by up to 19 to 26
-// minutes of arc, depending on the source; a roll or a magnification differs by as much as it says at the sides only.
+// A term below `harmless` is not noticed; above `painful`, every viewer notices it. Eyes fuse differences in height of
+// up to 19 to 26 minutes of arc, depending on the source; a roll or a magnification has its full effect at the sides
+// only.
 struct TermRow {
   AlignmentTerm term;
   Fault fault;
@@ -30,7 +31,7 @@ constexpr TermRow kTerms[] = {
     {kRollTerm, Fault::kEyeRolled, 0.3, 0.7, "`right-roll`"},
     {kZoomTerm, Fault::kEyeMagnified, 0.006, 0.014, "`right-zoom`"},
 };
-constexpr double kUnsure = 0.05;  // degrees: with a larger standard error of a height, lint judges nothing
+constexpr double kUnsure = 0.05;  // degrees: with a larger standard error of a height, lint does not judge
 constexpr double kEnoughHeadings = 1.0;
 
 double certainty_of(const TermRow& row, const Alignment& alignment) {
@@ -39,7 +40,7 @@ double certainty_of(const TermRow& row, const Alignment& alignment) {
                            row.painful);
 }
 
-// Empty: they are known.
+// Empty if the terms are known.
 std::string why_unknown(const Alignment& alignment) {
   if (alignment.headings < kEnoughHeadings) return "not enough detail that both eyes show";
   const bool sure = alignment.unexplained < kUnsure * std::sqrt(static_cast<double>(alignment.matches));
@@ -69,7 +70,7 @@ std::string evidence_of(const TermRow& row, const Alignment& alignment) {
   }
 }
 
-// One command corrects all.
+// The command that corrects all terms.
 std::string cure_of(const Subject& subject) {
   std::string options;
   for (const TermRow& row : kTerms) {

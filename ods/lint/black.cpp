@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A picture, or an eye of it, that is black.
+// Finds pictures, or eyes of them, that are black.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace ods {
 
 constexpr float kBlack = 0.0025f;  // scene-linear: 8 of 255
-constexpr double kLit = 0.001;     // of the pixels: fewer are no picture
+constexpr double kLit = 0.001;     // minimum fraction of lit pixels for a picture
 
 static double lit_share(const Image& eye) {
   const auto lit = std::count_if(eye.pixels.begin(), eye.pixels.end(), [](float light) { return light > kBlack; });

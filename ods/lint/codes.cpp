@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What too few code values do: highlights that are clipped, gradients that have become stairs.
+// Finds the effects of too few code values: clipped highlights, and gradients with visible steps.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace ods {
 
 constexpr int kGrid = 720;  // directions around the sphere
 
-// The share of the sphere that is as bright as the file can say; that of the picture, if it is less than a sphere.
+// The fraction of the sphere at the maximum code value, or of the picture if it is less than a sphere.
 static double clipped_share(const Subject& subject) {
   const Projection projection = make_projection(subject.projection());
   const Image& eye = subject.eyes[0];
@@ -53,15 +53,15 @@ static void check_highlights(const Subject& subject, LintReport& report) {
 
 namespace {
 
-constexpr float kFlat = 0.75f;       // code values: within a stair, from its mean
-constexpr float kLeastStair = 2.5f;  // code values: from one stair to the next; 1 is what 8 bits do
+constexpr float kFlat = 0.75f;       // code values: deviation within a stair from its mean
+constexpr float kLeastStair = 2.5f;  // code values: minimum step between stairs; 8-bit quantization makes steps of 1
 constexpr float kMost = 24.0f;
-constexpr int kWide = 6;     // pixels of a stair, at least
-constexpr int kSteps = 3;    // in a row that make stairs
+constexpr int kWide = 6;     // minimum width of a stair, pixels
+constexpr int kSteps = 3;    // consecutive steps that make stairs
 constexpr int kAcross = 8;   // lines that are averaged
-constexpr int kLines = 128;  // of either kind, that are looked at
+constexpr int kLines = 128;  // lines of each direction that are examined
 
-// Counts stairs along a line: level runs, from each of which a like step leads to the next.
+// Counts stairs along a line: level runs that are connected by similar steps.
 int stairs_in(const std::vector<float>& line) {
   int stairs = 0, steps = 0;
   size_t start = 0;
@@ -78,7 +78,7 @@ int stairs_in(const std::vector<float>& line) {
     const bool is_step = is_wide && std::abs(step) >= kLeastStair && std::abs(step) <= kMost && is_like;
     if (is_step) steps++;
     if (is_wide && !is_step) steps = 0;
-    if (i - start > 2 && !is_wide) steps = 0;  // not a step but a slope
+    if (i - start > 2 && !is_wide) steps = 0;  // a slope, not a step
     if (steps == kSteps) stairs++, steps = 0;
     if (is_wide) last_level = level, last_step = is_step ? step : 0.0f;
     start = i, sum = is_end ? 0.0f : line[i];
@@ -86,7 +86,8 @@ int stairs_in(const std::vector<float>& line) {
   return stairs;
 }
 
-// Code values 0..255 of green along a row or a column, each the mean across a few: noise goes, stairs stay.
+// Code values 0..255 of green along a row or a column, each the mean across several lines, which removes noise but not
+// stairs.
 std::vector<float> codes_of(const Image& eye, bool is_row, int index) {
   std::vector<float> codes;
   const int count = is_row ? eye.width : eye.height, most = (is_row ? eye.height : eye.width) - 1;

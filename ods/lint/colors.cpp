@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Colour, exposure and contrast of one eye against the other. Tiles that match show the same things: of each, the mean
-// light of the right eye over that of the left one is taken, per channel. Their medians are the right eye's gains;
-// reflections, which differ between the eyes, are outvoted. Where the ratio grows with the light itself, the eyes
+// Compares colour, exposure and contrast of the eyes. Tiles that match show the same objects: for each, the ratio of
+// the mean light of the right eye to the left eye's is taken, per channel. The medians are the right eye's gains, so
+// that reflections, which differ between the eyes, are outvoted. If the ratio depends on the light itself, the eyes
 // differ by a power.
 #include <fmt/format.h>
 
@@ -20,14 +20,14 @@ namespace ods {
 namespace {
 
 constexpr int kViewWidth = 512;
-constexpr float kDark = 0.06f, kBright = 0.93f;  // as displayed: beyond, noise or clipping decides
+constexpr float kDark = 0.06f, kBright = 0.93f;  // as displayed: noise dominates below, clipping above
 constexpr size_t kEnoughColors = 20;
 
 struct Pair {
   vec3 left, right;  // natural logarithms of linear light
 };
 
-// The views of a channel, for each eye.
+// The views of a channel, per eye.
 using ChannelViews = std::vector<std::vector<GrayView>>;
 
 ChannelViews channel_views(const Subject& subject) {
@@ -44,7 +44,7 @@ ChannelViews channel_views(const Subject& subject) {
   return views;
 }
 
-// The mean of a view around a direction, over as much as a tile covers; NaN if it is not all there.
+// The mean of a view around a direction, over the area of a tile; NaN if the view does not contain all of it.
 float mean_at(const GrayView& view, float theta, float phi) {
   const float pixel = 2.0f * kPi / static_cast<float>(view.width);
   const int rows = 2, columns = std::clamp(static_cast<int>(3.0f / std::cos(phi)), 2, view.width / 8);
@@ -84,8 +84,8 @@ std::vector<Pair> find_pairs(const Subject& subject) {
 // y = slope x + offset, by least squares with the weights of a Cauchy distribution.
 struct Line {
   double slope = 0.0, offset = 0.0;
-  double error = 0.0;   // of the slope
-  double spread = 0.0;  // of y around the line
+  double error = 0.0;   // error of the slope
+  double spread = 0.0;  // standard deviation of y around the line
   double reach = 0.0;   // standard deviation of x
 };
 
@@ -121,7 +121,7 @@ struct Response {
   double gamma = 1.0;
   double gamma_error = 0.0;
   glm::dvec3 gain{1.0};
-  double error = 0.0;  // of a gain, relative
+  double error = 0.0;  // relative error of a gain
   size_t places = 0;
 };
 
@@ -131,7 +131,7 @@ Response find_response(const std::vector<Pair>& pairs) {
   std::vector<double> x, y;
   for (const Pair& pair : pairs) {
     const double left = brightness(pair.left), right = brightness(pair.right);
-    x.push_back(0.5 * (left + right)), y.push_back(right - left);  // noise of either eye leans the line neither way
+    x.push_back(0.5 * (left + right)), y.push_back(right - left);  // noise of either eye does not tilt the line
   }
   const Line line = fit_line(x, y);
   response.gamma_error = line.reach > 0.3 ? line.error : 1.0;
@@ -150,7 +150,7 @@ Response find_response(const std::vector<Pair>& pairs) {
   return response;
 }
 
-// What makes the right eye's light equal to the left one's.
+// The correction that makes the right eye's light equal to the left one's.
 std::string cure_of(const Subject& subject, const Response& response) {
   const glm::dvec3 gain = 1.0 / glm::pow(response.gain, glm::dvec3(1.0 / response.gamma));
   std::string options = fmt::format("`right-gain` {:.3f},{:.3f},{:.3f}", gain.x, gain.y, gain.z);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A pole without a picture: a disc of one value, with an edge that has the same elevation all around, as rigs leave
+// Finds a pole without a picture: a disc of one value, with an edge at the same elevation all around, as left by rigs
 // that see neither straight up nor straight down. A clear sky has no such edge.
 #include <fmt/format.h>
 
@@ -16,8 +16,8 @@ namespace {
 
 constexpr float kSame = 0.012f;     // as displayed: three steps of 8 bits
 constexpr int kBlock = 8;           // rows
-constexpr double kAllAround = 0.9;  // how much of the edge must show
-constexpr double kSmallest = 3.0;   // degrees of radius
+constexpr double kAllAround = 0.9;  // minimum visible fraction of the edge
+constexpr double kSmallest = 3.0;   // minimum radius, degrees
 constexpr double kLargest = 60.0;
 
 // The number of rows from a pole that have one value.
@@ -31,7 +31,7 @@ int dead_rows(const GrayView& view, bool top) {
   return rows;
 }
 
-// How much of the ring beyond the disc, past what JPEG smears, differs from the disc.
+// Fraction of the ring beyond the disc, outside JPEG's ringing, that differs from the disc.
 double share_of_edge(const GrayView& view, bool top, int rows) {
   const float value = *view.at(0, top ? 0 : view.height - 1);
   const int beyond = rows + kBlock;

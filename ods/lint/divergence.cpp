@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Eyes that must turn outwards. What is very far has no parallax; what is nearer has it inwards. So if most of what is
-// far has parallax outwards, one picture is turned against the other, and nobody can look at it without pain: eyes
-// diverge by a degree at most (Shibata et al., "The zone of comfort", 2011).
+// Finds eyes that must turn outwards. Very distant points have no parallax, closer ones have it inwards. So if most
+// distant points have parallax outwards, one picture is turned against the other, which is painful to view: eyes
+// diverge by at most a degree (Shibata et al., "The zone of comfort", 2011).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,12 +20,12 @@ namespace ods {
 
 namespace {
 
-constexpr double kHighest = 50.0;  // degrees: nearer to the poles, a difference of headings is a small angle
-constexpr double kFar = 0.25;      // the share of the places that is taken for far
-constexpr double kHarmless = 0.3, kPainful = 0.7;  // degrees; told from their middle on
+constexpr double kHighest = 50.0;  // degrees: closer to the poles, a difference of headings is a small angle
+constexpr double kFar = 0.25;      // the fraction of the places that is considered distant
+constexpr double kHarmless = 0.3, kPainful = 0.7;  // degrees; reported from the middle between them on
 constexpr size_t kLeastPlaces = 20;                // places
 
-// The parallax that this share of the places is below; its error is a quarter of the spread between its neighbours.
+// The parallax at this percentile; its error is a quarter of the spread between its neighbours.
 Difference percentile(std::vector<double> angles, double share) {
   std::sort(angles.begin(), angles.end());
   const auto at = [&](double part) {
@@ -50,7 +50,7 @@ void check_divergence(const Subject& subject, double swapped, LintReport& report
   Difference far = percentile(angles, kFar);
   const double yaw = -far.size;
   far.size = std::max(0.0, yaw);
-  // Either the eyes are swapped or they diverge: the doubt which of them it is makes neither unlikely by itself.
+  // Either the eyes are swapped or they diverge: doubt about which of the two makes neither unlikely by itself.
   const double certainty = std::min(certainty_of(far, kHarmless, kPainful), 1.0 - swapped);
   if (certainty < 0.1) return;
   report.findings.push_back(
@@ -62,9 +62,9 @@ void check_divergence(const Subject& subject, double swapped, LintReport& report
            convert_command(subject, fmt::format("`right-yaw` {:.2f}", yaw))});
 }
 
-// --- the nearest thing -----------------------------------------------------------------------------------------------
+// --- the nearest object
 
-constexpr double kLeastSure = 0.2;  // of the picture matched: less is no ground for a statement
+constexpr double kLeastSure = 0.2;  // minimum matched fraction of the picture for a statement
 
 void note_nearest(const Subject& subject, LintReport& report) {
   const std::vector<GrayView>& views = subject.scales[std::min<size_t>(1, subject.scales.size() - 1)];

@@ -11,10 +11,10 @@ namespace ods {
 
 enum class Fault {
   kEyesSwapped,     // the left eye's picture is the right one's
-  kRightOnTop,      // likewise in top-bottom files
+  kRightOnTop,      // the same in top-bottom files
   kOneEyeTwice,     // both eyes have the same picture
-  kMonoAsStereo,    // what are taken for two eyes are parts of one picture
-  kLayoutMisread,   // both eyes are there, in another layout
+  kMonoAsStereo,    // the two supposed eyes are parts of one picture
+  kLayoutMisread,   // both eyes exist, in another layout
   kMirroredCircle,  // stereo right ahead and behind, none at +-45 and +-135 degrees, reversed at +-90
   kTwoCameras,      // stereo right ahead, none at the sides, reversed behind
   kNoPoleMerge,     // full stereo right up to a pole
@@ -22,28 +22,28 @@ enum class Fault {
   kWrongAspect,     // the picture's shape is not that of its projection
   kMetadata,        // the file, its name or its sidecar contradicts the pixels
   kVideoLevels,     // too large for a video
-  kHeadsetSize,     // too large for a headset, or with sides that no video has
+  kHeadsetSize,     // too large for a headset, or with sides that videos do not have
   kVerticalOffset,  // one eye's picture is higher than the other's, by the same angle everywhere
   kEyePitched,      // one eye looks up or down against the other
   kEyeRolled,
   kEyeMagnified,
-  kEyesDiverge,  // what is far has parallax outwards
-  kEyeTinted,    // colours differ, and not only because one eye is brighter
+  kEyesDiverge,  // distant points have parallax outwards
+  kEyeTinted,    // colours differ, and not only in brightness
   kEyeBrighter,
   kEyeGamma,  // one eye has more contrast
   kEyeBlurred,
-  kNotLevel,  // lines that should be vertical are not, in both eyes
+  kNotLevel,  // vertical lines are tilted, in both eyes
   kDeadPole,  // a disc without a picture at a pole
-  kClipped,   // highlights
-  kBlack,     // nothing is to be seen
+  kClipped,   // clipped highlights
+  kBlack,     // the picture is black
   kBanding,
-  kEyeLate,          // of a video: one eye is ahead of the other in time
-  kCutsDiffer,       // likewise: at the cuts
-  kDuplicateFrames,  // of a video
+  kEyeLate,          // video: one eye is ahead of the other in time
+  kCutsDiffer,       // the cuts of a video differ in time between the eyes
+  kDuplicateFrames,  // video: a frame repeats the one before
 };
 
 enum class Severity {
-  kFault,        // looks wrong to everybody
+  kFault,        // looks wrong to every viewer
   kWarning,      // looks wrong in places, or is a matter of taste
   kInformation,  // good to know
 };
@@ -60,7 +60,7 @@ constexpr std::string_view severity_name(Severity severity) {
 struct FaultRow {
   Fault member;
   std::string_view name;
-  std::string_view title;  // a few words for users
+  std::string_view title;  // a short title for users
   Severity severity;
 };
 inline constexpr FaultRow kFaultTable[] = {
@@ -107,31 +107,31 @@ constexpr Severity severity_of(Fault fault) {
   return row_in(kFaultTable, fault).severity;
 }
 
-// What lint judges, or names as not judged.
+// The subjects that lint judges or lists as not judged.
 enum class Check {
-  kLayout,       // how the eyes share the file, and whether they are at one place
-  kTwoEyes,      // whether they see from two points
-  kEyeOrder,     // which eye is which
+  kLayout,       // the eyes' arrangement in the file, and that they are at one place
+  kTwoEyes,      // two different points of view
+  kEyeOrder,     // the order of the eyes
   kCircle,       // a viewing circle, two cameras, or a mirrored circle
   kTopPole,      // stereo at the top pole
   kBottomPole,   // stereo at the bottom pole
-  kSeam,         // where the right edge meets the left one
+  kSeam,         // continuity between the right and the left edge
   kShape,        // width over height
-  kMetadata,     // the statements of file, name and sidecar
-  kVideoLevels,  // of codecs
-  kHeadsets,     // sizes that they take
+  kMetadata,     // contradictions between file, name and sidecar
+  kVideoLevels,  // limits of codecs
+  kHeadsets,     // sizes that headsets support
   kAlignment,    // height, pitch, roll and size of one eye against the other
-  kConvergence,  // whether the eyes must diverge
-  kColors,       // of one eye against the other
-  kSharpness,    // likewise
-  kHorizon,      // whether the picture is level
-  kDeadPoles,    // whether the poles have a picture
-  kBlack,        // whether there is anything to see
+  kConvergence,  // eyes that must diverge
+  kColors,       // one eye against the other
+  kSharpness,    // one eye against the other
+  kHorizon,      // a picture that is not level
+  kDeadPoles,    // poles without a picture
+  kBlack,        // a black picture
   kHighlights,
   kBanding,
-  kEyeTime,     // of a video: whether both eyes show the same moment
-  kCuts,        // of a video: whether both eyes are cut at the same frames
-  kDuplicates,  // of a video: frames that repeat the one before
+  kEyeTime,     // video: both eyes show the same instant
+  kCuts,        // video: both eyes are cut at the same frames
+  kDuplicates,  // video: frames that repeat the one before
 };
 
 inline constexpr NameRow<Check> kCheckTable[] = {

@@ -17,16 +17,16 @@ namespace ods {
 
 namespace {
 
-constexpr float kCutLikeness = 0.6f;  // two shots correlate by less
-constexpr float kStill = 4e-4f;       // of a frame that is the one before again: what a codec adds
-constexpr float kMoves = 8e-3f;       // around such a frame, if it should not be there
-constexpr int kReachInTime = 12;      // frames by which eyes may be apart in time
+constexpr float kCutLikeness = 0.6f;  // maximum correlation of two shots
+constexpr float kStill = 4e-4f;       // difference of a repeated frame, due to the codec
+constexpr float kMoves = 8e-3f;       // motion around a repeated frame that should not be there
+constexpr int kReachInTime = 12;      // maximum delay between the eyes, frames
 constexpr int kNeighbours = 3;        // frames on either side of a duplicate
-constexpr size_t kEnoughFrames = 24;  // frames, to compare series
-constexpr size_t kPairs = 16;         // likewise, that count at a lag
-constexpr size_t kBesideJump = 3;     // frames on either side of a jump, which change by a third at most
-constexpr size_t kAfterJump = 6;      // frames from a jump on that a codec needs for it
-constexpr float kTurns = 0.01f;       // of Change::bands, if the camera turns
+constexpr size_t kEnoughFrames = 24;  // minimum number of frames for comparing series
+constexpr size_t kPairs = 16;         // minimum number of counted pairs at a lag
+constexpr size_t kBesideJump = 3;     // frames on either side of a jump that change by a third at most
+constexpr size_t kAfterJump = 6;      // frames after a jump that a codec needs to recover
+constexpr float kTurns = 0.01f;       // minimum of Change::bands if the camera turns
 
 float value_at(const Planes& planes, int x, int y) {
   const std::byte* row = planes.first[0] + static_cast<size_t>(y) * planes.stride[0];
@@ -54,7 +54,7 @@ static std::vector<float> row_means(std::span<const float> cells, size_t columns
   return means;
 }
 
-// Each cell is the mean of 4 x 4 pixels in it.
+// Each cell is the mean of 4 x 4 of its pixels.
 FrameTrace::Small FrameTrace::small_of(const DecodedFrame& frame, int eye) const {
   constexpr int kPoints = 4;
   const EyeCorner corner = eye_corner(layout_, eye_, eye);
@@ -82,7 +82,7 @@ FrameTrace::Change FrameTrace::change_of(const Small& before, const Small& now) 
     change.whole += difference / kCells;
   }
   for (const Numbers& band : parts) change.bands.push_back(std::sqrt(median(band)));
-  // Without the means of rows: that it is bright above and dark below, most shots have in common.
+  // Without the means of rows, because most shots are bright above and dark below.
   const Numbers means = row_means(now, kColumns), means_before = row_means(before, kColumns);
   float product = 0.0f, square = 1e-6f, square_before = 1e-6f;
   for (size_t i = 0; i < now.size(); i++) {
@@ -94,7 +94,7 @@ FrameTrace::Change FrameTrace::change_of(const Small& before, const Small& now) 
   return change;
 }
 
-// A cut is a change that neither frame before it had.
+// A cut is a change to an uncorrelated frame that is much larger than the change before it.
 void FrameTrace::find_cut(size_t eye) {
   const std::vector<Change>& changes = changes_[eye];
   if (changes.empty() || changes.back().alike > kCutLikeness) return;
@@ -139,7 +139,7 @@ void FrameTrace::check_cuts(LintReport& report) const {
 
 // --- duplicates ------------------------------------------------------------------------------------------------------
 
-// How much moves just before (-1) or after (1) a change; nothing where motion comes to rest there, or is held.
+// The motion just before (-1) or after (1) a change. Returns 0 if motion comes to rest there or pauses.
 float FrameTrace::motion_beside(int i, int way) const {
   const int count = static_cast<int>(changes_[0].size());
   float nearest = 0.0f, most = 0.0f;
@@ -177,7 +177,8 @@ void FrameTrace::check_duplicates(LintReport& report) const {
 
 // --- time between the eyes -------------------------------------------------------------------------------------------
 
-// Leaves out what jumps, as at cuts and in lightning, and what codecs mend after that. A time spans so many changes.
+// Leaves out jumps, such as at cuts and in lightning, and the frames in which codecs recover from them. One value spans
+// `span` changes.
 std::vector<bool> FrameTrace::count_all_but_jumps(size_t count, size_t span) const {
   std::vector<bool> counts(count, true);
   for (const std::vector<Change>& changes : changes_) {
@@ -193,8 +194,7 @@ std::vector<bool> FrameTrace::count_all_but_jumps(size_t count, size_t span) con
   return counts;
 }
 
-// By how much the means of rows rise within some frames: so many that what codecs do to every second one does not
-// count.
+// The change of the row means within several frames, so many that codec artifacts in every second frame do not count.
 FrameTrace::Series FrameTrace::rises() const {
   constexpr size_t kSpan = 4;
   Series series;
@@ -208,7 +208,7 @@ FrameTrace::Series FrameTrace::rises() const {
   return series;
 }
 
-// How fast all of the picture changes.
+// The speed at which the whole picture changes.
 FrameTrace::Series FrameTrace::speeds() const {
   Series series;
   float most = 0.0f;
@@ -223,7 +223,7 @@ FrameTrace::Series FrameTrace::speeds() const {
   return series;
 }
 
-// Of the left eye's series with the right eye's this many frames later.
+// The correlation of the left eye's series with the right eye's, this many frames later.
 double FrameTrace::correlation(const Series& series, int lag) {
   const int count = static_cast<int>(series.counts.size());
   std::vector<std::pair<const Numbers*, const Numbers*>> pairs;

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What changes from frame to frame of a video, of every frame and in few numbers. From these series follow cuts,
-// duplicate frames, and whether one eye is ahead of the other in time.
+// Records the changes from frame to frame of a video, a few numbers for every frame. These series show cuts, duplicate
+// frames, and a time offset between the eyes.
 //
-// For the last, parallax must not matter: what passes by is at each heading sooner in one eye than in the other. So
-// headings are averaged. Things that move change the means of rows, and when they do is the same in both eyes. Where
-// only the camera turns, means of rows stay; but then it is nearly all that changes, and how fast is the same in both.
+// The time offset must not depend on parallax: a moving object reaches each heading earlier in one eye than in the
+// other. So headings are averaged. Moving objects change the means of rows, at the same time in both eyes. If only the
+// camera turns, the means of rows stay constant; but then nearly the whole picture changes, at the same speed in both
+// eyes.
 #pragma once
 #include <array>
 #include <string>
@@ -19,31 +20,31 @@ namespace ods {
 
 class FrameTrace {
  public:
-  // layout: of the video's frames; kSeparate: one eye.
+  // layout: of the video's frames; kSeparate for one eye.
   FrameTrace(Extent frame, Layout layout);
 
-  // seconds: its time in the video; times ascend.
+  // seconds: time of the frame in the video; times ascend.
   void add(const DecodedFrame& frame, double seconds);
 
-  // Whether the last frame that was added begins another shot, in the left or only eye.
+  // Returns whether the last added frame begins another shot, in the left or only eye.
   bool is_cut() const { return cuts_[0].size() > 0 && cuts_[0].back() == frames_ - 1; }
   int frames() const { return frames_; }
 
-  // Judges the checks of time.
+  // Adds the checks of time to the report.
   void report(LintReport& report) const;
 
  private:
-  static constexpr int kColumns = 64, kRows = 32;     // of the small picture of an eye
-  static constexpr int kAcross = 8, kDown = 4;        // parts of it
+  static constexpr int kColumns = 64, kRows = 32;     // size of the small picture of an eye
+  static constexpr int kAcross = 8, kDown = 4;        // its parts
   using Small = std::array<float, kColumns * kRows>;  // 0..1
   using Numbers = std::vector<float>;
   struct Change {
     float whole = 0.0f;   // mean absolute difference from the frame before
     float alike = 1.0f;   // correlation with it, along rows
-    float motion = 0.0f;  // root of the mean square of what is not alike: neither light nor a fade
-    Numbers bands;        // from top to bottom, the median part's root of the mean square difference
+    float motion = 0.0f;  // root mean square of the part that is not correlated: neither light nor a fade
+    Numbers bands;        // for bands from top to bottom: root mean square difference of the median part
   };
-  // Numbers of each eye and frame, and the frames that count.
+  // Numbers per eye and frame, and the frames that count.
   struct Series {
     std::array<std::vector<Numbers>, 2> eyes;
     std::vector<bool> counts;
@@ -65,11 +66,11 @@ class FrameTrace {
   Extent eye_;
   Layout layout_;
   int frames_ = 0;
-  std::vector<double> times_;                 // of the frames, seconds
-  std::vector<Small> last_;                   // of each eye
-  std::vector<std::vector<Numbers>> rows_;    // of each eye and frame: means
-  std::vector<std::vector<Change>> changes_;  // of each eye: from frame i to frame i + 1
-  std::vector<std::vector<int>> cuts_;        // of each eye: the first frames of shots but the first
+  std::vector<double> times_;                 // times of the frames, seconds
+  std::vector<Small> last_;                   // per eye
+  std::vector<std::vector<Numbers>> rows_;    // means, per eye and frame
+  std::vector<std::vector<Change>> changes_;  // per eye: from frame i to frame i + 1
+  std::vector<std::vector<int>> cuts_;        // per eye: the first frames of all shots but the first
 };
 
 }  // namespace ods

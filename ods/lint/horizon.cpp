@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether the picture is level. Posts, walls and doors are vertical lines:
-// great circles through the zenith. At an edge of the picture, the gradient is
-// the normal n of the edge's great circle, so the zenith z is where n z = 0 for
-// more edges than anywhere else. Pictures without such lines have no such
-// place, and are not judged.
+// Checks whether the picture is level. Posts, walls and doors are vertical lines: great circles through the zenith. At
+// an edge of the picture, the gradient is the normal n of the edge's great circle, so the zenith z is the direction
+// with n z = 0 for the most edges. Pictures without such lines have no such direction, and are not judged.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,12 +18,12 @@ namespace ods {
 namespace {
 
 constexpr double kMostTilt = 15.0;  // degrees
-constexpr double kWidth = 2.0;      // degrees: of the peak of edges that are vertical
+constexpr double kWidth = 2.0;      // degrees: width of the peak of vertical edges
 constexpr double kNearly = 30.0;    // degrees: edges this far from vertical are compared with the peak
-constexpr float kEdge = 0.05f;      // least gradient, per pixel of the view
-constexpr double kLine = 0.85;      // least coherence of a line
-constexpr int kDirectionReach = 2;  // pixels around a place that decide its direction
-constexpr int kFewestAround = 384;  // pixels of a turn; at 256, rooms that are level seem to lean by 14 degrees
+constexpr float kEdge = 0.05f;      // minimum gradient, per pixel of the view
+constexpr double kLine = 0.85;      // minimum coherence of a line
+constexpr int kDirectionReach = 2;  // pixels around a point that determine its direction
+constexpr int kFewestAround = 384;  // minimum pixels per turn; at 256, level rooms seem to lean by 14 degrees
 constexpr size_t kEnoughPlaces = 400;
 constexpr size_t kMostEdges = 20000;
 
@@ -89,7 +87,7 @@ glm::dvec3 zenith(double right, double back) {
   return glm::normalize(glm::dvec3(std::tan(right * kDegree), 1.0, std::tan(back * kDegree)));
 }
 
-// How much of the edges that are nearly vertical is vertical, 0..1.
+// Fraction of the nearly vertical edges that are vertical, 0..1.
 double share_of(const std::vector<Edge>& edges, glm::dvec3 up) {
   double inside = 0.0, all = 0.0;
   for (const Edge& edge : edges) {
@@ -145,7 +143,7 @@ void check_horizon(const Subject& subject, LintReport& report) {
   edges = some_of(edges);
   if (edges.size() < kEnoughPlaces) return skip(report, Check::kHorizon, "too few lines that could be vertical");
   const Tilt tilt = find_tilt(edges);
-  // Edges of all directions have this share of theirs within the peak.
+  // The fraction of uniformly distributed edges that falls within the peak.
   const double chance = kWidth * std::sqrt(0.5 * std::numbers::pi) / kNearly;
   const double peak = std::clamp((tilt.share - 2.0 * chance) / (1.5 * chance), 0.0, 1.0);
   if (peak < 0.5) return skip(report, Check::kHorizon, "too few lines that are certainly vertical");

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Two eyes at one place show nearly the same picture; two parts of one picture do not.
-// So every way to cut a file is tried.
+// Two eyes at one place show nearly the same picture; two parts of one picture do not. So every way to cut a file is
+// tried.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr int kEnoughTiles = 8;
 struct Cut {
   Layout layout = Layout::kTopBottom;
   Matches matches;
-  double lopsided = 0.0;  // how much of the parallax has one sign, 0..1
+  double lopsided = 0.0;  // fraction of the parallax that has one sign, 0..1
 };
 
 Cut try_cut(const Subject& subject, Layout layout, const std::vector<Image>& eyes,
@@ -70,7 +70,7 @@ std::vector<Cut> other_cuts(const Subject& subject) {
   return cuts;
 }
 
-// The source of the layout decides what is wrong, and what the user has to change.
+// The source of the layout determines the fault, and what the user has to change.
 void add_misread(const Subject& subject, const Cut& cut, double certainty, const std::string& evidence,
                  LintReport& report) {
   const std::string truth = cut_name(subject, cut.layout);
@@ -94,7 +94,7 @@ void add_misread(const Subject& subject, const Cut& cut, double certainty, const
 static bool check_one_eye(const Subject& subject, LintReport& report) {
   judge(report, Check::kLayout);
   for (const Cut& cut : other_cuts(subject)) {
-    // Scenes that are alike on two sides match too, but parallax of a single sign is no coincidence.
+    // Scenes with two similar sides match too, but parallax of a single sign is not a coincidence.
     const double certainty = cut.matches.share() * cut.lopsided * std::min(1.0, cut.matches.tiles / 20.0);
     if (certainty < 0.3) continue;
     add_misread(subject, cut, certainty,
@@ -119,7 +119,7 @@ bool check_layout(const Subject& subject, LintReport& report) {
   const double alone = enough * std::max(0.0, 1.0 - share / 0.3);
   double misread = 0.0;
   for (const Cut& cut : other_cuts(subject)) {
-    // Two sides of a scene may be alike, but their parallax does not have a single sign.
+    // Two sides of a scene may be similar, but their parallax does not have a single sign.
     const double better = cut.matches.share() - share;
     const double certainty =
         enough * cut.matches.share() * std::min(1.0, better / 0.4) * std::min(1.0, 2.0 * cut.lopsided);

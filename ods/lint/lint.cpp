@@ -61,7 +61,7 @@ static bool is_small(const Subject& subject) {
   return around < kMinAround || eye.height < kMinHeight;
 }
 
-// Whether both eyes are large enough, and show what parallax can be told from.
+// Returns whether both eyes are large enough, and have no head-tilt map, for which parallax is not analysed.
 static bool is_comparable(const Subject& subject) {
   return subject.eyes.size() == 2 && !is_small(subject) && !subject.format.camera.head_tilt_map;
 }

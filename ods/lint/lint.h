@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Finds what is wrong with a stereo 360 picture, ours or another's, as far as its pixels and its metadata show it.
+// Finds the faults of a stereo 360 picture, from our renderer or any other, in its pixels and its metadata.
 //
-// Nearly all of it follows from one fact of omni-directional stereo: a point at the distance rho from the viewing
+// Nearly all checks follow from one fact of omni-directional stereo: a point at the distance rho from the viewing
 // circle's axis appears farther right in the left eye than in the right one, by theta_L - theta_R = 2 asin(r / rho).
 // That is never negative, wherever the point is, and there is no difference in height.
 // docs/lint.md explains every fault.
@@ -24,7 +24,7 @@ struct Finding {
   double certainty = 0.0;  // 0..1, from measurements
   std::string evidence;    // includes numbers
   std::string cure;
-  std::vector<double> times{};  // of the frames of a video that show it, seconds; empty: all of it, or a picture
+  std::vector<double> times{};  // times of a video's frames that show it, seconds; empty for all frames or a picture
 };
 
 struct NotJudged {
@@ -33,27 +33,27 @@ struct NotJudged {
 };
 
 struct LintOptions {
-  std::optional<Layout> layout;                 // none: that of guess_layout()
-  std::optional<ProjectionSetting> projection;  // none: that of the file, its sidecar or its name, else lat-long
-  std::vector<FisheyeLens> lenses{};            // as in FormatHint: then the eyes are judged as they are when unwrapped
+  std::optional<Layout> layout;                 // guess_layout() if not set
+  std::optional<ProjectionSetting> projection;  // if not set, from the file, its sidecar or its name, else lat-long
+  std::vector<FisheyeLens> lenses{};            // as in FormatHint; the eyes are then judged as they are when unwrapped
 };
 
 struct LintReport {
-  Extent file;  // size of the file, or of either file of a pair
+  Extent file;  // size of the file, or of each file of a pair
   Extent eye;   // as stored
   int eye_count = 1;
-  std::optional<Layout> layout;  // the layout that the file was read in; none: one eye
+  std::optional<Layout> layout;  // the layout that the file was read in; not set for one eye
   std::string reason;
   std::string projection;
   std::vector<Finding> findings;  // the most certain first; includes findings whose certainty is nearly 0
   std::vector<Check> judged;      // every check is either here or in not_judged
   std::vector<NotJudged> not_judged;
-  int frames = 0;                  // of a video
-  int judged_frames = 0;           // likewise: those that were judged as pictures
-  std::vector<std::string> notes;  // what was ignored in the file: NaN, a colour profile
+  int frames = 0;                  // number of frames of a video
+  int judged_frames = 0;           // number of a video's frames judged as pictures
+  std::vector<std::string> notes;  // things ignored in the file: NaN, a colour profile
 };
 
-// Whether there is a finding at least this severe and this certain.
+// Returns whether there is a finding at least this severe and this certain.
 bool has_finding(const LintReport& report, Severity severity, double certainty);
 
 // A path with %V or %v names two files. Throws Error(kInput) as load_eyes() does.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares the statements of the file, its name and its sidecar with each other and with the picture,
-// whose layout is known.
+// Compares the metadata, the name and the sidecar of a file with each other and with the picture, whose layout is
+// known.
 #include "ods/picture/metadata/metadata.h"
 
 #include <fmt/format.h>
@@ -60,7 +60,7 @@ static void check_sidecar(const Subject& subject, LintReport& report) {
     add(report, 0.9, fmt::format("'{}' says {}, and it is {}", name, layout_name(said.layout), read_as(report)), cure);
   }
   const Extent stored = squeezed_eye(said.layout, said.eye, count);
-  // A copy of another size is no contradiction; another shape is.
+  // A copy of another size is consistent; another aspect ratio is not.
   const double off = std::abs(static_cast<double>(stored.width) * report.eye.height /
                                   (static_cast<double>(stored.height) * report.eye.width) -
                               1.0);

@@ -3,7 +3,7 @@
 //
 // The sign of parallax around the horizon: + everywhere is correct; - everywhere means swapped eyes; cos(theta) means
 // two fixed cameras; cos(2 theta) means a viewing circle that was mirrored without its rays. The amount of parallax
-// depends on the scene and shows nothing, except that a picture without any has one eye twice.
+// depends on the scene and is not evidence, except that a picture without any parallax has one eye twice.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ namespace ods {
 namespace {
 
 constexpr int kSectors = 16;
-constexpr double kPrecision = 0.25;  // of a match, in pixels of its view
-constexpr double kGrounded = 0.2;    // a value of growth_downwards() that no coincidence reaches
+constexpr double kPrecision = 0.25;  // precision of a match, in pixels of its view
+constexpr double kGrounded = 0.2;    // a value of growth_downwards() beyond coincidence
 constexpr double kPi2 = 2.0 * std::numbers::pi;
 
 struct Parallax {
@@ -38,7 +38,7 @@ struct Parallaxes {
   double sectors = 0.0;  // number of sectors with matches, 0..kSectors
 };
 
-// How well a pattern of signs explains the data, -1..1.
+// The agreement of a pattern of signs with the data, -1..1.
 template <class Pattern>
 double explained(const Parallaxes& parallaxes, Pattern pattern) {
   double sum = 0.0, most = 0.0;
@@ -78,7 +78,7 @@ void add_matches(Parallaxes& parallaxes, const Matches& matches, const Subject& 
   }
 }
 
-// Weights each sector: one full of detail counts little more than one with some.
+// Weights each sector, so that one full of detail counts little more than one with some detail.
 void weigh(Parallaxes& parallaxes) {
   std::array<double, kSectors> count{};
   for (const Parallax& each : parallaxes.all) count[static_cast<size_t>(each.sector)] += std::abs(each.sign);
@@ -86,8 +86,9 @@ void weigh(Parallaxes& parallaxes) {
   for (double each : count) parallaxes.sectors += each / (each + 1.0);
 }
 
-// Whether angular parallax grows downwards below the horizon, -1..1, judged at each heading separately. As the ground
-// comes nearer it does, wherever the eyes converge; it decreases if they are swapped.
+// Evidence that angular parallax grows downwards below the horizon, -1..1, judged at each heading separately. It does
+// for eyes in the right order, because the ground gets closer, wherever the eyes converge; it decreases if they are
+// swapped.
 double growth_downwards(const Parallaxes& parallaxes) {
   struct Sums {
     double weight = 0.0, depth = 0.0, angle = 0.0;
@@ -112,7 +113,7 @@ double growth_downwards(const Parallaxes& parallaxes) {
 
 }  // namespace
 
-// Toed-in rays meet on a sphere: towards the poles they rotate about ever smaller circles.
+// Toed-in rays meet on a sphere: towards the poles they rotate about increasingly smaller circles.
 double convergence_at(const Subject& subject, double phi) {
   if (!subject.camera || subject.camera->convergence == kParallel) return 0.0;
   const Camera& camera = *subject.camera;
@@ -132,7 +133,7 @@ struct Stillness {
   size_t count = 0;
 };
 
-// The parallax of distant objects is small too, but it is not noise: it is never less than 0.
+// Distant objects have small parallax too, but it is not noise: it is never negative.
 Stillness stillness_of(const Matches& matches) {
   Stillness still;
   still.count = matches.found.size();
@@ -145,7 +146,7 @@ Stillness stillness_of(const Matches& matches) {
   const double count = static_cast<double>(still.count);
   double balance = 0.0;
   for (double angle : angles) balance += std::tanh(angle / (still.spread + 1e-3)) / count;
-  // A few objects that do move, as on a test card, suffice if they move in one direction, which mismatches do not.
+  // A few moving objects, as on a test card, suffice if they move in one direction, unlike mismatches.
   double moving = 0.0, sense = 0.0;
   for (double angle : angles) {
     if (std::abs(angle - still.middle) < std::max(0.5, 6.0 * still.spread)) continue;
@@ -202,9 +203,9 @@ static bool check_twice(const Subject& subject, const std::vector<Matches>& scal
 
 // --- the signs -----------------------------------------------------------------------------------------------------
 
-constexpr double kConclusive = 0.3;  // of the share of one sign
+constexpr double kConclusive = 0.3;  // minimum fraction of one sign
 
-// Returns how certain it is that they are swapped.
+// Returns the certainty that the eyes are swapped.
 static double check_swap(const Subject& subject, const Parallaxes& parallaxes, double upright, LintReport& report) {
   const double enough = parallaxes.sectors / (parallaxes.sectors + 2.0);
   double certainty = std::max(0.0, -upright * enough);
@@ -212,8 +213,7 @@ static double check_swap(const Subject& subject, const Parallaxes& parallaxes, d
                                      50.0 - 50.0 * upright, parallaxes.all.size());
   if (!subject.camera) {
     const double growth = growth_downwards(parallaxes);
-    // Eyes that converge at mid-distance have parallax of both signs; if they converge close by,
-    // only the ground decides.
+    // Eyes that converge at mid-distance have parallax of both signs; if they converge nearby, only the ground decides.
     certainty *= std::clamp((-upright - 0.5) / 0.4, 0.0, 1.0) * (0.5 - 0.5 * std::tanh(6.0 * (growth - kGrounded)));
     evidence += growth < kGrounded ? "" : ", but the less so the nearer the ground: they may converge close by";
   }
@@ -235,7 +235,7 @@ static double check_swap(const Subject& subject, const Parallaxes& parallaxes, d
   return certainty;
 }
 
-// How well a magnified eye explains the signs: it also differs in height, as parallax does not.
+// The agreement of a magnified eye with the signs. Magnification also causes vertical differences, unlike parallax.
 static double explained_by_zoom(const Subject& subject, const Parallaxes& parallaxes) {
   constexpr double kSurely = 3.0;  // standard errors
   const Alignment::Term& zoom = subject.alignment.terms[kZoomTerm];

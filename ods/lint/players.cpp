@@ -12,13 +12,13 @@
 
 namespace ods {
 
-constexpr double kUsualFps = 30.0;  // of a video that does not state it
+constexpr double kUsualFps = 30.0;  // for a video that does not specify it
 
 static bool is_matroska(const VideoFile& video) {
   return video.container == Container::kMatroska || video.container == Container::kWebm;
 }
 
-// What a player assumes: without stereo metadata mono, without projection metadata a flat video.
+// A player's interpretation: mono without stereo metadata, flat without projection metadata.
 static std::string shown_as(SphericalMetadata metadata) {
   metadata.stereo = metadata.stereo.value_or(VideoStereo::kOneView);
   metadata.projection = metadata.projection.value_or(VideoProjection::kFlat);
@@ -67,7 +67,7 @@ std::vector<PlayerView> video_views(const VideoFile& video, const VideoTrack& tr
   return views;
 }
 
-// --- what is wrong ---------------------------------------------------------------------------------------------------
+// --- warnings
 
 static std::optional<Codec> codec_of(const std::string& name) {
   for (const char* word : {"avc1", "avc3", "V_MPEG4/ISO/AVC"}) {
@@ -103,7 +103,8 @@ static std::string same_words(std::string text) {
   return text;
 }
 
-// Whether two kinds of players show the same; a name without a projection agrees with both that it leaves open.
+// Returns whether two kinds of players show the same. A name without a projection agrees with both projections that it
+// leaves open.
 static bool agree(const std::string& a, const std::string& b) {
   const std::string one = same_words(a), other = same_words(b);
   const size_t open = other.find("lat-long or flat");
@@ -111,7 +112,7 @@ static bool agree(const std::string& a, const std::string& b) {
   return one == other.substr(0, open) + "lat-long" || one == other.substr(0, open) + "flat";
 }
 
-// Advises ods inject if it helps, with the options that it needs: " (ods inject --track 2 adds it)".
+// Advises ods inject if it helps, with the necessary options: " (ods inject --track 2 adds it)".
 static std::string advice(const VideoFile& video, const VideoTrack& track, const std::string& path,
                           std::string_view what) {
   std::vector<std::string> guesses;

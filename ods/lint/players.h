@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What players will take a video or a picture for, and why. Players differ in the metadata that they read; these are
-// their kinds.
+// The interpretation of a video or a picture by players, and its reasons. Players differ in the metadata that they
+// read; they are grouped by that.
 // Sources: google/spatial-media (V2 has priority over V1); Meta, "Mobile media overview" (suffixes; square is
 // top-bottom); Skybox and DeoVR, their pages on file names. Names of layouts and projections:
 // layout_of() and named_projections().
@@ -24,11 +24,11 @@ struct PlayerView {
 
 std::vector<PlayerView> video_views(const VideoFile& video, const VideoTrack& track, const std::string& path);
 
-// What is wrong with a video: kinds of players that disagree, a V1 that contradicts or is missing, an impossible shape,
-// a size that no level of its codec allows.
+// The faults of a video: kinds of players that disagree, V1 metadata that is contradictory or missing, an impossible
+// shape, a size that no level of its codec allows.
 std::vector<std::string> video_warnings(const VideoFile& video, const VideoTrack& track, const std::string& path);
 
-// For a picture, of which others read only GPano; `format` is the result of find_format().
+// The interpretations of a picture, for which other programs read only GPano; `format` is the result of find_format().
 std::vector<PlayerView> picture_views(const FileInfo& info, const StereoFormat& format, bool has_gpano,
                                       const std::string& path);
 std::vector<std::string> picture_warnings(const FileInfo& info, const StereoFormat& format, bool has_gpano,

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Stereo at the poles. On a floor or ceiling at the height h, parallax that no merge shrinks is constant as the eye
-// sees it, ipd / h, however near the pole. A viewer who looks there sees it upright for one heading only; at all others
-// it hurts.
+// Checks stereo at the poles. On a floor or ceiling at the height h, parallax without a merge is constant as the eye
+// sees it, ipd / h, at any distance from the pole. It is correct for one heading only; at all others it strains the
+// eyes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 constexpr double kTolerable = 0.43;
 
 struct Band {
-  double arc = 0.0;  // degrees, as the eye sees it: the difference of headings times cos(phi)
+  double arc = 0.0;  // degrees as the eye sees it: the difference of headings times cos(phi)
   int count = 0;
 };
 
@@ -41,7 +41,8 @@ Band measure(const Subject& subject, const Matches& matches, bool top, double fr
 
 }  // namespace
 
-// So that what is seen there does not depend on the exposure. As in the other scales, the right view is corrected.
+// Normalizes the exposure, so that the visibility does not depend on it. As in the other scales, the right view is
+// corrected.
 static std::vector<GrayView> evenly_exposed(const Subject& subject) {
   const int width = subject.scales[1][0].width;
   std::vector<GrayView> views = make_gray_views(subject.eyes, subject.projection(), true, width);

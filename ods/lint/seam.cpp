@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a whole turn closes. A step from one column to the next counts by how much it exceeds the steps on either side
-// of it, so that neither slopes nor soft edges count; the step at the seam is compared with many others. Columns that
-// are missing show as such a step; columns that the picture repeats are found by matching them.
+// Checks the seam of a full turn. A step from one column to the next counts by how much it exceeds the steps on both
+// sides of it, so that neither slopes nor soft edges count; the step at the seam is compared with many others. Missing
+// columns cause such a step; repeated columns are found by matching them.
 //
-// In pictures the steps are those from pixel to pixel: a seam is sharper than edges of the scene, which cover parts of
+// In pictures the steps are those between pixels: a seam is sharper than edges of the scene, which cover parts of
 // pixels. Codecs that smooth the borders of their blocks leave the picture's edges as the only sharp ones, so for them
-// the steps are those between means of some columns, which a narrow cut changes less.
+// the steps are those between means of several columns, which are less affected by a narrow cut.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -24,21 +24,21 @@ namespace ods {
 
 namespace {
 
-constexpr int kBlocks = 128;                      // of rows, each averaged
-constexpr double kNoise = 0.003;                  // as displayed: breaks below are no structure
-constexpr double kSharpest = 8.0;                 // a break counts no more
-constexpr double kFewBits = 0.033;                // for a pixel of a video: its codec breaks the picture at its edges
-constexpr size_t kWidths[] = {2, 6};              // columns that are averaged on either side, against noise and texture
+constexpr int kBlocks = 128;          // blocks of rows, each averaged
+constexpr double kNoise = 0.003;      // as displayed: breaks below are not structure
+constexpr double kSharpest = 8.0;     // maximum weight of a break
+constexpr double kFewBits = 0.033;    // bits per pixel of a video: below this, codecs break the picture at its edges
+constexpr size_t kWidths[] = {2, 6};  // columns averaged on either side, against noise and texture
 constexpr double kUnseen = 0.004, kSeen = 0.008;  // steps at the seam, as displayed
-constexpr double kStructure = 0.1;                // sharpness of columns where there is something that could break
-constexpr size_t kNear = 8;                       // columns on either side that tell how much a row varies there
-constexpr double kGrain = 0.015;                  // as displayed: what a row varies anyway
-constexpr double kMostExcess = 3.0;               // a step counts no more
-constexpr double kHalfPixel = 2.5;  // times the steps beside it: so much if a picture was resized without its seam
+constexpr double kStructure = 0.1;                // minimum sharpness of columns with structure that could break
+constexpr size_t kNear = 8;                       // columns on either side that give the usual variation of a row
+constexpr double kGrain = 0.015;                  // as displayed: the usual variation of a row
+constexpr double kMostExcess = 3.0;               // maximum weight of a step
+constexpr double kHalfPixel = 2.5;  // times the adjacent steps: the step if a picture was resized without its seam
 
 using Columns = std::vector<double>;
 
-// Means of some rows of an eye each, as displays show them; all columns are kept.
+// Averages blocks of rows of an eye, as displayed; all columns are kept.
 Image squeezed(const Image& eye) {
   Image rows(eye.width, kBlocks, 1);
   tbb::parallel_for(0, kBlocks, [&](int i) {
@@ -58,8 +58,8 @@ Columns row_of(const Image& rows, int y) {
   return {rows.at(0, y), rows.at(0, y) + rows.width};
 }
 
-// For each column, the step from it to the next columns, minus half the sum of the steps before and after; of means of
-// `wide` columns.
+// For each column, the step from it to the next columns, minus half the sum of the steps before and after. Steps are
+// between means of `wide` columns.
 Columns breaks_of(const Columns& row, size_t wide) {
   const size_t n = row.size();
   Columns mean(n), breaks(n);
@@ -74,7 +74,8 @@ Columns breaks_of(const Columns& row, size_t wide) {
   return breaks;
 }
 
-// A seam is compared with the columns where JPEG's blocks end, as it does. The last of them is the seam.
+// The columns that the seam is compared with, at the ends of JPEG's blocks, as the seam is. The last of them is the
+// seam.
 constexpr size_t kSeamBlock = 8;
 
 Columns compared_columns(const Columns& columns) {
@@ -84,7 +85,7 @@ Columns compared_columns(const Columns& columns) {
   return some;
 }
 
-// The breaks after those columns, over what is usual in their row.
+// The breaks after these columns, relative to the usual break in their row.
 Columns sharpness_of(const Columns& row, size_t wide) {
   Columns some = compared_columns(breaks_of(row, wide));
   const double usual = median(some);
@@ -92,8 +93,7 @@ Columns sharpness_of(const Columns& row, size_t wide) {
   return some;
 }
 
-// By how much the steps after those columns exceed what the ones right before and after them allow, over those farther
-// off.
+// The excess of the steps after these columns over the adjacent steps, relative to the steps farther away.
 Columns excess_of(const Columns& row) {
   const size_t n = row.size();
   Columns step(n), excess(n);
@@ -107,8 +107,8 @@ Columns excess_of(const Columns& row) {
   return compared_columns(excess);
 }
 
-// How sharply each of those columns breaks in all rows and in both eyes: a vertical edge of the scene is sharp in some
-// rows, and at another column in each eye. sharpness: of a row's columns.
+// The sharpness of the break after each of these columns in all rows and in both eyes: a vertical edge of the scene is
+// sharp in some rows only, and at another column in each eye. sharpness: of a row's columns.
 Columns measure(const std::vector<Image>& eyes, const std::function<Columns(const Columns&)>& sharpness) {
   Columns score;
   for (int i = 0; i < kBlocks; i++) {
@@ -123,7 +123,7 @@ Columns measure(const std::vector<Image>& eyes, const std::function<Columns(cons
   return score;
 }
 
-// The seam's score and the greatest of the others.
+// The seam's score and the maximum of the others.
 struct Break {
   double seam = 0.0, others = 1.0;
   double ratio() const { return seam / others; }
@@ -137,7 +137,7 @@ double ramp(double value, double from, double to) {
   return std::clamp((value - from) / (to - from), 0.0, 1.0);
 }
 
-// How sharply means of columns break, for each of kWidths.
+// Sharpness of the breaks between means of columns, for each of kWidths.
 std::vector<Columns> coarse_scores(const std::vector<Image>& eyes) {
   std::vector<Columns> scores;
   for (const size_t wide : kWidths) {
@@ -146,7 +146,7 @@ std::vector<Columns> coarse_scores(const std::vector<Image>& eyes) {
   return scores;
 }
 
-// Whether there is anything beside the seam that could break.
+// Returns whether there is structure beside the seam that could break.
 bool has_structure(const std::vector<Columns>& scores) {
   return std::any_of(scores.begin(), scores.end(), [](const Columns& score) {
     const size_t n = score.size();
@@ -154,8 +154,8 @@ bool has_structure(const std::vector<Columns>& scores) {
   });
 }
 
-// How much the seam's columns differ beyond what the ones beside them do, as displayed: the mean of all rows. What is
-// below a code value or two, nobody sees.
+// The difference of the seam's columns beyond that of adjacent columns, as displayed: the mean of all rows. Differences
+// below a code value or two are invisible.
 double step_at_seam(const std::vector<Image>& eyes, size_t wide) {
   double step = 0.0;
   for (int i = 0; i < kBlocks; i++) {
@@ -166,7 +166,7 @@ double step_at_seam(const std::vector<Image>& eyes, size_t wide) {
   return step;
 }
 
-// Where the seam exceeds the others most.
+// The break whose seam exceeds the others most.
 Break coarse_break(const std::vector<Columns>& scores) {
   Break found;
   for (const Columns& score : scores) {
@@ -176,7 +176,7 @@ Break coarse_break(const std::vector<Columns>& scores) {
   return found;
 }
 
-// Returns false if there is nothing near the seam that could break.
+// Returns false if there is no structure near the seam that could break.
 bool check_break(const std::vector<Image>& eyes, bool is_smoothed, LintReport& report) {
   const std::vector<Columns> coarse = coarse_scores(eyes);
   const Break found = is_smoothed ? coarse_break(coarse) : break_of(measure(eyes, excess_of), 0.02);
@@ -201,7 +201,7 @@ bool has_smoothed_blocks(const Subject& subject) {
   return subject.is_video || format_of_path(subject.path) == FileFormat::kWebp;
 }
 
-// Edges at 0 and at 360 degrees are the same direction; if both are rendered, every turn of the head shows it twice.
+// The edges at 0 and at 360 degrees are the same direction; if both are rendered, the column appears twice.
 void check_doubled(const std::vector<Image>& eyes, LintReport& report) {
   std::vector<double> steps(static_cast<size_t>(eyes[0].width));
   for (int i = 0; i < kBlocks; i++) {
@@ -220,8 +220,8 @@ void check_doubled(const std::vector<Image>& eyes, LintReport& report) {
 
 // --- a repeated strip ------------------------------------------------------------------------------------------------
 
-// How alike the strips of `width` columns are that begin at two columns: their normalised cross-correlation, each row
-// without its mean. Without detail: 0.
+// The similarity of the strips of `width` columns that begin at two columns: their normalised cross-correlation, each
+// row without its mean. 0 without detail.
 double likeness(const std::vector<Image>& eyes, int one, int other, int width) {
   double product = 0.0, square = 0.0, square_other = 0.0;
   for (int k = 0; k < kBlocks * static_cast<int>(eyes.size()); k++) {
@@ -242,8 +242,8 @@ double likeness(const std::vector<Image>& eyes, int one, int other, int width) {
   return square > least && square_other > least ? product / std::sqrt(square * square_other) : 0.0;
 }
 
-// The last columns show what the first ones do, as where a stitcher's overlap was left in. The same distance elsewhere
-// in the picture tells how alike neighbours are anyway.
+// Finds last columns that repeat the first ones, for example because a stitcher's overlap was left in. The similarity
+// at the same distance elsewhere in the picture is the reference.
 void check_overlap(const std::vector<Image>& eyes, LintReport& report) {
   const int width = eyes[0].width, least = std::max(4, width / 200), most = width * 15 / 100;
   int overlap = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Checks a picture's size without its pixels.
+// Checks a picture's size, without its pixels.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace ods {
 
 constexpr double kVideoRate = 30.0;  // pictures per second
 
-// Two eyes squeezed into 16:9, which decoders like and players stretch.
+// Two eyes squeezed into 16:9, which decoders support well and players stretch.
 static bool is_squeezed_sphere(const Subject& subject, Extent file) {
   const bool has_eyes = arrangement_of(subject.layout()).is_halves() && is_full_lat_long(subject.projection());
   return has_eyes && std::abs(file.width * 9 - file.height * 16) <= 16;
@@ -57,7 +57,7 @@ static void check_video(LintReport& report) {
                              "as a still it is fine; videos of 5760x5760 or less play (ods sizes lists the levels)"});
 }
 
-// Where WebGL's MAX_TEXTURE_SIZE is smallest (ods/camera/sizes.h).
+// The smallest MAX_TEXTURE_SIZE of WebGL on headsets (ods/camera/sizes.h).
 constexpr int kTexture = 8192;
 
 static void check_headsets(LintReport& report) {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Sharpness of one eye against the other. Tiles that match show the same edges: in each, the energy of second
-// differences over two pixels, relative to the tile's contrast, is compared between the eyes. A blurred eye has less
-// nearly everywhere; depth of field and motion differ here and there only.
+// Compares the sharpness of the eyes. Tiles that match show the same edges: in each, the energy of second differences
+// over two pixels, relative to the tile's contrast, is compared between the eyes. A blurred eye has less nearly
+// everywhere; depth of field and motion differ in some places only.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,11 +17,11 @@ namespace ods {
 
 namespace {
 
-constexpr int kStep = 2;              // pixels of the eye: what one resampling takes off is finer
-constexpr int kHalf = 12;             // of a patch
-constexpr size_t kMostPatches = 400;  // more say no more
+constexpr int kStep = 2;              // pixels of the eye: a single resampling removes only finer detail
+constexpr int kHalf = 12;             // half size of a patch
+constexpr size_t kMostPatches = 400;  // more do not improve the result
 constexpr size_t kEnoughBlocks = 20;
-constexpr float kContrast = 1e-3f;  // least variance of a patch, of the square root of light
+constexpr float kContrast = 1e-3f;  // minimum variance of a patch, of the square root of light
 
 struct Center {
   int x = 0, y = 0;
@@ -38,7 +38,7 @@ std::optional<Center> center_of(const Projection& projection, const Image& eye, 
   return fits ? std::optional(center) : std::nullopt;
 }
 
-// Energy of second differences over variance; none without contrast.
+// Energy of second differences over variance. Returns nullopt without contrast.
 std::optional<double> fineness_of(const Image& eye, Center center, float unit) {
   const auto shown = [&](int x, int y) { return std::sqrt(std::clamp(*eye.at(x, y) * unit, 0.0f, 1.0f)); };
   double sum = 0.0, square = 0.0, energy = 0.0;
@@ -57,7 +57,7 @@ std::optional<double> fineness_of(const Image& eye, Center center, float unit) {
   return energy / count / variance;
 }
 
-// The logarithm of the right eye's fineness over the left one's, for each place that has both.
+// The logarithm of the right eye's fineness over the left one's, for each place where both are known.
 std::vector<double> ratios_of(const Subject& subject) {
   const Projection projection = make_projection(subject.projection());
   const std::vector<Match>& found = subject.matches.back().found;

@@ -48,7 +48,7 @@ std::vector<Image> small_colors(const StoredPicture& picture, Layout layout) {
   return small;
 }
 
-// Lint sees the eyes in the order that players do: whether it is the right one, it finds out itself.
+// Lint reads the eyes in the order that players assume, because it checks the order itself.
 static Identity left_first(Identity identity) {
   std::vector<Reading>& readings = identity.readings;
   for (size_t i = 0; i < readings.size(); i++) {
@@ -66,8 +66,8 @@ static Identity left_first(Identity identity) {
   return identity;
 }
 
-// Players go by a shape, and what is wrong with that is to be found. So the pixels tell only if they show what no such
-// shape has: circles, faces of a cube, or halves of the sphere.
+// Players go by the aspect ratio, and lint looks for its contradictions. So the pixels decide only if they show
+// something that no picture of this aspect ratio has: circles, faces of a cube, or halves of the sphere.
 static void look_at_pixels(Subject& subject, const StoredPicture& whole, const FormatHint& known) {
   if (!subject.format.is_open) return;
   const Identity identity = left_first(identify(whole, with_words(known, subject.format)));
@@ -78,7 +78,7 @@ static void look_at_pixels(Subject& subject, const StoredPicture& whole, const F
   subject.format = find_format(subject.info, subject.path, with_seen(known, subject.format, identity));
 }
 
-// Cuts packed eyes here, so that the file can be cut in other ways too.
+// Packed eyes are cut here, so that the file can be cut in other ways too.
 static void load(Subject& subject, const LintOptions& options) {
   const std::string& path = subject.path;
   subject.info = read_info(names_eye(path) ? path_for_eye(path, kLeft) : path);
@@ -143,9 +143,9 @@ void align(Subject& subject) {
   }
 }
 
-// --- cures -----------------------------------------------------------------------------------------------------------
+// --- corrections -----------------------------------------------------------------------------------------------------
 
-// As a shell takes it for one word.
+// Quotes a path as one word for the shell.
 static std::string quoted(const std::string& path) {
   const auto is_plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("._/%+-", c); };
   if (!path.empty() && std::all_of(path.begin(), path.end(), is_plain)) return path;

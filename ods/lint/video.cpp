@@ -21,9 +21,9 @@ namespace ods {
 namespace {
 
 constexpr int kUsualFrames = 24;
-constexpr int kSettled = 6;  // frames after a cut: both eyes have it, if late, and the codec has done its best
+constexpr int kSettled = 6;  // frames after a cut: even a late eye has reached it, and the codec has recovered
 
-// The eyes as the video has them.
+// Packs the eyes as the video has them.
 Image packed_image(Layout layout, const std::vector<Image>& eyes) {
   const Extent eye{eyes[0].width, eyes[0].height};
   const int count = static_cast<int>(eyes.size());
@@ -37,7 +37,7 @@ Image packed_image(Layout layout, const std::vector<Image>& eyes) {
   return packed;
 }
 
-// Where the layout comes from, for findings about it.
+// The source of the layout, for findings about it.
 LayoutGuess layout_of(const VideoInput& video, const LintOptions& options) {
   LayoutGuess guess;
   if (video.prototype.eyes.size() == 2) guess.layout = video.prototype.layout;
@@ -70,14 +70,14 @@ Subject subject_of(const VideoInput& video, const VideoStream& stream, const Sto
   return subject;
 }
 
-// What the judged frames of a shot say.
+// The findings of the judged frames of a shot.
 struct Shot {
   int frames = 0;
   int judged = 0;
-  std::map<Fault, std::vector<std::pair<double, Finding>>> found;  // with their times
+  std::map<Fault, std::vector<std::pair<double, Finding>>> found;  // with the times of their frames
 };
 
-// A fault of a shot: that of the frame whose certainty is the median, frames without it counting as 0.
+// A shot's finding is the one of the frame with the median certainty; frames without it count as 0.
 std::optional<Finding> verdict(int judged, std::vector<std::pair<double, Finding>> found) {
   if (2 * found.size() <= static_cast<size_t>(judged)) return {};
   std::vector<double> times;
@@ -147,7 +147,8 @@ class VideoJudge {
     shot_ = {};
   }
 
-  // The surest finding of all shots, with the times of those that are as sure.
+  // The report on the whole video: for each fault its most certain finding, with the times of all shots that have it
+  // with similar certainty.
   LintReport finish() {
     LintReport report = report_;
     report.frames = trace_.frames(), report.judged_frames = frames_;
@@ -172,7 +173,7 @@ class VideoJudge {
     return report;
   }
 
-  // What the container says, against itself, the name and players.
+  // Checks the container's metadata against itself, the name and the players.
   void add_container(LintReport& report) const {
     const VideoFile file = read_video_file(video_.path);
     const VideoTrack& track = choose_track(file, static_cast<int>(video_.track), video_.path);
@@ -184,12 +185,12 @@ class VideoJudge {
   VideoDecoder decoder_;
   FrameTrace trace_;
   int every_ = 1;
-  int frames_ = 0;  // that were judged
+  int frames_ = 0;  // number of judged frames
   Shot shot_;
-  std::map<Fault, std::vector<Finding>> findings_;  // of shots
+  std::map<Fault, std::vector<Finding>> findings_;  // per shot
   std::map<Check, int> judged_;
   std::map<Check, std::string> why_not_;
-  LintReport report_;  // of the last frame that was judged
+  LintReport report_;  // report of the last judged frame
 };
 
 }  // namespace

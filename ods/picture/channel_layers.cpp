@@ -22,7 +22,7 @@ LayerRule rule_of(const std::string& layer, const std::string& channel, bool is_
   for (const std::string& name : {last, small_letters(channel), group.substr(0, group.find('.'))}) {
     nearest = nearest || std::find(std::begin(kWords), std::end(kWords), name) != std::end(kWords);
   }
-  // Normals and positions have a Z, too.
+  // Normals and positions also have a Z.
   if (small_letters(channel) == "z" && !layer.empty() && last != "depth" && last != "z") nearest = packed;
   return nearest ? LayerRule::kNearest : LayerRule::kMean;
 }

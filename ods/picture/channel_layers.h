@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which channels of a file make up which layer of which eye, by their names. `right.N.X` and `N.right.X` are channel X
-// of layer N of the right view.
+// Assigns the channels of a file to layers and eyes by their names. `right.N.X` and `N.right.X` are channel X of layer
+// N of the right view.
 #pragma once
 #include <map>
 #include <optional>
@@ -18,7 +18,7 @@ namespace ods {
 struct ChannelLayer {
   std::string name;                   // N, albedo; empty for the colour and for single channels
   std::vector<std::string> channels;  // without the view
-  std::vector<size_t> from;           // their numbers in the file
+  std::vector<size_t> from;           // their indices in the file
   LayerRule rule = LayerRule::kMean;
   SampleType sample = SampleType::kUint8;
 };
@@ -26,20 +26,20 @@ struct ChannelLayer {
 // `ViewLayer.Depth.Z` is Z of ViewLayer.Depth.
 std::pair<std::string, std::string> split_name(const std::string& channel);
 
-// Depth, ids, indices, materials, variance and cryptomatte take the nearest pixel; all other layers average.
+// Depth, ids, indices, materials, variance and cryptomatte use the nearest pixel; all other layers are averaged.
 LayerRule rule_of(const std::string& layer, const std::string& channel, bool is_whole_number);
 
-// The channels of one view: name without the view, number in the file.
+// The channels of one view: name without the view, index in the file.
 using ViewChannels = std::map<std::string, size_t>;
 
 // Bare names belong to the view that `is_default`. A file of one view ("") has all of them.
 ViewChannels channels_of_view(const FileInfo& info, const std::string& view, bool is_default);
 
-// R, G, B and perhaps A of the colour; of grey files Y and A; else the layer that ends in Combined.
-// Takes them out of `channels`.
+// R, G, B and perhaps A of the colour; Y and A of grey files; otherwise the layer that ends in Combined. Removes them
+// from `channels`.
 std::optional<ChannelLayer> take_color(ViewChannels& channels);
 
-// The layers that are left: channels in the order of the file, layers in that of their names, the same in both views.
+// The remaining layers: channels in the order of the file, layers in the order of their names, the same in both views.
 std::vector<ChannelLayer> other_layers(const ViewChannels& channels, const RowReader& reader);
 
 }  // namespace ods

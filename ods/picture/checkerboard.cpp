@@ -27,7 +27,7 @@ const std::byte* pixel_at(const LayerPixels& layer, int x, int y) {
   return layer.first + y * layer.row_stride + x * layer.pixel_stride;
 }
 
-// Code values become light that is multiplied by alpha; all else stays.
+// Converts code values to light multiplied by alpha; other numbers are not changed.
 void read_pixel(const LayerPixels& layer, const std::byte* at, std::vector<float>& values) {
   const size_t count = layer.channels.size();
   for (size_t c = 0; c < count; c++) values[c] = sample_value(layer.sample, at + c * bytes_of(layer.sample));
@@ -76,7 +76,7 @@ void fill_from_neighbours(const LayerPixels& layer, const Neighbours& from, std:
   }
 }
 
-// The layer of one eye, its rows one after the other from `to` on.
+// Copies the layer of one eye, row by row, to `to`.
 LayerPixels take_out(const LayerPixels& layer, int index, Extent size, std::byte* to) {
   LayerPixels own = layer;
   own.first = to;

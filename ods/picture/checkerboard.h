@@ -5,9 +5,10 @@
 
 namespace ods {
 
-// Gives each eye of a checkerboard pixels of its own. What the file leaves out of an eye is filled from its neighbours
-// (layout.h): colours get their mean in linear light, layers of LayerRule::kNearest the one with the lowest first
-// channel, others the mean. Precondition: both eyes are views of the whole file. Throws as Scratch does.
+// Gives each eye of a checkerboard its own pixels. Pixels of an eye that are missing in the file are filled from the
+// adjacent ones (layout.h): colours with the mean in linear light, layers of LayerRule::kNearest with the pixel whose
+// first channel is lowest, others with the mean. Precondition: both eyes are views of the whole file. Throws like
+// Scratch.
 void take_checkerboard_apart(StoredPicture& picture, const OpenOptions& options);
 
 }  // namespace ods

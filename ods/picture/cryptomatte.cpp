@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -13,6 +14,7 @@
 #include <utility>
 
 #include "ods/base/error.h"
+#include "ods/base/quote.h"
 #include "ods/base/text.h"
 #include "ods/files/confined_file.h"
 #include "ods/files/read_file.h"
@@ -22,7 +24,9 @@ namespace ods {
 
 namespace {
 
-constexpr std::string_view kMatteAttributes = "cryptomatte/";  // how the names of its attributes begin
+constexpr std::string_view kMatteAttributes = "cryptomatte/";  // prefix of its attributes' names
+constexpr const char* kManifest = "manifest";
+constexpr const char* kManifestFile = "manif_file";
 constexpr const char* kOwnLayer = "CryptoObject";
 
 // The names of a manifest: {"name": "hexadecimal number", ...}.
@@ -37,13 +41,16 @@ std::map<float, std::string> read_manifest(const std::string& text) {
         digits.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos) {
       continue;
     }
-    names[std::bit_cast<float>(static_cast<uint32_t>(std::stoul(digits, nullptr, 16)))] = name;
+    const auto number = std::bit_cast<float>(static_cast<uint32_t>(std::stoul(digits, nullptr, 16)));
+    if (!std::isnan(number)) names[number] = name;
   }
   return names;
 }
 
-std::string hexadecimal(float number) {
-  return fmt::format("{:08x}", std::bit_cast<uint32_t>(number));
+std::string manifest_text(const std::map<float, std::string>& names) {
+  nlohmann::json manifest = nlohmann::json::object();
+  for (const auto& [number, name] : names) manifest[name] = fmt::format("{:08x}", std::bit_cast<uint32_t>(number));
+  return json_document(manifest);
 }
 
 }  // namespace
@@ -74,19 +81,30 @@ float matte_number(std::string_view name) {
   return std::bit_cast<float>(hash);
 }
 
-// The text of a manifest that is a file beside the picture; empty if it cannot be read.
-static std::string manifest_beside(const std::string& picture, const std::string& name) {
+// The names of a manifest that is a file: NAME.json, not hidden, beside the picture. None if it cannot be read.
+static std::map<float, std::string> names_beside(const std::string& picture, const std::string& name) {
   constexpr size_t kMostBytes = size_t{64} << 20u;
+  if (name.find('/') != std::string::npos || name.starts_with('.') || !small_letters(name).ends_with(".json"))
+    return {};
   try {
     const std::filesystem::path folder = std::filesystem::canonical(picture).parent_path();
-    return ConfinedFile((folder / name).string(), folder.string()).read([](const std::string& opened) {
-      const std::vector<unsigned char> bytes = read_file(opened, kMostBytes);
-      return std::string(bytes.begin(), bytes.end());
-    });
+    const ConfinedFile file((folder / name).string(), folder.string(), Reach::kDirectly);
+    const std::vector<unsigned char> bytes =
+        file.read([](const std::string& opened) { return read_file(opened, kMostBytes); });
+    return read_manifest({bytes.begin(), bytes.end()});
   } catch (const Error&) {
   } catch (const std::filesystem::filesystem_error&) {
   }
-  return "";
+  return {};
+}
+
+// The names of the Cryptomatte whose attributes begin like this, "cryptomatte/3ae39a5/".
+static std::map<float, std::string> names_of(const FileInfo& info, const std::string& key, const std::string& picture) {
+  const auto own = info.text.find(key + kManifest), file = info.text.find(key + kManifestFile);
+  std::map<float, std::string> names;
+  if (own != info.text.end()) names = read_manifest(own->second);
+  if (names.empty() && file != info.text.end()) names = names_beside(picture, file->second);
+  return names;
 }
 
 std::optional<Cryptomatte> find_cryptomatte(const FileInfo& info, const std::string& path) {
@@ -94,27 +112,19 @@ std::optional<Cryptomatte> find_cryptomatte(const FileInfo& info, const std::str
   for (const auto& [attribute, layer] : info.text) {
     if (!attribute.starts_with(kMatteAttributes) || !attribute.ends_with("/name")) continue;
     const bool is_better = !found || small_letters(layer).find("object") != std::string::npos;
-    if (!is_better) continue;
-    found = Cryptomatte{layer, {}};
-    const std::string key = attribute.substr(0, attribute.size() - 4);
-    const auto manifest = info.text.find(key + "manifest"), file = info.text.find(key + "manif_file");
-    if (manifest != info.text.end()) found->names = read_manifest(manifest->second);
-    if (file != info.text.end() && found->names.empty()) {
-      found->names = read_manifest(manifest_beside(path, file->second));
-    }
+    if (is_better) found = Cryptomatte{layer, names_of(info, attribute.substr(0, attribute.size() - 4), path)};
   }
   return found;
 }
 
 std::vector<Attribute> matte_attributes(const FileInfo& info, const std::string& path) {
-  constexpr std::string_view kFile = "manif_file";
   std::vector<Attribute> attributes;
-  for (const auto& [key, text] : info.text) {
-    if (!key.starts_with(kMatteAttributes)) continue;
-    std::string manifest = key;
-    if (key.ends_with(kFile)) manifest.replace(key.size() - kFile.size(), kFile.size(), "manifest");
-    const std::string names = info.text.contains(manifest) ? "" : manifest_beside(path, text);
-    attributes.push_back(names.empty() ? Attribute{key, text} : Attribute{manifest, names});
+  for (const auto& [name, text] : info.text) {
+    if (!name.starts_with(kMatteAttributes)) continue;
+    const std::string key = name.substr(0, name.rfind('/') + 1);
+    const bool is_file = name == key + kManifestFile && !info.text.contains(key + kManifest);
+    const std::map<float, std::string> names = is_file ? names_of(info, key, path) : std::map<float, std::string>();
+    attributes.push_back(names.empty() ? Attribute{name, text} : Attribute{key + kManifest, manifest_text(names)});
   }
   return attributes;
 }
@@ -152,16 +162,15 @@ Image matte_of_eye(const StoredPicture& picture, size_t eye, const Cryptomatte& 
 
 void add_cryptomatte(PictureRows& rows, SaveOptions& save, std::vector<Image> numbers,
                      const std::vector<std::string>& names) {
-  nlohmann::json manifest = nlohmann::json::object();
+  std::map<float, std::string> numbered;
   for (const std::string& name : names) {
-    if (!name.empty()) manifest[name] = hexadecimal(matte_number(name));
+    if (!name.empty()) numbered[matte_number(name)] = name;
   }
   const std::string key = fmt::format("{}{:07x}/", kMatteAttributes, murmur3(kOwnLayer) >> 4);
   save.attributes.push_back({key + "name", std::string(kOwnLayer)});
   save.attributes.push_back({key + "hash", std::string("MurmurHash3_32")});
   save.attributes.push_back({key + "conversion", std::string("uint32_to_float32")});
-  save.attributes.push_back(
-      {key + "manifest", manifest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)});
+  save.attributes.push_back({key + kManifest, manifest_text(numbered)});
   const size_t before = count_channels(rows.layers);
   RowLayer layer{{}, LayerRule::kNearest, SampleType::kFloat};
   for (const char* channel : {"R", "G", "B", "A"}) layer.channels.push_back(fmt::format("{}00.{}", kOwnLayer, channel));
@@ -171,7 +180,7 @@ void add_cryptomatte(PictureRows& rows, SaveOptions& save, std::vector<Image> nu
     const Image& own = (*all)[static_cast<size_t>(index)];
     const size_t stride = before + 4, width = static_cast<size_t>(own.width);
     fill(index, y, row.first(before * width));
-    // From the last pixel on, for they move to the right.
+    // From the last pixel backwards, because pixels move to the right.
     for (size_t x = width; x-- > 0;) {
       std::copy_backward(&row[x * before], &row[x * before] + before, &row[x * stride] + before);
       const float number = *own.at(static_cast<int>(x), y);

@@ -18,14 +18,14 @@ namespace ods {
 struct LoadedEyes {
   std::vector<Image> eyes;      // linear light, 3 channels; left and right, or just one
   std::vector<Image> variance;  // variance of the noise in `eyes`, if an EXR has variance.R, G and B; else empty
-  LayoutGuess guess;            // how the file was understood
-  std::string projection = "lat-long";  // by name, as find_format() finds it
+  LayoutGuess guess;            // source of the layout
+  std::string projection = "lat-long";  // by name, as found by find_format()
   bool is_float = false;                // scene-linear file; else display-encoded, and decoded here
   std::string color_fault;              // as in StoredPicture
 };
 
 // A path with %V or %v names two files. If `layout` is given, it is not guessed; kSeparate without %V reads the file as
-// one eye. Squeezed eyes remain squeezed; alpha is dropped. Throws as open_picture() does.
+// one eye. Squeezed eyes remain squeezed; alpha is dropped. Throws the same errors as open_picture().
 LoadedEyes load_eyes(const std::string& path, std::optional<Layout> layout = {});
 
 // Passes the rows of an eye to `put`, from the top: red, green and blue of each pixel in linear light; NaN and infinity

@@ -11,7 +11,7 @@
 
 namespace ods {
 
-// How to combine a layer's values when a picture is resized.
+// The method of combining a layer's values when a picture is resized.
 enum class LayerRule {
   kLight,    // colour: averaged in linear light, premultiplied by alpha
   kMean,     // values that may be averaged: normals, albedo
@@ -21,7 +21,7 @@ enum class LayerRule {
 // Depth of a ray that hit nothing.
 inline constexpr float kFarDepth = 1e10f;
 
-// Whether a depth is that of a surface: not of a ray that hit nothing, and not invalid (NaN, 0 or less).
+// Returns whether a depth belongs to a surface: neither a ray that hit nothing, nor invalid (NaN, 0 or less).
 inline bool is_surface(float depth) {
   return depth > 0.0f && depth < 0.1f * kFarDepth;
 }
@@ -31,7 +31,8 @@ inline float inverse_depth(float depth) {
   return is_surface(depth) ? 1.0f / depth : 0.0f;
 }
 
-// Whether neighbours are on one surface, not on a thing and its background. Both as 1 / metres, 0 where there is none.
+// Returns whether adjacent pixels are on one surface, instead of on an object and its background. Both as 1 / metres, 0
+// where there is no surface.
 inline bool is_one_surface(float a, float b) {
   return std::abs(a - b) <= 0.1f * std::max(a, b);
 }
@@ -39,14 +40,14 @@ inline bool is_one_surface(float a, float b) {
 struct EyeImage {
   int eye = 0;     // kLeft, kRight or kMono (ods/kernel/camera/camera.h)
   Image radiance;  // 3 channels, Rec. 709 primaries
-  Image depth;     // 1 channel: metres along the pixel centre's ray from its own origin; kFarDepth: no hit
-  Image normal;    // 3 channels: world space, first hit, averaged over the pixel; 0: no hit
+  Image depth;     // 1 channel: metres along the pixel centre's ray from its own origin; kFarDepth for no hit
+  Image normal;    // 3 channels: world space, first hit, averaged over the pixel; 0 for no hit
   Image albedo;    // 3 channels: first hit, averaged over the pixel
-  Image alpha{};   // 1 channel: coverage; radiance is premultiplied by it. Empty: 1 everywhere
+  Image alpha{};   // 1 channel: coverage; radiance is premultiplied by it. If empty, 1 everywhere
 
-  // How noisy the radiance is, for denoising.
+  // The noise of the radiance, for denoising.
   Image variance{};  // 3 channels: of the pixel's mean, as if its samples were independent
-  Image samples{};   // 1 channel: how many samples the pixel has
+  Image samples{};   // 1 channel: number of samples of the pixel
   Image raw{};       // 3 channels: the radiance before it was denoised
 };
 
@@ -55,7 +56,7 @@ struct EyeImage {
 // (RenderOptions::statistics).
 struct Picture {
   std::vector<EyeImage> eyes;
-  double samples_taken = 0.0;  // by the renderer, in all pixels together
+  double samples_taken = 0.0;  // total number of samples of all pixels taken by the renderer
 };
 
 }  // namespace ods

@@ -12,6 +12,7 @@
 
 #include "ods/base/error.h"
 #include "ods/files/atomic_file.h"
+#include "ods/image/format/image_limits.h"
 #include "ods/image/image_file.h"
 #include "ods/picture/anaglyph.h"
 #include "ods/picture/metadata/metadata.h"
@@ -60,6 +61,8 @@ static void check_layout(const std::string& path, FileFormat format, const SaveO
     throw unfit(path, fmt::format("{}x{} pixels are too many for this format; use .exr, .tif or .png", size.width,
                                   size.height));
   }
+  const std::string fault = image_size_fault(size.width, size.height);
+  if (!fault.empty()) throw unfit(path, fault + ", beyond which ods could not read it; give a smaller width");
 }
 
 static FileFormat format_for(const std::string& path) {
@@ -112,7 +115,7 @@ static bool carries_gpano(FileFormat format) {
   return format == FileFormat::kPng || format == FileFormat::kJpeg || format == FileFormat::kTiff;
 }
 
-// The view comes before the last word, except for bare names of the default view.
+// The view comes before the last component, except in bare names of the default view.
 static std::string channel_name(const std::string& channel, std::string_view view, bool is_default) {
   const size_t point = channel.rfind('.');
   const size_t last = point == std::string::npos ? 0 : point + 1;
@@ -161,7 +164,7 @@ namespace {
 // One output file, with some eyes of a picture.
 struct File {
   const PictureRows& picture;
-  std::vector<int> indices;  // of the eyes in this file
+  std::vector<int> indices;  // indices of the eyes in this file
   FileFormat format;
   Layout layout;
   const SaveOptions& options;
@@ -183,7 +186,7 @@ size_t count_channels(const std::vector<RowLayer>& layers) {
   return count;
 }
 
-// `pixels` are one row of the eye apart and are combined into one; `first` is the layer's first channel.
+// Combines rows of pixels of an eye into one; `first` is the layer's first channel.
 static void squeeze_layer(const RowLayer& layer, const std::vector<const float*>& pixels, size_t first, float* out) {
   const size_t count = layer.channels.size();
   if (layer.rule == LayerRule::kNearest) {
@@ -202,7 +205,7 @@ static void squeeze_layer(const RowLayer& layer, const std::vector<const float*>
   }
 }
 
-// Row y of an eye as stored: squeezed.
+// Row y of an eye as stored, that is, squeezed.
 static std::vector<float> read_row(const File& file, int index, int y) {
   const Extent eye = file.picture.eye, squeeze = file.squeeze;
   const size_t length = static_cast<size_t>(eye.width) * file.channels;
@@ -310,7 +313,7 @@ static FileHeader make_header(const File& file, const StereoCamera* camera) {
   return header;
 }
 
-// The pixels of an eye's row that an interleaved row has, to their places in it.
+// Copies the pixels of an eye's row that an interleaved row contains to their positions in it.
 static void scatter_row(const std::vector<float>& eye, const EyeRow& part, size_t stride, std::span<float> row) {
   const auto first = static_cast<size_t>(part.first), every = static_cast<size_t>(part.every);
   size_t to = static_cast<size_t>(part.x);
@@ -319,7 +322,7 @@ static void scatter_row(const std::vector<float>& eye, const EyeRow& part, size_
   }
 }
 
-static void write_picture(AtomicFile& out, const File& file, const StereoCamera* camera) {
+static void write_picture(ByteSink& out, const File& file, const StereoCamera* camera) {
   const FileHeader header = make_header(file, camera);
   const int count = static_cast<int>(file.indices.size());
   const Extent eye = stored_eye(file);
@@ -387,7 +390,7 @@ std::vector<std::string> save_picture(const PictureRows& picture, const StereoCa
   } else {
     write(path, all);
   }
-  // An existing sidecar is rewritten, too: it would describe a picture that is gone.
+  // An existing sidecar is rewritten, too, because it describes the replaced picture.
   std::error_code ignored;
   if (camera && (options.sidecar || std::filesystem::exists(sidecar_path(path), ignored))) {
     names.push_back(sidecar_path(path));
@@ -396,6 +399,17 @@ std::vector<std::string> save_picture(const PictureRows& picture, const StereoCa
   }
   commit_all(files);
   return names;
+}
+
+std::string eye_bytes(const PictureRows& picture, int index, FileFormat format, const SaveOptions& options) {
+  const std::string name = fmt::format("the {} eye", eye_name(picture.eyes[static_cast<size_t>(index)]));
+  if (std::max(picture.eye.width, picture.eye.height) > longest_side(format)) {
+    throw unfit(name, fmt::format("{}x{} pixels are too many for this format", picture.eye.width, picture.eye.height));
+  }
+  MemorySink memory(name);
+  const File file{picture, {index}, format, Layout::kSeparate, options, count_channels(picture.layers), {1, 1}};
+  write_picture(memory, file, nullptr);
+  return memory.take();
 }
 
 // --- a picture in memory -------------------------------------------------------------------------------------------
@@ -431,7 +445,7 @@ PictureRows rows_of(const Picture& picture, bool all_layers) {
     images.push_back(each.image);
     rows.layers.push_back(each.layer);
     if (images.size() > 1 || picture.eyes[0].alpha.pixels.empty()) continue;
-    images.push_back(&EyeImage::alpha);  // follows the colour as its fourth channel
+    images.push_back(&EyeImage::alpha);  // is the fourth channel of the colour
     rows.layers[0].channels.push_back("A");
   }
   for (const EyeImage& eye : picture.eyes) rows.eyes.push_back(eye.eye);

@@ -3,23 +3,23 @@
 //
 // Saves a rendered picture. The file extension selects the format.
 //
-// png, jpg, jpeg, tif, tiff and webp are display-referred: exposure, tone curve, sRGB, 8 bits. hdr and exr hold the
+// png, jpg, jpeg, tif, tiff and webp are display-referred: exposure, tone curve, sRGB, 8 bits. hdr and exr contain the
 // scene-linear light as rendered: Rec. 709, without exposure or tone curve. Eyes are squeezed in scene-linear light, as
-// if rendered with larger pixels; of two depths the nearer is kept. No file holds NaN (it becomes 0) or infinity (it
-// becomes the largest number of the format).
+// if rendered with larger pixels; of two depths the smaller one is kept. Files do not contain NaN (it becomes 0) or
+// infinity (it becomes the largest number of the format).
 //
-// exr holds 16-bit floats and adds to every eye Z (32 bits; metres along the ray from its own origin), N.X N.Y N.Z and
-// albedo.R G B, or the layers of a picture made by rows. Its header has chromaticities, ods:version, ods:layout,
+// exr contains 16-bit floats and adds to every eye Z (32 bits; metres along the ray from its own origin), N.X N.Y N.Z
+// and albedo.R G B, or the layers of a picture made by rows. Its header has chromaticities, ods:version, ods:layout,
 // ods:depthType and the camera (ods/picture/metadata/metadata.h); for one eye also envmap and view. Multi-view follows
 // "Storing Multi-View Images in OpenEXR Files", single part: `left` is the default view with bare R G B Z; in other
-// channels the view comes before the last word: right.R, N.left.X, albedo.right.G.
+// channels the view comes before the last component: right.R, N.left.X, albedo.right.G.
 //
 // Alpha: png, tif and webp store unpremultiplied colours, exr premultiplied ones; jpg, hdr and anaglyphs show the
 // picture over black.
 //
 // A png, jpg or tif of one eye carries GPano. A stereo one does not, because GPano has no stereo and viewers would wrap
-// both eyes around one sphere. But NAME.vr.jpg with two eyes is a VR photo: the left eye with GPano and the
-// right one embedded (ods/picture/metadata/vr_photo.h), whatever the layout.
+// both eyes around one sphere. But NAME.vr.jpg with two eyes is a VR photo: the left eye with GPano and the right one
+// embedded (ods/picture/metadata/vr_photo.h), whatever the layout.
 #pragma once
 #include <functional>
 #include <span>
@@ -29,6 +29,7 @@
 #include "ods/camera/layout.h"
 #include "ods/camera/stereo_camera.h"
 #include "ods/image/format/attribute.h"
+#include "ods/image/format/file_format.h"
 #include "ods/image/format/sample_type.h"
 #include "ods/image/tone.h"
 #include "ods/picture/picture.h"
@@ -36,39 +37,40 @@
 namespace ods {
 
 struct SaveOptions {
-  Layout layout = Layout::kTopBottom;  // of two eyes; %V or %v in the name overrides it with kSeparate
+  Layout layout = Layout::kTopBottom;  // for two eyes; %V or %v in the name overrides it with kSeparate
   float exposure = 0.0f;               // EV: the light is multiplied by 2^exposure
   ToneCurve tone = ToneCurve::kNeutral;
   int jpeg_quality = 95;              // jpg and webp, 1..100
-  bool rows_alone = false;            // exr: packs each row by itself, not 16 together
+  bool rows_alone = false;            // exr: compresses each row separately, not 16 together
   bool has_checksum = false;          // exr: a checksum of its header (ods/image/format/exr_header.h)
   std::vector<Attribute> attributes;  // extra attributes for exr and png headers
   bool sidecar = false;               // also write picture.camera.json; an existing one is rewritten anyway
 };
 
-// Throws what save_picture() would throw, as far as it is known before rendering. Error(kUsage): an unknown extension,
-// an unsuitable layout, a size too large for the format, a projection (if known) that a VR photo cannot hold.
+// Throws the errors of save_picture() that are known before rendering. Error(kUsage): an unknown extension, an
+// unsuitable layout, a size too large for the format, a projection (if known) that a VR photo does not support.
 // Error(kOutput): a folder without write permission, a name that is a folder. `eyes` as in EyeImage, `eye` the size of
 // one. Leaves nothing on the disk.
 void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, Extent eye,
                   const ProjectionSetting* projection = nullptr);
 
-// Whether a file of this name can hold depth, normal and albedo: only exr.
+// Returns whether a file of this name can contain depth, normal and albedo: only exr.
 bool keeps_layers(const std::string& path);
 
-// Whether a file of this name can hold alpha: all but jpg and hdr.
+// Returns whether a file of this name can contain alpha: all but jpg and hdr.
 bool has_alpha(const std::string& path);
 
-// Whether a picture's files, one or one per eye, exist and are not empty: some farms create empty ones beforehand.
+// Returns whether a picture's files, one or one per eye, exist and are not empty, because some farms create empty ones
+// beforehand.
 bool is_saved(const std::string& path);
 
 // Writes one file, or one per eye, then the sidecar; either all of them complete or none. Creates missing folders.
-// Returns the names written. Skips empty layers. Throws as check_output(), and Error(kOutput). Precondition: one or two
-// eyes of equal size, with radiance.
+// Returns the names written. Skips empty layers. Throws like check_output(), and Error(kOutput). Precondition: one or
+// two eyes of equal size, with radiance.
 std::vector<std::string> save_picture(const Picture& picture, const StereoCamera& camera, const SaveOptions& options,
                                       const std::string& path);
 
-// The same without a known camera: the file has no camera metadata.
+// Saves without a known camera: the file has no camera metadata.
 std::vector<std::string> save_picture(const Picture& picture, const SaveOptions& options, const std::string& path);
 
 // A picture whose rows are generated while it is written, so that it is never in memory as a whole.
@@ -88,12 +90,15 @@ struct PictureRows {
   std::function<void()> band_done;  // called between bands of rows, to free memory; may be empty
 };
 
-// The channels per pixel of a row.
+// The number of channels per pixel of a row.
 size_t count_channels(const std::vector<RowLayer>& layers);
 
-// The same for a picture made by rows. Without a camera the file has no camera metadata. When eyes are squeezed, a
-// kNearest layer takes the pixel whose first channel is least. Throws as above, and what `fill` throws.
+// Saves a picture made by rows. Without a camera the file has no camera metadata. When eyes are squeezed, a kNearest
+// layer takes the pixel with the smallest first channel. Throws like the functions above, and errors of `fill`.
 std::vector<std::string> save_picture(const PictureRows& picture, const StereoCamera* camera,
                                       const SaveOptions& options, const std::string& path);
+
+// The bytes of a file with one eye, of this index, and without camera metadata. Throws as save_picture().
+std::string eye_bytes(const PictureRows& picture, int index, FileFormat format, const SaveOptions& options);
 
 }  // namespace ods

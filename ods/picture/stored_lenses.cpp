@@ -19,7 +19,7 @@ FisheyeLens inscribed_lens(Extent eye, float fov) {
   return lens;
 }
 
-// Where each eye is inside the bars that surround all of them.
+// Computes each eye's position inside the bars that surround all of them.
 static void take_bars(StoredPicture& picture, const Bars& bars) {
   const EyePacking how = arrangement_of(picture.layout).how;
   const int across = how == EyePacking::kBeside ? 2 : 1, down = how == EyePacking::kStacked ? 2 : 1;
@@ -37,7 +37,7 @@ static void take_bars(StoredPicture& picture, const Bars& bars) {
 }
 
 void take_lenses(StoredPicture& picture, const FormatHint& known, const std::string& path) {
-  constexpr float kUsualFov = 195.0f;  // of cameras that look ahead and back
+  constexpr float kUsualFov = 195.0f;  // usual value of cameras that look ahead and back
   if (known.bars.any()) return take_bars(picture, known.bars);
   if (known.lenses.empty() && !known.front_and_back) return;
   if (known.front_and_back && (picture.eyes.size() != 2 || !arrangement_of(picture.layout).is_halves())) {

@@ -9,13 +9,13 @@
 
 namespace ods {
 
-// The lens whose circle touches the nearer edges of an eye's picture.
+// The lens whose circle touches the closer edges of an eye's picture.
 FisheyeLens inscribed_lens(Extent eye, float fov);
 
-// Gives the picture the lenses that the caller knows (FormatHint::lenses, front_and_back), if any: its maps, and as its
-// projection the front half or, if they look ahead and back, the whole sphere of one eye. Black bars (FormatHint::bars)
-// become maps of what they leave. Throws Error(kInput): circles outside the picture; not two halves, if they look ahead
-// and back.
+// Gives the picture the lenses that the caller specifies (FormatHint::lenses, front_and_back), if any: its maps, and as
+// its projection the front half or, if they look ahead and back, the whole sphere of one eye. Black bars
+// (FormatHint::bars) become maps of the rest of the picture. Throws Error(kInput) for circles outside the picture, or
+// not two halves if they look ahead and back.
 void take_lenses(StoredPicture& picture, const FormatHint& known, const std::string& path);
 
 }  // namespace ods

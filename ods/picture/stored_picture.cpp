@@ -28,9 +28,9 @@ namespace ods {
 
 namespace {
 
-using Readers = std::vector<std::unique_ptr<RowReader>>;  // of the files of a picture
+using Readers = std::vector<std::unique_ptr<RowReader>>;  // readers of the files of a picture
 
-// A layer of one view of a file, and where its pixels go.
+// A layer of one view of a file, and the destination of its pixels.
 struct Plane : ChannelLayer {
   std::byte* to = nullptr;
   bool is_read = true;
@@ -49,7 +49,7 @@ static FileShare make_share(RowReader& reader, const std::string& path, ViewChan
   const FileInfo& info = reader.info();
   FileShare share{&reader, {}};
   std::optional<ChannelLayer> light = take_color(channels);
-  // Files of a display have their colour first, whatever they call it.
+  // Display-referred files have their colour first, under any name.
   if (!light && !info.is_float && info.channels.size() >= 3) {
     light = ChannelLayer{"", {"R", "G", "B"}, {0, 1, 2}, LayerRule::kLight, {}};
   }
@@ -68,7 +68,7 @@ static bool same_layer(const Plane& a, const Plane& b) {
   return a.channels == b.channels && a.sample == b.sample && a.rule == b.rule;
 }
 
-// Keeps the layers that both eyes have.
+// Keeps only the layers that both eyes have.
 static void keep_common(std::vector<FileShare>& shares, const std::string& path, std::vector<std::string>& guesses) {
   if (shares.size() < 2) return;
   if (!same_layer(shares[0].planes[0], shares[1].planes[0])) {
@@ -258,7 +258,7 @@ static std::vector<EyeView> views_of(Layout layout, Extent eye, Extent whole) {
     }
   }
   if (!arrangement_of(layout).is_halves()) return views;
-  for (EyeView& view : views) {  // beyond the middle, which an odd side leaves out
+  for (EyeView& view : views) {  // the second eye starts after the middle line, which an odd side leaves out
     view.x += view.x > 0 ? whole.width - file.width : 0;
     view.y += view.y > 0 ? whole.height - file.height : 0;
   }
@@ -375,7 +375,7 @@ static void leave_out_unreadable(std::vector<FileShare>& shares, const std::stri
   }
 }
 
-// What the file says of itself, without the eyes.
+// The metadata of the file, without the eyes.
 static StoredPicture describe(const Readers& readers, StereoFormat format, const std::string& path) {
   const FileInfo& info = readers[0]->info();
   StoredPicture picture;
@@ -403,7 +403,7 @@ struct PictureReader::State {
   std::string path;
   OpenOptions options;
   Readers readers;
-  int eye = kMono;                // of a picture of one eye
+  int eye = kMono;                // for a picture of one eye
   std::vector<FileShare> shares;  // point to the readers
   StoredPicture header;
 };

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A picture file from any program, opened for random access to its eyes' pixels, whatever its size. The samples stay as
-// in the file, in memory or, if that would take too much, in an unlinked scratch file. load_eyes.h is for pictures that
-// fit into memory as floats.
+// A picture file from any program, opened for random access to its eyes' pixels, at any size. The samples keep the
+// file's format, in memory or, if they need too much, in an unlinked scratch file. load_eyes.h is for pictures that fit
+// into memory as floats.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -40,28 +40,28 @@ struct StoredEye {
 };
 
 struct StoredPicture {
-  Extent size;                  // of each eye as stored; squeezed eyes stay squeezed
+  Extent size;                  // size of each eye as stored; squeezed eyes remain squeezed
   std::vector<StoredEye> eyes;  // one, or left and right, with the same layers
   bool is_float = false;        // scene-linear; else display-encoded
   Layout layout = Layout::kSeparate;
-  std::string layout_reason;  // where the layout comes from: "its name ends in _TB"
-  StereoCamera camera;        // as far as known: projection, ipd, merge, convergence, pose
-  // How a camera stored its eyes, where that is no projection: one map for each eye. `camera` then has the lat-long
-  // that shows as much.
+  std::string layout_reason;  // the source of the layout: "its name ends in _TB"
+  StereoCamera camera;        // the known parts: projection, ipd, merge, convergence, pose
+  // The mapping of a camera's eyes if they are not in a projection: one map for each eye. `camera` then has the
+  // lat-long of the same directions.
   std::vector<std::shared_ptr<const DirectionMap>> maps;
   bool front_and_back = false;       // with maps: the eyes, both kMono, are the two lenses of a camera of one eye
   bool has_ipd = false;              // known from caller, file or sidecar; else the default
-  std::string rig_mark;              // ods:rig: the slit rig that this view belongs to; empty: unspecified
-  std::vector<Attribute> mattes;     // cryptomatte/*: what the numbers in its layers mean; a copy needs them, too
-  std::vector<std::string> guesses;  // what was guessed, for messages: "top-bottom: ..."
-  std::string color_fault;           // why the file's colour space is ignored; empty: it is honoured
+  std::string rig_mark;              // ods:rig: the slit rig that this view belongs to; empty if unspecified
+  std::vector<Attribute> mattes;     // cryptomatte/*: the meaning of the numbers in its layers; needed for a copy
+  std::vector<std::string> guesses;  // guesses, for messages: "top-bottom: ..."
+  std::string color_fault;           // the reason why the file's colour space is ignored; empty if it is used
   std::shared_ptr<Scratch> memory;   // owns the pixels
 };
 
 struct OpenOptions {
   FormatHint format;
   bool color_only = false;     // skip all other layers
-  std::string scratch_folder;  // for pixels beyond `most_in_memory` bytes; empty: keep all in memory
+  std::string scratch_folder;  // for pixels beyond `most_in_memory` bytes; if empty, all are kept in memory
   size_t most_in_memory = size_t{512} << 20;
 };
 
@@ -69,17 +69,17 @@ struct OpenOptions {
 // name ends in Combined. Integer colours are sRGB with unpremultiplied alpha; float colours are linear and
 // premultiplied. Both have sRGB's primaries: files of other colour spaces are converted (image_file.h), 8 bits to 16.
 //
-// In an EXR the other channels form layers by the part of their names before the last dot. A layer's name gives its
-// rule: kNearest for Z, depth, ids and materials, whole numbers, cryptomatte and variance (the nearest pixel's bounds
-// that of a filtered pixel; the mean does not), kMean for the rest. In a file of two views, layers that only one view
-// has are skipped, with a note in `guesses`. Whole numbers become floats, exact up to 2^24.
+// In an EXR the other channels form layers by the part of their names before the last dot. A layer's name determines
+// its rule: kNearest for Z, depth, ids and materials, whole numbers, cryptomatte and variance (the nearest pixel's
+// variance is an upper bound for a filtered pixel; the mean is not), kMean for the rest. In a file of two views, layers
+// that only one view has are skipped, with a note in `guesses`. Whole numbers become floats, exact up to 2^24.
 //
-// Throws Error(kInput): an unreadable file, no colour, an anaglyph, a size that does not fit the layout or projection,
-// eyes of unequal size; Error(kOutput), Error(kMemory) as Scratch.
+// Throws Error(kInput) for an unreadable file, no colour, an anaglyph, a size that does not fit the layout or
+// projection, eyes of unequal size; Error(kOutput), Error(kMemory) like Scratch.
 StoredPicture open_picture(const std::string& path, const OpenOptions& options = {});
 
-// open_picture() in two steps, for callers who decide by the header what to do with the pixels. The file is opened and
-// checked once. Both steps throw as open_picture() does.
+// open_picture() in two steps, for callers that handle the pixels depending on the header. The file is opened and
+// checked once. Both steps throw the same errors as open_picture().
 class PictureReader {
  public:
   explicit PictureReader(const std::string& path, const OpenOptions& options = {});
@@ -87,15 +87,16 @@ class PictureReader {
   PictureReader(PictureReader&& other) noexcept;
   PictureReader& operator=(PictureReader&& other) noexcept;
 
-  // The picture without pixels: those of every layer are nullptr. Faults that only the pixels show are not found yet.
+  // The picture without pixels: the pointers of every layer are nullptr. Faults that only the pixels show are not found
+  // yet.
   const StoredPicture& header() const;
 
   // The picture with its pixels. It may have fewer layers than the header: those with numbers too large for a float are
-  // left out. `scratch_folder` replaces that of OpenOptions. Precondition: not called before.
+  // left out. `scratch_folder` replaces OpenOptions::scratch_folder. Precondition: not called before.
   StoredPicture read(const std::string& scratch_folder);
 
-  // Likewise of the channels that are wanted, by their names in LayerPixels, as if the layers had no others: the rest
-  // takes no memory. A layer of which none is wanted stays as in the header.
+  // Reads only the wanted channels, by their names in LayerPixels, as if the layers had no others: the rest needs no
+  // memory. A layer without wanted channels stays as in the header.
   using Wants = std::function<bool(const std::string& channel)>;
   StoredPicture read(const std::string& scratch_folder, const Wants& wants);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Keeps the samples of a long rendering every now and then, if its caller wants them.
+// Stores the samples of a long rendering at intervals, if the caller wants them.
 #pragma once
 #include <algorithm>
 #include <chrono>
@@ -29,7 +29,7 @@ class Keeper {
     took_ = kept_ - began;
   }
 
-  // Keeps them if the last time is 25 seconds ago, or ten times as long as that took.
+  // Stores the samples if the last time was 25 seconds ago, or ten times as long as storing took.
   void keep_if_due(const PictureSamples& samples) {
     constexpr double kKeepSeconds = 25.0;
     if (seconds() - kept_ > std::max(kKeepSeconds, 10.0 * took_)) keep(samples);

@@ -10,9 +10,9 @@
 namespace ods {
 namespace {
 
-constexpr double kUnit = 1 << 20;      // of light
-constexpr float kBrightest = 1 << 19;  // one path brings no more
-constexpr uint32_t kFewestPaths = 8;   // a cell that fewer paths have met is left to paths
+constexpr double kUnit = 1 << 20;      // resolution of light
+constexpr float kBrightest = 1 << 19;  // maximum light of one path
+constexpr uint32_t kFewestPaths = 8;   // a cell that fewer paths have met is not used
 
 uint64_t word_of(CacheKey key) {
   return uint64_t{key.home} << 32 | key.check;
@@ -34,9 +34,9 @@ int64_t fixed(float light) {
 }  // namespace
 
 int64_t light_cache_paths(const RenderOptions& options) {
-  constexpr int64_t kSamplesPerPath = 16;  // of one eye
+  constexpr int64_t kSamplesPerPath = 16;  // per eye
   constexpr int64_t kFewest = 1 << 16, kMost = 1 << 22;
-  constexpr double kPathsPerSecond = 2e4;  // of a time limit
+  constexpr double kPathsPerSecond = 2e4;  // for a time limit
   // With a single bounce no path meets a surface whose light could be cached.
   if (options.indirect != Indirect::kCache || options.bounces < 2) return 0;
   if (options.cache_paths > 0) return options.cache_paths;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The cells of a light cache (ods/kernel/light_cache.h): first sums to which threads add, then a table for paths to
-// read. Sums are whole numbers, so their order does not matter: the same light gives the same cells.
+// read. Sums are whole numbers, so the order of additions does not matter: the same light gives the same cells.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -12,36 +12,36 @@
 
 namespace ods {
 
-// The most paths that fill the cache of a picture: a share of its own, so that they take a tenth of the time. 0: the
-// options ask for none, or few paths would fill it, which is worse than none. Precondition: the height is set.
+// Maximum number of paths that fill the cache of a picture, so that they take a tenth of the rendering time. Returns 0
+// if the options do not use a cache, or for so few paths that the cache would do harm. Precondition: the height is set.
 int64_t light_cache_paths(const RenderOptions& options);
 
-// What one path found at one place.
+// The light of one path at one place.
 struct CacheDeposit {
   CachePlace place;
-  vec3 light;     // that leaves, of the surface's albedo
-  bool odd_path;  // which half of the paths it belongs to: the halves tell how certain a cell is
+  vec3 light;     // outgoing light, of the surface's albedo
+  bool odd_path;  // the half of the paths that it belongs to; the difference of the halves is the error of a cell
 };
 
 class LightCacheSums {
  public:
   LightCacheSums();
 
-  // Room for this many more cells. Not while other threads add.
+  // Reserves memory for this many more cells. Not while other threads add.
   void reserve(size_t more);
 
-  // To both cells of the place. Safe from many threads at once. Precondition: there is room.
+  // Adds to both cells of the place. Safe from many threads at once. Precondition: there is memory for them.
   void add(const CacheDeposit& deposit);
 
-  // How far the halves of the paths are apart: the relative error of the light in a cell, over all deposits.
+  // The relative error of the light in a cell, over all deposits, from the difference between the halves of the paths.
   double error() const;
 
-  // The cells that know enough, in a table of a power of two of slots. Empty if there is none.
+  // The cells with enough paths, in a table of a power of two of slots. Empty if there are none.
   std::vector<CacheCell> table() const;
 
  private:
   struct Sums {
-    uint64_t key = 0;  // CacheKey; 0: empty
+    uint64_t key = 0;  // CacheKey; 0 if empty
     int64_t light[3] = {};
     int64_t odd_light = 0;    // luminance, of odd paths only
     uint32_t albedo[3] = {};  // in 1/255

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Builds the tree by which the kernel picks lights (ods/kernel/light.h).
+// Builds the tree from which the kernel picks lights (ods/kernel/light.h).
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 using glm::dvec3;
 using std::numbers::pi;
 
-constexpr int kBins = 12;     // of candidates for a split, along each axis
+constexpr int kBins = 12;     // candidates for a split, along each axis
 constexpr int kDeepest = 31;  // LightWay has a bit for each level
 
 struct Cone {
@@ -37,7 +37,7 @@ Cone cone_around(Cone a, Cone b) {
   return {glm::normalize((std::sin(apart - turn) * a.axis + std::sin(turn) * b.axis) / sine), open};
 }
 
-// What some lights have in common.
+// The common bounds of several lights.
 struct Group {
   dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
   Cone cone{dvec3(0.0, 0.0, 1.0), 0.0};
@@ -51,7 +51,8 @@ struct Group {
     power += other.power, back_power += other.back_power, count += other.count;
   }
 
-  // What it costs to have these in one node: power, over the solid angle in which they shine and the room they take.
+  // The cost of these lights in one node: power times the solid angle in which they shine times the square of their
+  // extent.
   double cost() const {
     if (count == 0) return 0.0;
     const double most = std::min(cone.open + 0.5 * pi, pi);
@@ -76,9 +77,9 @@ dvec3 middle_of(const TreeLight& light) {
   return 0.5 * (dvec3(light.bounds.low) + dvec3(light.bounds.high));
 }
 
-// Lights of the middle's coordinate below a plane go to the first child.
+// Lights below a plane, by their middle's coordinate, go to the first child.
 struct Split {
-  int axis = -1;  // -1: there is none
+  int axis = -1;  // -1 if there is no split
   double plane = 0.0;
 };
 
@@ -96,14 +97,14 @@ Split best_split(std::span<const TreeLight> lights) {
       const double place = (middle_of(light)[axis] - low[axis]) / size[axis];
       bins[std::min(static_cast<int>(place * kBins), kBins - 1)].add(group_of(light));
     }
-    Group after[kBins];  // of a bin and those behind it
+    Group after[kBins];  // this bin and all behind it
     for (int i = kBins - 1; i >= 0; i--) {
       if (i < kBins - 1) after[i] = after[i + 1];
       after[i].add(bins[i]);
     }
     Group before;
     for (int i = 1; i < kBins; i++) {
-      if (bins[i - 1].count == 0) continue;  // as the plane before
+      if (bins[i - 1].count == 0) continue;  // the same plane as before
       before.add(bins[i - 1]);
       if (after[i].count == 0) break;
       const double cost = longest / size[axis] * (before.cost() + after[i].cost());
@@ -113,7 +114,7 @@ Split best_split(std::span<const TreeLight> lights) {
   return best;
 }
 
-// Puts the first child's lights in front. Returns their number: between 1 and all but one.
+// Moves the first child's lights to the front. Returns their number, which is at least 1 and less than all.
 size_t divide(std::span<TreeLight> lights, int depth) {
   const size_t half = lights.size() / 2;
   if (lights.size() == 2) return half;
@@ -140,7 +141,7 @@ LightNode node_of(std::span<const TreeLight> lights) {
   return node;
 }
 
-// Fills in the node at this index, which holds these lights, and all below it.
+// Fills in the node at this index, which contains these lights, and all nodes below it.
 void build(std::span<TreeLight> lights, size_t index, int depth, uint way, LightTree& tree) {
   tree.nodes[index] = node_of(lights);
   if (lights.size() == 1) {

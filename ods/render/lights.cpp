@@ -41,8 +41,7 @@ std::vector<AliasEntry> make_alias_table(const std::vector<double>& weights) {
   return table;
 }
 
-// Brightness of each texel times its solid angle. The neighbours of a texel contribute,
-// because interpolation spreads them.
+// Luminance of each texel times its solid angle. Adjacent texels contribute, because interpolation spreads them.
 static std::vector<double> environment_weights(const Environment& environment) {
   const int w = environment.width, h = environment.height;
   const double pi = std::acos(-1.0);
@@ -92,7 +91,7 @@ static Light make_punctual(const PunctualLight& source) {
 
 namespace {
 
-// Something that the alias table picks: a light, or the tree.
+// An entry of the alias table: a light, or the tree.
 struct WeighedLight {
   int light;
   double power;
@@ -108,10 +107,10 @@ static double punctual_power(const PunctualLight& source, double scene_radius) {
   return strength * 4.0 * pi;
 }
 
-// The triangle as the tree sees it, or without power.
+// The triangle as a light of the tree; without power if it emits nothing.
 static TreeLight triangle_in_tree(LightSampler& reader, const Scene& scene, bool closed, int instance_index,
                                   int triangle) {
-  constexpr double kInside = 0.01;  // of the light: the viewer may be inside of what is closed
+  constexpr double kInside = 0.01;  // fraction of the light; the viewer may be inside a closed mesh
   TreeLight result;
   Hit hit{0.0f, 0.0f, 0.0f, instance_index, triangle};
   const Instance& instance = scene.instances[static_cast<size_t>(instance_index)];
@@ -141,7 +140,7 @@ static TreeLight triangle_in_tree(LightSampler& reader, const Scene& scene, bool
 }
 
 static void add_triangle_lights(const Scene& scene, LightTable& table, std::vector<TreeLight>& tree) {
-  // Reads textures through the kernel, so that they have the same meaning here and there.
+  // Reads textures through the kernel, so that both interpret them in the same way.
   LightSampler reader;
   set_scene(reader, scene, table);
   reader.ray_time = 0.5f;
@@ -193,7 +192,7 @@ static void read_background(const Scene& scene, LightTable& table) {
   }
 }
 
-// Points and spots join the tree, suns do not.
+// Adds points and spots to the tree, and suns to the alias table.
 static void add_punctual_lights(const Scene& scene, double scene_radius, LightTable& table,
                                 std::vector<TreeLight>& tree, std::vector<WeighedLight>& picks) {
   for (const PunctualLight& source : scene.lights) {

@@ -11,12 +11,12 @@
 namespace ods {
 
 // The volumes that contain a point: those that a ray from there leaves more often than it enters. `closest_hit` is the
-// device's function: it returns the first hit along a ray, with a negative t if there is none.
+// device's function that returns the first hit along a ray, with a negative t if there is none.
 template <typename ClosestHit>
 Media media_at(PathTracer& tracer, vec3 point, const ClosestHit& closest_hit) {
   Media inside = no_media();
   std::vector<int> entered;
-  Ray ray{point, normalize(vec3(0.31f, 0.83f, 0.47f))};  // an arbitrary direction; along an axis it would graze walls
+  Ray ray{point, normalize(vec3(0.31f, 0.83f, 0.47f))};  // an arbitrary direction; an axis would be parallel to walls
   for (int i = 0; i < kMaxPassed; i++) {
     const Hit hit = closest_hit(ray);
     if (hit.t < 0.0f) break;

@@ -10,8 +10,8 @@
 namespace ods {
 
 // The camera at a time from 0, when the shutter opens, to 1, when it closes. `cameras` are evenly spaced in time and
-// close to each other; position and orientation are interpolated between them. All else is that of the middle camera.
-// Precondition: at least two cameras.
+// close to each other; position and orientation are interpolated between them. Everything else is taken from the middle
+// camera. Precondition: at least two cameras.
 Camera camera_at(std::span<const Camera> cameras, float time);
 
 }  // namespace ods

@@ -33,10 +33,10 @@ constexpr const char* kExposure = "ods:exposure";
 constexpr const char* kSettings = "ods:settings";
 constexpr const char* kSidecar = "ods:sidecar";
 
-// The CRC-32 of a row's other numbers of this eye, the same in each pixel: one flipped bit can pass zlib's Adler-32.
+// The CRC-32 of a row's other numbers of this eye, the same in each pixel: a flipped bit can pass zlib's Adler-32.
 constexpr const char* kCheck = "check";
 
-// A number's bits as whole numbers that floats hold exactly.
+// A number's bits as whole numbers that floats represent exactly.
 template <typename Number>
 struct Words {
   using Bits = std::conditional_t<sizeof(Number) == 8, uint64_t, uint32_t>;
@@ -106,7 +106,7 @@ void fill_row(const PictureSamples& samples, const EyeSamples& eye, int y, std::
   for (size_t x = 0; x < width; x++) Words<uint32_t>::split(crc, &row[x * channels + end]);
 }
 
-// The layer of an eye that holds a plane; nullptr if there is none.
+// The layer of an eye that contains a plane; nullptr if there is none.
 const LayerPixels* find_plane(const StoredEye& eye, const char* plane) {
   const std::string prefix = fmt::format("sum.{}.", plane);
   for (const LayerPixels& layer : eye.layers) {
@@ -125,7 +125,7 @@ void add_number(bool is_depth, Number number, Number& sum) {
   if (is_depth) {
     sum = number;
   } else if constexpr (std::is_integral_v<Number>) {
-    if (__builtin_add_overflow(sum, number, &sum)) sum = 0;  // no file of ours
+    if (__builtin_add_overflow(sum, number, &sum)) sum = 0;  // the file was not written by this program
   } else {
     sum += number;
   }
@@ -161,12 +161,12 @@ std::string save_part(const std::string& path, const SampledPicture& picture, co
                         {kExposure, fmt::format("{}", picture.exposure)},
                         {kSettings, settings_text(picture.settings)},
                         {kSidecar, picture.camera}};
-  options.rows_alone = true;    // so long that several together are no smaller
-  options.has_checksum = true;  // of the header
+  options.rows_alone = true;    // rows are so long that combining several saves nothing
+  options.has_checksum = true;  // a checksum of the header
   return save_picture(rows, &camera, options, path).front();
 }
 
-// A header with another bit than it was written with could mean other sums, or fewer.
+// A header with a flipped bit could mean other sums, or fewer.
 static void check_header(const std::string& path, const FileInfo& info) {
   const auto stored = info.text.find(kExrChecksum);
   if (stored == info.text.end()) {
@@ -187,7 +187,9 @@ SampledPicture read_part_header(const std::string& path) {
   };
   const auto samples = info.numbers.find(kSamples);
   SampledPicture picture;
-  picture.settings = parse_settings(text(kSettings)), picture.camera = text(kSidecar);
+  const std::optional<Settings> settings = parse_settings(text(kSettings));
+  picture.settings = settings.value_or(Settings());
+  picture.camera = text(kSidecar);
   const float exposure = std::strtof(text(kExposure).c_str(), nullptr);
   if (std::isfinite(exposure)) picture.exposure = exposure;
   RenderOptions& options = picture.options;
@@ -197,6 +199,7 @@ SampledPicture read_part_header(const std::string& path) {
     fail(path, "is no part of a picture: ods render `part` makes those");
   }
   check_header(path, info);
+  if (!settings) fail(path, "is damaged: its settings are not as they were written; render the part again");
   options.part = *part;
   const StoredPicture header = PictureReader(path).header();
   options.width = header.size.width, options.height = header.size.height;
@@ -215,10 +218,10 @@ SampledPicture read_part_header(const std::string& path) {
 
 namespace {
 
-// Where a pixel of a part has an eye's numbers, in bytes, in the order of each_plane() and channels_of().
+// The byte offsets of an eye's numbers in a pixel of a part, in the order of each_plane() and channels_of().
 struct EyeOffsets {
-  std::vector<size_t> sums;     // that are wanted
-  std::vector<size_t> checked;  // all, of which the row has a CRC
+  std::vector<size_t> sums;     // numbers of the requested planes
+  std::vector<size_t> checked;  // numbers of all planes with a CRC in the row
   std::array<size_t, Words<uint32_t>::kCount> check{};
 };
 
@@ -227,7 +230,7 @@ struct EyeOffsets {
 struct PartsReader::File {
   std::string path;
   std::unique_ptr<RowReader> rows;
-  size_t stride = 0;  // bytes of a pixel
+  size_t stride = 0;  // bytes per pixel
   std::vector<EyeOffsets> eyes;
 };
 
@@ -237,7 +240,7 @@ PartsReader::File PartsReader::open(const std::string& path) const {
   if (info.width != options_.width || info.height != options_.height) {
     fail(path, fmt::format("is not {}x{} pixels large", options_.width, options_.height));
   }
-  std::vector<size_t> starts;  // of a pixel's channels
+  std::vector<size_t> starts;  // start of a pixel's channels
   for (const SampleType sample : info.samples) starts.push_back(file.stride), file.stride += bytes_of(sample);
   RenderOptions one = options_;
   one.width = one.height = 1;
@@ -268,7 +271,7 @@ PartsReader::File PartsReader::open(const std::string& path) const {
 
 PartsReader::PartsReader(std::vector<std::string> paths, const RenderOptions& options)
     : paths_(std::move(paths)), options_(options) {
-  constexpr size_t kMostOpen = 200;  // of the 1024 files that a process may open
+  constexpr size_t kMostOpen = 200;  // out of the 1024 files that a process may have open
   for (const std::string& path : paths_) {
     File file = open(path);
     if (open_.size() < kMostOpen) open_.push_back(std::move(file));
@@ -277,7 +280,7 @@ PartsReader::PartsReader(std::vector<std::string> paths, const RenderOptions& op
 
 PartsReader::~PartsReader() = default;
 
-// Adds pixels that follow each other, from `first` on, in which `bytes` begin.
+// Adds consecutive pixels, the first of which is `first` and starts at `bytes`.
 static void add_pixels(const std::byte* bytes, size_t stride, const size_t* offsets, size_t first, size_t pixels,
                        size_t all, EyeSamples& eye) {
   each_plane(eye, [&]<typename Number>(const char* name, std::vector<Number>& plane) {
@@ -289,7 +292,7 @@ static void add_pixels(const std::byte* bytes, size_t stride, const size_t* offs
   });
 }
 
-// Whether a row is as it was written.
+// Returns whether a row is undamaged.
 static bool is_whole(const std::byte* row, size_t stride, size_t width, const EyeOffsets& eye) {
   std::vector<float> words(eye.checked.size());
   uint32_t crc = 0;
@@ -314,7 +317,7 @@ void PartsReader::add(const File& file, int begin, PictureSamples& band) {
       }
     }
   });
-  constexpr size_t kTogether = 64;  // pixels whose bytes stay close to the processor
+  constexpr size_t kTogether = 64;  // pixels whose bytes stay in the processor's cache
   tbb::parallel_for(size_t{0}, (all + kTogether - 1) / kTogether, [&](size_t piece) {
     const size_t first = piece * kTogether, pixels = std::min(kTogether, all - first);
     for (size_t i = 0; i < band.eyes.size(); i++) {
@@ -339,7 +342,7 @@ static constexpr Image EyeImage::*kImages[] = {&EyeImage::radiance, &EyeImage::d
                                                &EyeImage::samples};
 
 Picture merge_parts(const std::vector<std::string>& paths, const RenderOptions& options, const Progress& progress) {
-  constexpr int kBand = 16;  // rows: as many threads read them
+  constexpr int kBand = 16;  // rows: the number of threads that read them
   const size_t of_eye = picture_bytes(options) - samples_bytes(options);
   check_memory(eye_list(options.eyes).size() * of_eye, fmt::format("a picture {} pixels wide", options.width),
                "merge it where there is more");

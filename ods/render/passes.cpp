@@ -7,11 +7,11 @@
 
 namespace ods {
 
-// A pass takes this share of what time is left: the next one may take longer for each sample.
+// A pass may take this fraction of the remaining time, because its samples may take longer than before.
 static constexpr double kShareOfTime = 0.9;
 
-// At least this many samples, or a multiple: devices trace so many first rays at once. Passes grow from there, so that
-// what an interrupted rendering has soon covers the whole picture.
+// Rounds up to a multiple of the number of first rays that devices trace at once. Passes grow from there, so that the
+// samples of an interrupted rendering soon cover the whole picture.
 static int whole_packets(int samples) {
   constexpr int kPacket = 16;
   return std::max((samples + kPacket - 1) / kPacket, 1) * kPacket;

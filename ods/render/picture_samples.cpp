@@ -28,8 +28,8 @@ bool shares_paths(const RenderOptions& options) {
 
 PictureSamples no_samples(const RenderOptions& options) {
   const int begin = samples_of_part(options).begin;
-  PictureSamples samples{options.width, options.height, begin, begin, 0, {}, {}};
-  samples.noisy.assign(block_count(options), 3);
+  PictureSamples samples{options.width, options.height, begin, begin, 0, {}, 0.0f, {}};
+  samples.noisy.assign(block_count(options), kBothClasses);
   const size_t pixels = static_cast<size_t>(options.width) * static_cast<size_t>(options.height);
   for (const int eye : eye_list(options.eyes)) {
     EyeSamples& sums = samples.eyes.emplace_back();
@@ -93,22 +93,24 @@ size_t samples_bytes(const RenderOptions& options) {
          pixel;
 }
 
-// With 16 binary digits, in which the order does not show that the squares were added in.
+// Rounds to 16 binary digits, which do not depend on the order in which the squares were added.
 static float rounded(double variance) {
   int exponent = 0;
   const double digits = std::frexp(variance, &exponent);
   return static_cast<float>(std::ldexp(std::rint(std::ldexp(digits, 16)), exponent - 16));
 }
 
-// How far light is from what a pixel's own samples found, beyond what their variance explains. Both have the same
-// expectation, so the rest is noise that the other eye's paths brought: a bright sample that is not among the squares.
+// The square of the difference between a pixel's light and the light of its own samples, beyond their variance. Both
+// have the same expectation, so the rest is noise from the other eye's paths: a bright sample that is not among the
+// squares.
 static double received_variance(double light, double alone, double variance) {
-  constexpr double kExpected = 9.0;  // variances: three standard deviations
+  constexpr double kExpected = 9.0;  // in variances: three standard deviations
   const double apart = light - alone;
   return std::max(apart * apart - kExpected * variance, 0.0);
 }
 
-// The variance of a sample over their number; with shared paths each sample has a weight, and more of them add up.
+// The variance of a sample over the number of samples; with shared paths each sample has a weight, and light comes from
+// more samples.
 vec3 variance_of_mean(const EyeSamples& eye, size_t pixel) {
   const double count = eye.count[pixel];
   if (count < 2.0) return vec3(0.0f);
@@ -119,7 +121,7 @@ vec3 variance_of_mean(const EyeSamples& eye, size_t pixel) {
     const size_t at = 3 * pixel + static_cast<size_t>(c);
     const double mean = static_cast<double>(sums[at]) / (kLightUnit * count);
     const double difference = eye.squares[at] - mean * mean * count;
-    const bool is_noisy = difference > 1e-12 * eye.squares[at];  // else: what rounding leaves of equal samples
+    const bool is_noisy = difference > 1e-12 * eye.squares[at];  // otherwise the rounding error of equal samples
     const double own = is_noisy ? difference / (count - 1.0) * weights / (count * count) : 0.0;
     const double light = static_cast<double>(eye.light[at]) / (kLightUnit * count);
     variance[c] = rounded(own + received_variance(light, mean, own));
@@ -162,13 +164,13 @@ Picture develop(PictureSamples samples, const RenderOptions& options) {
   const size_t width = static_cast<size_t>(samples.width);
   for (EyeSamples& eye : samples.eyes) {
     EyeImage& image = picture.eyes.emplace_back(blank_eye(options, eye.eye));
-    // In the middle of a pass one eye lacks the light that it has given to the other.
+    // In the middle of a pass, an eye has not received all the light for which its own was reduced.
     if (samples.blocks_done > 0 && !eye.alone.empty()) eye.light = std::move(eye.alone), eye.alone.clear();
     tbb::parallel_for(0, samples.height, [&](int y) {
       const size_t row = static_cast<size_t>(y) * width;
       for (size_t x = 0; x < width; x++) develop_pixel(eye, row + x, unit, image);
     });
-    eye = {};  // a large picture has no room for both
+    eye = {};  // large pictures do not fit in memory twice
   }
   return picture;
 }

@@ -9,11 +9,11 @@
 
 namespace ods {
 
-// The options, with the natural height of `stereo`'s projection if they have none. Preconditions: those of
+// Returns the options, with the natural height of `stereo`'s projection if no height is set. Preconditions: those of
 // RenderOptions' fields.
 RenderOptions with_height(RenderOptions options, const StereoCamera& stereo);
 
-// The memory that rendering takes: what the samples add up to, and the Picture. Precondition: options.height > 0.
+// The memory for rendering, bytes: the samples and the Picture. Precondition: options.height > 0.
 size_t picture_bytes(const RenderOptions& options);
 
 // Throws Error(kMemory) if there is not enough memory for the picture. Precondition: options.height > 0.

@@ -11,7 +11,7 @@
 
 namespace ods {
 
-// Blocks near the poles still get this share: a flat view of the picture shows them large.
+// Minimum share of blocks near the poles: a flat view of the picture shows them enlarged.
 static constexpr float kSmallestShare = 0.35f;
 
 static int blocks_along(int pixels) {
@@ -57,7 +57,7 @@ int samples_of(const SamplingPlan& plan, size_t block, int samples) {
 }
 
 // Cycles' measure: the differences between all samples and half of them have the size of the mean's standard deviation.
-// Dark pixels are judged by the square root of their light, as eyes do.
+// Dark pixels are judged by the square root of their light, like the eye does.
 static double pixel_noise(const EyeSamples& eye, size_t pixel, double gain) {
   const vec3 variance = variance_of_mean(eye, pixel);
   const double deviation =
@@ -70,13 +70,20 @@ static double pixel_noise(const EyeSamples& eye, size_t pixel, double gain) {
 }
 
 // The mean square of the noise of one class of a block's pixels, in both eyes, as if all pixels had the same size on
-// the sphere. A class that has stopped counts as if it had gone on: its own noise stays, and the other class would take
-// samples for ever.
+// the sphere. The noise of a class that has stopped is scaled as if it had continued; otherwise it would stay, and the
+// other class would be sampled forever.
 static double block_noise(const PictureSamples& samples, const SamplingPlan& plan, double gain, size_t block,
                           int wanted) {
   const int x0 = static_cast<int>(block) % plan.columns * kBlockSize;
   const int y0 = static_cast<int>(block) / plan.columns * kBlockSize;
-  const double now = samples_of(plan, block, samples.done);
+  const size_t first = static_cast<size_t>(y0) * static_cast<size_t>(samples.width) + static_cast<size_t>(x0);
+  size_t other = first;  // a pixel of the other class: a block begins with class 0; one of a single pixel has no other
+  if (wanted == 0 && x0 + 1 < samples.width) {
+    other = first + 1;
+  } else if (wanted == 0 && y0 + 1 < samples.height) {
+    other = first + static_cast<size_t>(samples.width);
+  }
+  const double now = samples.eyes[0].count[other];
   double sum = 0.0;
   int pixels = 0;
   for (const EyeSamples& eye : samples.eyes) {
@@ -94,8 +101,10 @@ static double block_noise(const PictureSamples& samples, const SamplingPlan& pla
 }
 
 double judge_noise(const SamplingPlan& plan, const RenderOptions& options, PictureSamples& samples) {
-  const double clean = std::pow(5.0 * static_cast<double>(options.noise), 2.0);  // 5: as Cycles scales its threshold
+  const double clean = std::pow(5.0 * static_cast<double>(options.noise), 2.0);  // 5: Cycles' scale of its threshold
   const double gain = std::exp2(double{options.noise_exposure});
+  if (samples.judged_at != options.noise_exposure) std::ranges::fill(samples.noisy, kBothClasses);
+  samples.judged_at = options.noise_exposure;
   std::vector<double> excess(plan.share.size());
   tbb::parallel_for(size_t{0}, samples.noisy.size(), [&](size_t block) {
     for (int one : {0, 1}) {

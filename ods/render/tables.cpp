@@ -13,8 +13,8 @@
 
 namespace ods {
 
-// A thread that waits for its loop may start other work meanwhile. If that called kernel_tables(), it would wait for
-// the very table that this thread is filling.
+// A thread that waits for its loop may start other work meanwhile. If that work called kernel_tables(), it would wait
+// for the table that this thread is filling.
 template <typename Function>
 static void isolated_parallel_for(int count, Function function) {
   tbb::this_task_arena::isolate([&] { tbb::parallel_for(0, count, function); });
@@ -27,7 +27,7 @@ static void fill_srgb(float* table) {
   }
 }
 
-// Integral of a four-term Blackman-Harris window, 3 pixels wide, from its centre to x: x is in -1.5..1.5, the result in
+// Integral of a four-term Blackman-Harris window, 3 pixels wide, from its centre to x. x is in -1.5..1.5, the result in
 // -0.5..0.5.
 static double window_integral(double x) {
   constexpr double kTerms[4] = {0.35875, 0.48829, 0.14128, 0.01168};
@@ -126,7 +126,7 @@ static void fill_glass(float* table) {
   });
 }
 
-// The place of a node on an axis, 0..1.
+// The position of a node on an axis, 0..1.
 static float node_at(int node, int size) {
   return static_cast<float>(node % size) / static_cast<float>(size - 1);
 }
@@ -146,8 +146,8 @@ static void fill_anisotropic(float* table) {
   });
 }
 
-// The integral of sheen_value() over the hemisphere. It changes fastest where light grazes the surface, so there the
-// points are denser.
+// The integral of sheen_value() over the hemisphere. It varies fastest at grazing angles, so the points are denser
+// there.
 static float sheen_integral(vec3 wo, float alpha) {
   constexpr int kSteps = 64;
   double sum = 0.0;

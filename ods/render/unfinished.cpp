@@ -23,16 +23,16 @@ static_assert(std::endian::native == std::endian::little);
 namespace {
 
 constexpr std::string_view kMark = "ods unfinished\n";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 class Writer {
  public:
   explicit Writer(std::FILE* stream) : stream_(stream) {}
 
   void bytes(std::span<const std::byte> bytes) {
-    if (bytes.empty()) return;  // fwrite() wants an address even then
+    if (bytes.empty()) return;  // fwrite() needs an address even then
     checksum_ = crc32(bytes, checksum_);
-    std::fwrite(bytes.data(), 1, bytes.size(), stream_);  // AtomicFile notices errors
+    std::fwrite(bytes.data(), 1, bytes.size(), stream_);  // AtomicFile reports errors
   }
   template <typename Number>
   void number(const Number& value) {
@@ -88,7 +88,9 @@ class Reader {
   void settings(Settings& values) {
     std::string text;
     list(text);
-    values = parse_settings(text);
+    const std::optional<Settings> found = parse_settings(text);
+    if (!found) fail();
+    values = *found;
   }
   void checksum() {
     const uint32_t computed = checksum_;
@@ -108,7 +110,7 @@ class Reader {
   uint32_t checksum_ = 0;
 };
 
-// Calls stream.number() or stream.list() for all that the file has.
+// Calls stream.number() or stream.list() for every field of the file.
 template <typename Stream, typename About, typename Samples>
 void each_field(Stream& stream, About& picture, Samples& samples) {
   stream.settings(picture.settings), stream.list(picture.camera);
@@ -119,6 +121,7 @@ void each_field(Stream& stream, About& picture, Samples& samples) {
   stream.number(o.layers), stream.number(o.transparent), stream.number(o.statistics);
   stream.number(samples.width), stream.number(samples.height), stream.number(samples.done);
   stream.number(samples.pass_to), stream.number(samples.blocks_done), stream.list(samples.noisy);
+  stream.number(samples.judged_at);
   for (auto& eye : samples.eyes) {
     stream.number(eye.eye);
     each_plane(eye, [&](const char*, auto& plane) { stream.list(plane); });

@@ -36,7 +36,7 @@ static double box_distance(dvec3 p, dvec3 low, dvec3 high) {
   return glm::length(p - glm::clamp(p, low, high));
 }
 
-// The distance to the nearest of one instance's triangles, or `nearest` if none is nearer.
+// The distance to the nearest triangle of an instance, or `nearest` if none is closer.
 static double nearest_in(const Scene& scene, const Instance& instance, dvec3 camera, double nearest) {
   const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
   std::vector<dvec3> corners(mesh.vertex_count);

@@ -28,9 +28,9 @@ struct SceneInfo {
   size_t directional_lights = 0;
   bool has_environment = false;
   Bounds bounds;                  // metres
-  float nearest_surface = -1.0f;  // metres from the camera to the nearest triangle; -1: none
+  float nearest_surface = -1.0f;  // metres from the camera to the nearest triangle; -1 if there is none
   std::vector<ViewPoint> view_points;
-  std::vector<std::pair<std::string, double>> animations;  // with their length in seconds
+  std::vector<std::pair<std::string, double>> animations;  // names and lengths in seconds
   std::vector<std::string> variants;
   std::vector<SheetGlass> sheet_glass;
   std::vector<UsedExtension> extensions;

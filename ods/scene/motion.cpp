@@ -109,7 +109,7 @@ void place_nodes(Pose& pose) {
   }
 }
 
-// Whether a deformed mesh could be written; where it could not it is as it is stored, and hidden.
+// Returns whether a deformed mesh could be written; if not, it keeps its stored vertices and is hidden.
 bool bend(Scene& scene, const Deformation& deformation, const Pose& pose, SceneChange& change) {
   static const std::vector<double> kNoWeights;
   const std::vector<double>& weights =
@@ -260,7 +260,7 @@ void add_change(SceneChange& sum, const SceneChange& change) {
   sum.view_points |= change.view_points;
 }
 
-// The times of the keys of what plays, and those half way between: at most some hundreds, evenly chosen.
+// The times of the keys of the playing clips, and those half way between: at most a few hundred, evenly chosen.
 static std::vector<double> telling_times(const Animation& animation) {
   std::vector<double> keys;
   for (const int clip : animation.playing) {
@@ -279,7 +279,7 @@ static std::vector<double> telling_times(const Animation& animation) {
   return times;
 }
 
-// Whether a track's keys differ: some programs write keys of all that stands still.
+// Returns whether a track's keys differ. Some programs write keys for static objects, too.
 static bool changes(const Keyframes& keys) {
   const size_t of_key = keys.values.size() / keys.times.size();
   return !std::equal(keys.values.begin() + static_cast<ptrdiff_t>(of_key), keys.values.end(), keys.values.begin());

@@ -9,33 +9,33 @@
 
 namespace ods {
 
-// What changed in a scene: indices into its lists.
+// The changed parts of a scene: indices into its lists.
 struct SceneChange {
   std::vector<int> instances;  // moved, appeared or were hidden
   std::vector<int> meshes;     // with new vertices
-  bool lights = false;         // punctual lights
+  bool lights = false;         // punctual lights changed
   bool materials = false;
   bool view_points = false;
 };
 
-// Another change after this one, before anybody has applied it.
+// Adds another, later change that is not applied yet.
 void add_change(SceneChange& sum, const SceneChange& change);
 
-// Evaluates the playing clips of scene.animation at a time and updates the scene. What they do not animate, and
-// everything if no clip plays, is at rest. The result depends on the time alone, not on earlier calls. All guarantees
-// of ods/scene/gltf/gltf.h hold at every time, except that triangles of a deformed mesh may temporarily have no area;
-// no ray hits those. Instances that are scaled to zero or further than 1e9 m from the
-// origin are hidden (Scene::hidden), as are those of a node that is not visible; such a node's lights are dark.
+// Evaluates the playing clips of scene.animation at a time and updates the scene. Properties that they do not animate
+// are at rest; without playing clips all are. The result depends on the time alone, not on earlier calls. All
+// guarantees of ods/scene/gltf/gltf.h hold at every time, except that triangles of a deformed mesh may temporarily have
+// no area; no ray hits those. Instances that are scaled to zero or further than 1e9 m from the origin are hidden
+// (Scene::hidden), as are those of a node that is not visible; such a node's lights are dark.
 SceneChange set_time(Scene& scene, double seconds);
 
-// Whether the playing clips move this view point (an index in the scene), or what it is fixed to.
+// Returns whether the playing clips move this view point (an index in the scene), or an object to which it is attached.
 bool moves_view(const Animation& animation, int view_point);
 
-// Whether an instance is visible as the scene stands, or at any key of any of its animations.
+// Returns whether an instance is visible now, or at any key of any animation.
 bool is_ever_visible(const Scene& scene);
 
-// Where a point of a surface is at the time to which the scene is set, in world coordinates. hit: of a ray, at any
-// time.
+// The position of a point of a surface at the time to which the scene is set, in world coordinates. hit: a ray's hit at
+// any time.
 vec3 point_of(const Scene& scene, const Hit& hit);
 
 }  // namespace ods

@@ -26,7 +26,7 @@ dmat4 trs_matrix(const dvec3& translation, const dvec4& rotation, const dvec3& s
 bool is_bounded(const dmat4& m) {
   for (int column = 0; column < 4; column++) {
     for (int row = 0; row < 4; row++) {
-      if (!(std::abs(m[column][row]) <= static_cast<double>(kFarthest))) return false;  // NaN, too
+      if (!(std::abs(m[column][row]) <= static_cast<double>(kFarthest))) return false;  // also for NaN
     }
   }
   return true;
@@ -101,7 +101,7 @@ void place_view(ViewPoint& view, const dmat4& node) {
   const dvec3 any_across = std::abs(forward.y) < 0.9 ? dvec3(0.0, 1.0, 0.0) : dvec3(0.0, 0.0, 1.0);
   const dvec3 fallback = unit(any_across - forward * glm::dot(forward, any_across), any_across);
   const ViewAngles angles = view_angles(forward, unit(up - forward * glm::dot(forward, up), fallback));
-  view.yaw = angles.yaw + 0.0f;  // no -0
+  view.yaw = angles.yaw + 0.0f;  // avoids -0
   view.pitch = angles.pitch;
   view.roll = angles.roll;
 }

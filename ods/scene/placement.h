@@ -7,7 +7,7 @@
 
 namespace ods {
 
-// Nothing in a Scene is further from its origin than this: squared areas still fit a float.
+// Maximum distance of a Scene's objects from its origin: squared areas still fit a float.
 inline constexpr float kFarthest = 1e9f;  // metres
 
 // Texture coordinates, and each number of their transforms, are clamped to this: beyond it a float cannot resolve
@@ -17,19 +17,19 @@ inline constexpr float kLargestUv = 1e6f;
 // T * R * S. The quaternion is x, y, z, w; one of zero length counts as no rotation.
 glm::dmat4 trs_matrix(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale);
 
-// Whether no element exceeds kFarthest.
+// Returns whether no element exceeds kFarthest.
 bool is_bounded(const glm::dmat4& matrix);
 
-// Whether the three axes span a volume, however small.
+// Returns whether the three axes span a volume, however small.
 bool is_invertible(const glm::dmat4& matrix);
 
-// Whether a box, transformed by a matrix, stays within kFarthest of the origin.
+// Returns whether a box, transformed by a matrix, stays within kFarthest of the origin.
 bool stays_near(const glm::dmat4& matrix, const Bounds& box);
 
 // The box around a mesh's own vertices.
 Bounds mesh_bounds(const Scene& scene, const Mesh& mesh);
 
-// The warning about a scene that extends further than kFirmReach; empty for others.
+// The warning about a scene that extends further than kFirmReach. Empty for other scenes.
 std::string reach_warning(const Scene& scene);
 
 // Stores a matrix as the rows of an instance.

@@ -15,12 +15,12 @@ namespace ods {
 
 namespace {
 
-constexpr float kThickest = 0.1f;     // of a pane, over its shorter side
-constexpr float kLeastFilled = 0.8f;  // of the rectangle, by the pane
-constexpr float kSmallest = 0.02f;    // over the largest pane's area
+constexpr float kThickest = 0.1f;     // thickness of a pane over its shorter side
+constexpr float kLeastFilled = 0.8f;  // fraction of the rectangle that the pane fills
+constexpr float kSmallest = 0.02f;    // minimum area over the area of the largest pane
 constexpr int kLooks = 1024;          // rays from the viewer
-constexpr float kMostSky = 0.25f;     // of them leave the scene, seen from a room,
-constexpr float kLeastShare = 0.9f;   // and this share of those by way of portals
+constexpr float kMostSky = 0.25f;     // maximum fraction that leaves the scene, in a room,
+constexpr float kLeastShare = 0.9f;   // and minimum fraction of these that leaves through portals
 
 struct Triangle {
   vec3 corner[3];
@@ -31,7 +31,7 @@ bool may_be_pane(const Material& material) {
   return is_smooth_glass(material) && !(material.thickness > 0.0f) && material.metallic < 1.0f;
 }
 
-// The parts of an instance that share no corner, as triangles in the world.
+// The connected parts of an instance, as triangles in the world.
 std::vector<std::vector<Triangle>> parts_of(const Scene& scene, const Instance& instance) {
   const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
   const std::vector<uint> merged = merge_positions(scene, mesh);
@@ -64,7 +64,7 @@ std::vector<Portal> rectangle_of(const std::vector<Triangle>& part) {
     return length(a.area()) < length(b.area());
   });
   if (!(length(largest.area()) > 0.0f)) return {};
-  // At the corner with the right angle, or the nearest to one, lie the rectangle's two sides.
+  // The sides of the rectangle start at the corner whose angle is closest to a right angle.
   vec3 along(0.0f);
   float best = 2.0f;
   for (int c = 0; c < 3; c++) {

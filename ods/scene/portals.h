@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Portals: the window panes through which a room sees its sky. Most rays that aim at the whole sky meet walls.
+// Portals: the window panes through which a room sees its sky. Most rays aimed at the whole sky hit walls.
 #pragma once
 #include <functional>
 #include <vector>
@@ -15,8 +15,8 @@ namespace ods {
 inline constexpr size_t kMostPortals = 8;
 std::vector<Portal> find_portals(const Scene& scene);
 
-// Whether the viewer sees the sky hardly anywhere but through the portals. escapes: whether a ray from the viewer
-// leaves the scene, where clear glass does not stop it.
+// Returns whether the viewer sees little sky, and nearly all of it through the portals. escapes: whether a ray from the
+// viewer leaves the scene, not counting clear glass.
 bool show_the_sky(const std::vector<Portal>& portals, vec3 viewer, const std::function<bool(vec3 direction)>& escapes);
 
 }  // namespace ods

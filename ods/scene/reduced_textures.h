@@ -8,8 +8,8 @@
 namespace ods {
 
 // Fills scene.reduced_textures and scene.reduced_texels: each texture at an eighth of its size, or as large as fits
-// 65536 texels if that is more. Texels are area averages, in linear light for sRGB textures; those
-// of kTexelNormal the mean direction.
+// 65536 texels if that is more. Texels are area averages, in linear light for sRGB textures; for kTexelNormal, mean
+// directions.
 void reduce_textures(Scene& scene);
 
 }  // namespace ods

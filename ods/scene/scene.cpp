@@ -77,7 +77,7 @@ MaterialLayers default_layers() {
   return layers;
 }
 
-// A scene's first mesh is moved, not copied, unless most of the room that is reserved is for others.
+// Moves a scene's first mesh instead of copying it, unless most of the reserved memory is for other meshes.
 template <class T>
 static void append(std::vector<T>& list, std::vector<T> added) {
   if (list.empty() && list.capacity() / 2 <= added.size()) {

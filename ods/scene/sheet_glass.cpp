@@ -88,7 +88,7 @@ static std::string name_of(const Scene& scene, int material) {
   return named ? scene.material_names[i] : "material " + std::to_string(material);
 }
 
-// Calls function(mesh) for each mesh that a visible instance shows.
+// Calls function(mesh) for each mesh with a visible instance.
 template <typename Function>
 static void each_visible_mesh(const Scene& scene, const Function& function) {
   std::vector<char> shown(scene.meshes.size(), 0);
@@ -125,7 +125,7 @@ std::vector<std::string> smooth_solids(const Scene& scene) {
   return names;
 }
 
-// Another material like this one, with the same name, animated likewise.
+// Adds a copy of this material, with the same name and animation.
 static int copy_material(Scene& scene, int material) {
   const auto from = static_cast<size_t>(material), to = scene.materials.size();
   scene.materials.push_back(scene.materials[from]);
@@ -154,7 +154,7 @@ static int copy_material(Scene& scene, int material) {
   return static_cast<int>(to);
 }
 
-// The shortest side of the box around a mesh: a thickness only tells solid glass from a sheet.
+// The shortest side of the box around a mesh, which is only used to distinguish solid glass from a sheet.
 static float thickness_of(const Scene& scene, const Mesh& mesh) {
   const Bounds box = mesh_bounds(scene, mesh);
   const vec3 size = box.high - box.low;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Glass without a volume. glTF's transmission alone describes a thin sheet, which does not refract; only a volume
-// (KHR_materials_volume) makes a mesh solid. Many exporters, Blender's among them, write the first and mean the second.
+// (KHR_materials_volume) makes a mesh solid. Many exporters, including Blender's, write the first and mean the second.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -20,24 +20,24 @@ struct SheetGlass {
   size_t open_meshes = 0;
 };
 
-// Those that visible instances show.
+// The sheet glass of visible instances.
 std::vector<SheetGlass> find_sheet_glass(const Scene& scene);
 
-// Glass that stays smooth if its roughness has no texture.
+// Returns whether a material is smooth glass. A texture of its roughness is not taken into account.
 bool is_smooth_glass(const Material& material);
 
 // The names of smooth transmissive materials with a volume that visible instances show.
 std::vector<std::string> smooth_solids(const Scene& scene);
 
-// For each of a mesh's vertices the number of one at the same position, the same for all of them.
+// For each vertex of a mesh, the index of one vertex at the same position, common to all of them.
 std::vector<uint> merge_positions(const Scene& scene, const Mesh& mesh);
 
-// Whether a mesh encloses a volume, as it stands now: at every edge, as many of its triangles run in one direction as
-// in the other, and their normals point outwards on the whole. Vertices at the same position count as one.
+// Returns whether a mesh encloses a volume at the current time: at every edge, as many of its triangles run in one
+// direction as in the other, and their normals point outwards on the whole. Vertices at the same position count as one.
 bool is_closed(const Scene& scene, const Mesh& mesh);
 
 // Gives closed meshes of sheet glass a volume, so that they refract; open ones stay sheets. Returns how many changed.
-// Animations of their materials go on.
+// Animations of their materials are kept.
 size_t make_glass_solid(Scene& scene);
 
 }  // namespace ods

@@ -46,7 +46,7 @@ static bool differ(const std::vector<Row>& a, const std::vector<Row>& b, int fir
   return std::memcmp(a.data() + at, b.data() + at, count * sizeof(Row)) != 0;
 }
 
-// Reports what moves differently than in the previous shutter.
+// Reports objects that move differently than in the previous shutter interval.
 static void compare_rows(const Scene& scene, const std::vector<MotionPose>& poses,
                          const std::vector<MotionVertex>& vertices, SceneChange& change) {
   for (const MovingInstance& moving : scene.animation.instances) {

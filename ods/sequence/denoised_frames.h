@@ -12,11 +12,12 @@ namespace ods {
 
 class DenoisedFrames {
  public:
-  // all: the sequence's frames, in order; wanted: indices of those to make. renderer and all must outlive this object.
+  // all: the sequence's frames, in order; wanted: indices of the frames to make. `renderer` and `all` must outlive this
+  // object.
   DenoisedFrames(FrameRenderer& renderer, const std::vector<SequenceFrame>& all, const std::vector<size_t>& wanted);
 
-  // Makes the frame all[index], and renders it and those beside it first, unless an earlier call did. A frame has the
-  // same bits whatever was made before. Rising indices are the fastest. report: gets the fraction of the whole.
+  // Makes the frame all[index]. First renders it and its neighbours, unless an earlier call did. A frame has the same
+  // bits whatever was made before. Ascending indices are the fastest. report: gets the fraction of the whole.
   Rendered make(size_t index, const FrameRenderer::Report& report);
 
  private:

@@ -22,17 +22,17 @@ struct FinishOptions {
 
 inline constexpr double kShareOfRendering = 0.97;  // of a denoised picture's time
 
-// The options with the layers that the denoiser needs besides those that the file is to have.
+// Returns the options with the layers that the denoiser needs, in addition to the layers of the file.
 RenderOptions options_to_finish(RenderOptions wanted, Denoiser denoiser);
 
-// Which object each pixel of each eye shows; as in ods/picture/cryptomatte.h.
+// The object that each pixel of each eye shows, as in ods/picture/cryptomatte.h.
 struct ObjectLayer {
   std::vector<Image> numbers;
   std::vector<std::string> names;
 };
 
-// `picture` was rendered with options_to_finish(), or with more layers; the files have those that are wanted. beside:
-// the frames beside it in a video. Returns the names of the files. Throws as save_picture() and denoise().
+// `picture` was rendered with options_to_finish(), or with more layers; the files have the wanted layers. beside: the
+// frames beside it in a video. Returns the names of the files. Throws as save_picture() and denoise() do.
 std::vector<std::string> finish_picture(const FinishOptions& finish, const RenderOptions& wanted,
                                         const StereoCamera& camera, Picture picture, const std::string& path,
                                         std::span<const FrameBeside> beside = {},

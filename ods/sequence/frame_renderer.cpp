@@ -20,13 +20,13 @@ std::vector<StereoCamera> open_camera(const SequenceOptions& options, Scene& sce
   const double open = options.shutter / 360.0 / options.fps;
   if (open == 0.0) {
     change = set_time(scene, time);
-    return {options.camera(scene, time)};
+    return {camera_at(options.camera, scene, time)};
   }
   std::vector<StereoCamera> cameras;
   for (int key = 0; key < kShutterKeys; key++) {
     const double seconds = time + open * (static_cast<double>(key) / (kShutterKeys - 1) - 0.5);
     if (!scene.animation.views.empty()) set_time(scene, seconds);
-    cameras.push_back(options.camera(scene, seconds));
+    cameras.push_back(camera_at(options.camera, scene, seconds));
   }
   const auto same = [&](const StereoCamera& a) {
     const StereoCamera& b = cameras.front();
@@ -70,7 +70,7 @@ Rendered FrameRenderer::render(const SequenceFrame& frame, const Report& report)
   return {finish_picture(options_.finish, options_.render, shot.camera(), std::move(picture), frame.path), samples};
 }
 
-void FrameRenderer::keep_raw(const SequenceFrame& frame, const Report& report) {
+Rendered FrameRenderer::keep_raw(const SequenceFrame& frame, const Report& report) {
   const Shot shot = set(frame);
   check_picture_memory(shot.options);
   PictureSamples samples = no_samples(shot.options);
@@ -78,9 +78,10 @@ void FrameRenderer::keep_raw(const SequenceFrame& frame, const Report& report) {
   progress.report = report;
   renderer_->sample(shot.cameras, shot.options, samples, progress);
   write_unfinished(raw_path(frame), {{}, {}, shot.options.noise_exposure, {}, shot.options}, samples);
+  return {{raw_path(frame)}, static_cast<double>(count_samples(samples))};
 }
 
-// What keep_raw() has written; none: there is nothing of use.
+// The picture that keep_raw() has written; nullopt if there is no usable one.
 std::optional<Picture> FrameRenderer::read_raw(const std::string& path, const RenderOptions& options) const {
   if (!is_saved(path)) return std::nullopt;
   std::string fault = fmt::format("'{}' is of another picture", path);

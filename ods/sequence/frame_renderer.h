@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "ods/render/cpu/render.h"
@@ -16,7 +17,7 @@
 
 namespace ods {
 
-// The file of a frame as rendered, for whoever denoises it: samples (ods/render/unfinished.h).
+// The extension of the file of a raw frame, for the process that denoises it: samples (ods/render/unfinished.h).
 inline constexpr std::string_view kRawEnd = ".raw";
 inline std::string raw_path(const SequenceFrame& frame) {
   return frame.path + std::string(kRawEnd);
@@ -34,20 +35,21 @@ struct RawFrame {
   double time = 0.0;
   StereoCamera camera;  // in the middle of the shutter
   Picture picture;
-  std::vector<std::vector<Hit>> hits;  // CpuRenderer::center_hits(); empty if nothing but the camera moves
+  std::vector<std::vector<Hit>> hits;  // CpuRenderer::center_hits(); empty if only the camera moves
 };
 
 class FrameRenderer {
  public:
   using Report = std::function<void(double done)>;
 
-  // Both must outlive this object. The options may change between frames.
-  FrameRenderer(const SequenceOptions& options, Scene& scene) : options_(options), scene_(scene) {}
+  // The scene must outlive this object.
+  FrameRenderer(SequenceOptions options, Scene& scene) : options_(std::move(options)), scene_(scene) {}
 
   const SequenceOptions& options() const { return options_; }
+  void set_options(SequenceOptions options) { options_ = std::move(options); }  // of the frames from here on
   const Scene& scene() const { return scene_; }
 
-  // Whether frames are denoised together with those beside them.
+  // Returns whether frames are denoised together with their neighbours.
   bool draws_on_neighbours() const;
 
   // Sets the scene to the frame's time.
@@ -59,19 +61,19 @@ class FrameRenderer {
   // Renders, denoises and saves. report: gets the fraction done, if it is set.
   Rendered render(const SequenceFrame& frame, const Report& report = {});
 
-  // Reads what keep_raw() has written, if it is there; else renders. Warns if what is there is of no use.
+  // Reads the file that keep_raw() has written, if it exists; otherwise renders. Warns if the file is unusable.
   RawFrame render_raw(const SequenceFrame& frame, const Report& report = {});
 
   // Renders, and writes raw_path(frame).
-  void keep_raw(const SequenceFrame& frame, const Report& report = {});
+  Rendered keep_raw(const SequenceFrame& frame, const Report& report = {});
 
-  // As FrameBeside::places: where the surfaces of a frame are at another time.
+  // Returns FrameBeside::places: the places of a frame's surfaces at another time.
   std::vector<std::vector<vec3>> places(const RawFrame& frame, double seconds);
 
  private:
   std::optional<Picture> read_raw(const std::string& path, const RenderOptions& options) const;
 
-  const SequenceOptions& options_;
+  SequenceOptions options_;
   Scene& scene_;
   SceneChange change_;  // since renderer_ was updated
   std::optional<CpuRenderer> renderer_;

@@ -8,13 +8,14 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "ods/render/light_cache.h"
 #include "ods/render/render_target.h"
-#include "ods/stage/comfortable_merge.h"
 #include "ods/stage/exposure.h"
+#include "ods/stage/judge_scene.h"
 
 namespace ods {
 
@@ -25,7 +26,7 @@ std::set<size_t> looks_at(const std::vector<SequenceFrame>& frames, size_t count
   return chosen;
 }
 
-std::optional<float> suitable_exposure(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames) {
+static std::optional<float> exposure_for(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames) {
   std::vector<Picture> looks;
   for (const size_t i : looks_at(frames, kLooks)) {
     const Shot shot = renderer.set(frames[i]);
@@ -35,7 +36,7 @@ std::optional<float> suitable_exposure(FrameRenderer& renderer, const std::vecto
   return suitable_exposure(looks);
 }
 
-Image comfortable_merge(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames, float limit) {
+static Image merge_for(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames, float limit) {
   constexpr size_t kMergeLooks = 16;
   std::vector<float> shares(kMergeRows, 1.0f);
   for (const size_t i : looks_at(frames, kMergeLooks)) {
@@ -45,14 +46,34 @@ Image comfortable_merge(FrameRenderer& renderer, const std::vector<SequenceFrame
   return merge_map_of(std::move(shares));
 }
 
-// Options for a picture of the same kind that takes a 64th of the time; more where few pixels would tell little, and
-// where few paths would not fill the light cache.
+FirstLook look_first(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames) {
+  SequenceOptions options = renderer.options();
+  if (options.merge_limit) {
+    use_merge_map(options.camera.stereo, merge_for(renderer, frames, *options.merge_limit));
+  }
+  FirstLook look;
+  if (options.exposure) {
+    look.exposure = *options.exposure;
+  } else if (renderer.scene().as_painted) {
+    look.reason = ExposureReason::kPainted;
+  } else {
+    const std::optional<float> stops = exposure_for(renderer, frames);
+    look.exposure = stops ? brightened(*stops, options.brighter) : options.brighter;
+    look.reason = stops ? ExposureReason::kLight : ExposureReason::kDark;
+  }
+  options.render.noise_exposure = look.exposure;
+  renderer.set_options(std::move(options));
+  return look;
+}
+
+// Options for a picture of the same kind that takes a 64th of the time; more if so few pixels would not be
+// representative, or so few paths would not fill the light cache.
 static RenderOptions small_picture(const RenderOptions& whole, const StereoCamera& camera) {
-  constexpr double kLeast = 1.0 / 64.0, kFewestPixels = 16384.0, kPathsThatFill = 65536.0, kMostForPaths = 0.25;
+  constexpr double kMinShare = 1.0 / 64.0, kMinPixels = 16384.0, kPathsThatFill = 65536.0, kMaxForPaths = 0.25;
   const auto paths = static_cast<double>(light_cache_paths(whole));
-  const double for_paths = paths == 0.0 ? 0.0 : std::min(kPathsThatFill / paths, kMostForPaths);
-  const double for_pixels = std::min(kFewestPixels / (1.0 * whole.width * whole.height), 1.0);
-  const double share = std::max({kLeast, for_paths, for_pixels});
+  const double for_paths = paths == 0.0 ? 0.0 : std::min(kPathsThatFill / paths, kMaxForPaths);
+  const double for_pixels = std::min(kMinPixels / (1.0 * whole.width * whole.height), 1.0);
+  const double share = std::max({kMinShare, for_paths, for_pixels});
   const int step = width_step(camera.projection);
   RenderOptions small = whole;
   small.width = std::max(static_cast<int>(whole.width * std::sqrt(share)) / step * step, step);

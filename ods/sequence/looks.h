@@ -1,35 +1,43 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a first look at some of a sequence's frames tells of all of them. It depends on the sequence alone, so processes
-// that share the frames or resume them find the same.
+// A first look at some of a sequence's frames finds settings that suit all of them. It depends on the sequence alone,
+// so processes that share its frames find the same.
 #pragma once
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "ods/image/image.h"
 #include "ods/sequence/frame_renderer.h"
 
 namespace ods {
 
-// Indices of so many frames, spread evenly; of fewer if there are fewer. Precondition: there are frames, here and
-// below.
+// Returns the indices of `count` frames, spread evenly; of all if there are fewer. Precondition here and below: there
+// are frames.
 std::set<size_t> looks_at(const std::vector<SequenceFrame>& frames, size_t count);
 inline constexpr size_t kLooks = 5;
 
-// The exposure that suits the light of all frames (ods/stage/exposure.h). None: all is black.
-std::optional<float> suitable_exposure(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames);
+enum class ExposureReason {
+  kGiven,    // SequenceOptions::exposure
+  kPainted,  // Scene::as_painted: the colours are shown as they are
+  kLight,    // chosen for the light of all frames (ods/stage/exposure.h)
+  kDark,     // no light reaches the camera
+  kFrames,   // render_video(): frames exist that were made with it
+};
 
-// The merge map with which no frame strains the eyes by more than `limit` minutes of arc above and below
-// (ods/comfort/merge_from_depth.h).
-Image comfortable_merge(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames, float limit);
+struct FirstLook {
+  float exposure = 0.0f;  // stops
+  ExposureReason reason = ExposureReason::kGiven;
+};
 
-// What a frame will take, judged by a small picture of it.
+// Finds the settings that the options leave open, the exposure and the merge, and sets them in the renderer's options:
+// noise_exposure, and the camera's merge map.
+FirstLook look_first(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames);
+
+// An estimate of a frame's cost from a small picture of it.
 struct SmallFrame {
   double seconds = 0.0;
-  double bytes = 0.0;  // of its file
+  double bytes = 0.0;  // the size of its file
 };
 
 // Renders a small picture of a frame, denoises and saves it there.

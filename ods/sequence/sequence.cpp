@@ -4,12 +4,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
+#include <set>
 
 #include "ods/base/error.h"
 #include "ods/files/frames.h"
 #include "ods/kernel/random.h"
+#include "ods/picture/save.h"
 #include "ods/sequence/denoised_frames.h"
 #include "ods/sequence/frame_renderer.h"
 #include "ods/sequence/shared_frames.h"
@@ -17,63 +18,66 @@
 namespace ods {
 
 std::vector<SequenceFrame> make_frames(const SequenceOptions& options, const std::vector<int>& numbers,
-                                       const std::string& pattern, bool changing_grain) {
+                                       const std::string& pattern) {
   const std::optional<FrameNames> names = frame_names(pattern);
   if (!names) throw Error(ErrorKind::kUsage, fmt::format("'{}' has no place for the frames' numbers: ####", pattern));
+  const bool changes = options.changing_grain.value_or(moves(options.camera.move));
+  const uint32_t seed = options.render.seed;
   std::vector<SequenceFrame> frames;
   for (const int number : numbers) {
-    const uint32_t own = hash_pair(options.render.seed, static_cast<uint32_t>(number));
-    frames.push_back({number, number / options.fps, names->path(number), changing_grain ? own : options.render.seed});
+    const uint32_t own = hash_pair(seed, static_cast<uint32_t>(number));
+    const double time = (number - options.first_frame) / options.fps;
+    frames.push_back({number, time, names->path(number), changes ? own : seed});
   }
   return frames;
 }
 
-// make: gets an index in `all`, and where it is in the order of work.
-static size_t make_all(const std::vector<SequenceFrame>& all, const std::vector<size_t>& missing, bool shared,
-                       const SequenceProgress& progress, std::string_view end,
-                       const std::function<void(size_t index, size_t number)>& make) {
-  size_t made = 0;
-  if (!shared) {
-    for (const size_t index : missing) make(index, made++);
-    return made;
+std::vector<size_t> choose_frames(const std::vector<SequenceFrame>& all, const std::vector<int>& numbers,
+                                  bool skip_existing) {
+  const std::set<int> wanted(numbers.begin(), numbers.end());
+  std::vector<size_t> chosen;
+  for (size_t i = 0; i < all.size(); i++) {
+    if (!wanted.contains(all[i].number)) continue;
+    if (skip_existing && is_saved(all[i].path)) {
+      remove_dead_claim(all[i].path);
+    } else {
+      chosen.push_back(i);
+    }
   }
-  std::vector<SharedFrame> files;
-  for (const size_t index : missing) files.push_back({all[index].number, all[index].path + std::string(end)});
-  make_shared_frames(
-      files, [&](size_t i) { make(missing[i], i), made++; }, progress.waiting);
-  return made;
+  return chosen;
 }
 
 size_t render_sequence(FrameRenderer& renderer, const std::vector<SequenceFrame>& all,
-                       const std::vector<size_t>& missing, bool shared, const SequenceProgress& progress) {
-  const auto saved = [&](const Rendered& frame) {
-    if (progress.saved) progress.saved(frame);
+                       const std::vector<size_t>& missing, Sink sink, const SequenceProgress& progress) {
+  std::optional<DenoisedFrames> denoised;
+  if (sink != Sink::kRaw && renderer.draws_on_neighbours()) denoised.emplace(renderer, all, missing);
+  size_t made = 0;
+  const auto make = [&](size_t place) {
+    const size_t index = missing[place];
+    const SequenceFrame& frame = all[index];
+    const FrameAtWork at_work{static_cast<int>(place) + 1, static_cast<int>(missing.size()), frame.path};
+    const auto whole = [&](double done) {
+      if (progress.report) progress.report(done, at_work);
+    };
+    const auto part = [&](double done) {
+      whole((static_cast<double>(place) + done) / static_cast<double>(missing.size()));
+    };
+    const Rendered rendered = denoised             ? denoised->make(index, whole)
+                              : sink == Sink::kRaw ? renderer.keep_raw(frame, part)
+                                                   : renderer.render(frame, part);
+    made++;
+    if (progress.saved) progress.saved(rendered);
   };
-  const auto report = [&](double done, size_t index) {
-    if (progress.report) progress.report(done, index);
-  };
-  if (renderer.draws_on_neighbours()) {
-    DenoisedFrames frames(renderer, all, missing);
-    return make_all(all, missing, shared, progress, "", [&](size_t index, size_t) {
-      saved(frames.make(index, [&](double done) { report(done, index); }));
-    });
+  if (sink == Sink::kFiles) {
+    for (size_t place = 0; place < missing.size(); place++) make(place);
+    return made;
   }
-  const auto count = static_cast<double>(missing.size());
-  return make_all(all, missing, shared, progress, "", [&](size_t index, size_t number) {
-    saved(
-        renderer.render(all[index], [&](double done) { report((static_cast<double>(number) + done) / count, index); }));
-  });
-}
-
-void render_raw_sequence(FrameRenderer& renderer, const std::vector<SequenceFrame>& all,
-                         const std::vector<size_t>& missing, const SequenceProgress& progress) {
-  const auto count = static_cast<double>(missing.size());
-  make_all(all, missing, true, progress, kRawEnd, [&](size_t index, size_t number) {
-    renderer.keep_raw(all[index], [&](double done) {
-      if (progress.report) progress.report((static_cast<double>(number) + done) / count, index);
-    });
-    if (progress.saved) progress.saved({{raw_path(all[index])}, 0.0});
-  });
+  std::vector<SharedFrame> files;
+  for (const size_t index : missing) {
+    files.push_back({all[index].number, sink == Sink::kRaw ? raw_path(all[index]) : all[index].path});
+  }
+  make_shared_frames(files, make, progress.waiting);
+  return made;
 }
 
 }  // namespace ods

@@ -15,17 +15,18 @@ struct SharedFrame {
   std::string path;  // as for is_saved()
 };
 
-// Called when the rest is being made by others: the numbers of these frames, and who makes the first of them.
+// Called when other processes make all remaining frames: the numbers of these frames, and the process that makes the
+// first.
 using OnWaiting = std::function<void(const std::vector<int>& numbers, const std::string& holder)>;
 
 // Calls `make` with the index of every frame that is not saved yet and not claimed by another process. Then waits until
-// those of others are saved; a frame whose process died is made here. So all frames exist on return. Throws
-// Error(kOutput), and what `make` throws.
+// the frames of other processes are saved; a frame whose process died is made here. So all frames exist on return.
+// Throws Error(kOutput), and anything that `make` throws.
 void make_shared_frames(const std::vector<SharedFrame>& frames, const std::function<void(size_t index)>& make,
                         const OnWaiting& waiting = {});
 
-// Waits until all frames are saved, at most so many seconds: network disks show other machines' files late. waiting:
-// is told once how many are missing.
+// Waits until all frames are saved, for at most `seconds`: network disks show other machines' files late. waiting:
+// called once with the number of missing frames.
 void wait_for_frames(const std::vector<SharedFrame>& frames, float seconds,
                      const std::function<void(size_t missing)>& waiting = {});
 

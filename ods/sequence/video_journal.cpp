@@ -17,6 +17,7 @@
 #include "ods/files/frames.h"
 #include "ods/files/read_file.h"
 #include "ods/sequence/frame_renderer.h"
+#include "ods/sequence/identity.h"
 
 namespace fs = std::filesystem;
 
@@ -25,7 +26,7 @@ namespace {
 
 constexpr const char* kNote = "job.txt";
 constexpr const char* kFrame = "frame.######.exr";
-constexpr const char* kMark = "omnistereo video frames, 1";  // the number is the version of the note's format
+constexpr const char* kMark = "omnistereo video frames, 2";  // the number is the version of the note's format
 constexpr const char* kFrames = "frames";
 
 fs::file_type type_of(const std::string& path) {
@@ -33,12 +34,17 @@ fs::file_type type_of(const std::string& path) {
   return fs::symlink_status(path, ignored).type();
 }
 
-// Whether a file in the folder is a partial copy of this one, left by a killed run.
+// Returns whether a file in the folder is a partial copy of this one, left by a killed run.
 bool is_half(const std::string& name, const std::string& of) {
   return name.starts_with("." + of + ".tmp.");
 }
 
-// Whether a folder holds at most what a process left that was killed while writing the first note.
+Setting* find_setting(Settings& settings, std::string_view name) {
+  const auto found = std::ranges::find(settings, name, &Setting::name);
+  return found == settings.end() ? nullptr : &*found;
+}
+
+// Returns whether a folder contains at most the files of a process that was killed while writing the first note.
 bool is_empty(const std::string& folder) {
   std::error_code ignored;
   return std::all_of(fs::directory_iterator(folder, ignored), fs::directory_iterator(),
@@ -54,7 +60,9 @@ std::string frame_pattern(const std::string& video) {
 VideoJournal::VideoJournal(const std::string& video, const Settings& settings, bool restart, JournalUse use,
                            std::chrono::seconds patience)
     : claim_(use == JournalUse::kAlone ? claim(video, patience) : nullptr),
+      video_(video),
       folder_(video + ".frames"),
+      given_(settings),
       settings_(settings) {
   const fs::file_type type = type_of(folder_);
   if (type != fs::file_type::directory && type != fs::file_type::not_found) {
@@ -84,12 +92,32 @@ void VideoJournal::begin(bool restart) {
     }
     return;
   }
+  for (Setting& setting : settings_) {
+    const Setting* was = setting.value == kByFirstLook ? find_setting(then, setting.name) : nullptr;
+    if (was) setting.value = was->value;
+  }
   if (restart || (!has_frames() && !settings_difference(then, settings_).empty())) {
     remove();
     frames_.clear();
   } else {
     expect_same_settings(folder_, then, settings_);
   }
+  if (restart || (claim_ && !has_frames())) settings_ = given_;  // shared frames may be at work already
+}
+
+std::optional<std::string> VideoJournal::found(std::string_view setting) const {
+  for (size_t i = 0; i < given_.size(); i++) {
+    const bool is_found = given_[i].value == kByFirstLook && settings_[i].value != kByFirstLook;
+    if (is_found && given_[i].name == setting) return settings_[i].value;
+  }
+  return std::nullopt;
+}
+
+void VideoJournal::record(std::string_view setting, const std::string& value) {
+  Setting* now = find_setting(settings_, setting);
+  if (!now || now->value != kByFirstLook) return;
+  now->value = value;
+  write_note();
 }
 
 VideoJournal::~VideoJournal() {
@@ -105,13 +133,19 @@ std::string VideoJournal::pattern() const {
   return folder_ + "/" + kFrame;
 }
 
-// False if there is no note of ours.
+// Returns false if there is no note of ours. Throws Error(kInput) if it is damaged.
 bool VideoJournal::read_note(Settings& settings) {
   if (type_of(note_path()) != fs::file_type::regular) return false;
   const std::vector<unsigned char> bytes = read_file(note_path(), size_t{64} << 20);
   const std::string note(bytes.begin(), bytes.end());
-  if (!note.starts_with(kMark + std::string("\n"))) return false;
-  for (const Setting& setting : parse_settings(note.substr(note.find('\n') + 1))) {
+  const std::string mark = kMark + std::string("\n");
+  if (!note.starts_with(mark) && !mark.starts_with(note)) return false;
+  const std::optional<Settings> all = parse_settings(note.substr(std::min(note.size(), mark.size())));
+  if (!all) {
+    throw Error(ErrorKind::kInput,
+                fmt::format("'{}' is damaged: remove '{}', and the frames are rendered again", note_path(), folder_));
+  }
+  for (const Setting& setting : *all) {
     if (setting.name != kFrames) {
       settings.push_back(setting);
     } else if (!setting.value.empty()) {
@@ -123,8 +157,9 @@ bool VideoJournal::read_note(Settings& settings) {
 
 void VideoJournal::write_note() const {
   const std::string frames = frames_text({frames_.begin(), frames_.end()});
-  const std::string note = fmt::format("{}\n{}\t{}\n{}", kMark, kFrames, frames, settings_text(settings_));
-  write_file(note_path(), note);
+  Settings all = {{kFrames, frames, ""}};
+  all.insert(all.end(), settings_.begin(), settings_.end());
+  write_file(note_path(), fmt::format("{}\n{}", kMark, settings_text(all)));
 }
 
 void VideoJournal::plan(const std::vector<int>& frames, const std::vector<int>& own) {
@@ -148,7 +183,7 @@ void VideoJournal::plan(const std::vector<int>& frames, const std::vector<int>& 
   write_note();
 }
 
-// The frame that a file is, or what it was or will be made of: raw, or half stitched.
+// The frame of a file: the frame itself, or its raw or partly stitched form.
 static std::string frame_of(const std::string& name) {
   for (const std::string_view end : {kRawEnd, std::string_view(".stitching")}) {
     if (name.ends_with(end)) return name.substr(0, name.size() - end.size());

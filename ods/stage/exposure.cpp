@@ -15,16 +15,16 @@ namespace {
 
 constexpr int kLookWidth = 192, kLookHeight = 96, kLookSamples = 16;
 constexpr int kBlock = 4;
-constexpr double kSkyShare = 0.5;        // the most weight of the sky, as a share of that of surfaces
-constexpr double kBlack = 1.0 / 4096.0;  // of the highlights: what is darker counts as black
+constexpr double kSkyShare = 0.5;        // maximum weight of the sky, relative to the weight of surfaces
+constexpr double kBlack = 1.0 / 4096.0;  // relative to the highlights: darker light counts as black
 
 struct Patch {
   double luminance;
-  double weight;    // its solid angle, in proportion
-  double surfaces;  // the share of it that is not sky
+  double weight;    // relative solid angle
+  double surfaces;  // the fraction of it that is not sky
 };
 
-// Patches of a lat-long picture that have light.
+// Adds the lit patches of a lat-long picture.
 void add_patches(const EyeImage& eye, std::vector<Patch>& patches) {
   const Image& light = eye.radiance;
   for (int y = 0; y + kBlock <= light.height; y += kBlock) {
@@ -46,7 +46,7 @@ void add_patches(const EyeImage& eye, std::vector<Patch>& patches) {
   }
 }
 
-// What is looked at are surfaces: the sky around an object has no more weight than the object.
+// Limits the weight of the sky around an object, because the surfaces are the subject.
 void limit_sky(std::vector<Patch>& patches) {
   double surfaces = 0.0, sky = 0.0;
   for (const Patch& patch : patches) {
@@ -58,14 +58,14 @@ void limit_sky(std::vector<Patch>& patches) {
   for (Patch& patch : patches) patch.weight *= patch.surfaces + share * (1.0 - patch.surfaces);
 }
 
-// Whether the sky is only seen through windows.
+// Returns whether the sky is only seen through windows.
 bool is_indoors(const std::vector<Patch>& patches) {
   double sky = 0.0, whole = 0.0;
   for (const Patch& patch : patches) sky += patch.weight * (1.0 - patch.surfaces), whole += patch.weight;
   return sky < double{kWindowShare} * whole;
 }
 
-// The luminance that only this share of the patches exceeds; indoors, of the surfaces.
+// The luminance that only this fraction of the patches exceeds; indoors, of the surfaces.
 double brightest(const std::vector<Patch>& sorted, double share, bool indoors) {
   double whole = 0.0, sum = 0.0;
   for (const Patch& patch : sorted) whole += patch.weight;
@@ -87,7 +87,7 @@ RenderOptions first_look(const RenderOptions& options) {
   look.caustics = options.caustics;
   look.eyes = Eyes::kMonoEye;
   look.filter = PixelFilter::kBox;
-  look.layers = true;  // for its depth
+  look.layers = true;  // for the depth layer
   look.transparent = options.transparent;
   look.threads = options.threads;
   return look;
@@ -122,6 +122,11 @@ std::optional<float> suitable_exposure(std::span<const Picture> looks) {
       std::min(std::log2(double{kExposedMean}) - sum / weight, std::log2(double{kHighlight} / highlight));
   const double limit = double{kMostStops};
   return static_cast<float>(std::round(10.0 * std::clamp(stops, -limit, limit)) / 10.0) + 0.0f;
+}
+
+float brightened(float exposure, float brighter) {
+  const double sum = std::clamp(double{exposure} + double{brighter}, -double{kMostStops}, double{kMostStops});
+  return static_cast<float>(std::round(1e4 * sum) / 1e4);
 }
 
 }  // namespace ods

@@ -24,8 +24,8 @@ float elevation_of(int row) {
 
 struct Panorama {
   std::vector<std::array<Sight, kRows>> columns;
-  std::vector<int> sizes;  // of each instance: in how many directions it is seen
-  float farthest = 0.0f;   // of the surfaces
+  std::vector<int> sizes;  // per instance: number of directions in which it is seen
+  float farthest = 0.0f;   // distance of the farthest surface
 
   const Sight& at(int column, int row) const {
     return columns[static_cast<size_t>((column + kColumns) % kColumns)][static_cast<size_t>(row)];
@@ -62,7 +62,8 @@ float reach_of(const Panorama& view, int column) {
   return farthest;
 }
 
-// How far the scene reaches behind whatever is thin in that column: as far as on both sides of it, if not farther.
+// The distance of the backdrop behind thin objects in a column: the smaller of the two sides' maximum distances, or the
+// column's own if that is larger.
 float backdrop(const std::vector<float>& reaches, int column) {
   const int kThin = static_cast<int>(18.0f / kStep);
   float left = 0.0f, right = 0.0f;
@@ -73,12 +74,12 @@ float backdrop(const std::vector<float>& reaches, int column) {
   return std::max(reaches[static_cast<size_t>(column)], std::min(left, right));
 }
 
-// What a column of directions shows.
+// The contents of a column of directions.
 struct Column {
-  float things = 0.0f;   // share of its rows
-  float cut = 0.0f;      // 1: a thing goes on above the view
+  float things = 0.0f;   // fraction of its rows with objects
+  float cut = 0.0f;      // 1 if an object extends above the view
   float depth = 0.0f;    // log2 of the backdrop's distance
-  float blocked = 0.0f;  // 1: something near rises through the whole view
+  float blocked = 0.0f;  // 1 if a close object fills the column from bottom to top
 };
 
 Column column_of(const Panorama& view, int column, float behind) {
@@ -111,7 +112,7 @@ std::vector<Column> columns_around(const SceneRays& rays, vec3 eye) {
   return columns;
 }
 
-// middle: the number of its column.
+// middle: index of the column in the middle of the view.
 float worth_of_view(const std::vector<Column>& columns, int middle) {
   constexpr float kDepth = 0.2f, kDeeper = 0.5f, kShallow = 0.3f, kCut = 0.3f, kBlocked = 1.0f;
   Column wide, centre, all;  // weighted sums over the view, over its middle, and all around

@@ -15,7 +15,7 @@ namespace ods {
 
 namespace {
 
-// How far above the horizontal an object is looked at, degrees: level if it is as high as a third of its width, and
+// The elevation in degrees from which an object is seen: level if its height is a third of its width or more, and
 // steeper the flatter it is.
 float steepness(vec3 size) {
   constexpr float kFlat = 0.08f, kHigh = 0.35f, kSteepest = 30.0f;
@@ -31,16 +31,16 @@ Viewing before_object(const SceneRays& rays, const Survey& survey, float unit) {
   viewing.is_object = true;
   viewing.middle = 0.5f * (core.low + core.high);
   const float to_see = distance_to_see(rays.scene(), core);
-  const float distance = std::max(to_see, 0.5f * to_see + 1.02f * kElbowRoom / unit);  // its radius is at most the half
+  const float distance = std::max(to_see, 0.5f * to_see + 1.02f * kElbowRoom / unit);  // the radius is <= to_see / 2
   const float above =
       std::max(distance * std::tan(glm::radians(steepness(size))), std::min(0.15f * size.y, 0.15f / unit));
-  const float front = size.x < kThin * size.z ? -90.0f : 0.0f;  // from +X, rather than its edge
+  const float front = size.x < kThin * size.z ? -90.0f : 0.0f;  // from +X, instead of its edge
   bool first = true;
   for (const float aside : {0.0f, 30.0f, -30.0f, 60.0f, -60.0f, 90.0f, -90.0f, 135.0f, -135.0f, 180.0f}) {
     const float yaw = front + aside <= -180.0f ? front + aside + 360.0f : front + aside;
     const vec3 eye = viewing.middle - direction_at(yaw, 0.0f) * distance + vec3(0.0f, above, 0.0f);
     if (!std::exchange(first, false) && free_radius(rays, eye) * unit < kElbowRoom) continue;
-    viewing.view.position = eye;  // the first stays if something is in the way everywhere
+    viewing.view.position = eye;  // the first one is kept if something is in the way everywhere
     viewing.view.yaw = yaw;
     if (free_radius(rays, eye) * unit >= kElbowRoom) break;
   }
@@ -75,15 +75,15 @@ CameraChoice camera_choice(std::string_view words) {
   return words == "none" ? CameraChoice::kNone : CameraChoice::kNamed;
 }
 
-// Why a camera is not used; empty: it is.
+// Returns the reason why a camera is not used. Empty if it is.
 static std::string speck_seen_by(const ViewPoint& camera, const Bounds& core) {
   const float distance = length(camera.position - 0.5f * (core.low + core.high));
   const float angle = glm::degrees(2.0f * std::atan2(0.5f * length(core.high - core.low), distance));
-  if (angle >= kSpeck || !(angle > 0.0f)) return "";  // 0: nothing can be seen at all
+  if (angle >= kSpeck || !(angle > 0.0f)) return "";  // 0 if nothing is visible at all
   return fmt::format("the whole scene is a speck in the file's camera '{}', {:.2g} degrees wide", camera.name, angle);
 }
 
-// Whether the size of the scene is the viewer's own choice.
+// Returns whether the size of the scene may be chosen.
 static bool chooses_size(const Scene& scene, const SettleOptions& options, const Settled& settled) {
   const bool has_camera = !scene.view_points.empty() && options.camera != CameraChoice::kNone;
   return options.shows_models && (!has_camera || !settled.camera_reason.empty());

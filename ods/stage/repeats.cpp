@@ -35,7 +35,8 @@ bool same_shape(const Scene& scene, const Mesh& a, const Mesh& b) {
          std::ranges::equal(vertices_of(scene, a), vertices_of(scene, b), {}, &Vertex::position, &Vertex::position);
 }
 
-// For each mesh the first one of its shape. Meshes of one checksum and two shapes count as different.
+// For each mesh, the index of the first one with its shape. Meshes with the same checksum but different shapes count as
+// different.
 std::vector<int> first_of_shape(const Scene& scene) {
   std::map<uint32_t, int> known;
   std::vector<int> first(scene.meshes.size());

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kNearDirections = 256;
 constexpr int kOpenDirections = 512;
-constexpr int kMostPanes = 32;  // of glass, one behind the other
+constexpr int kMostPanes = 32;  // panes of glass behind each other
 constexpr float kSteepest = 0.7071f;
 
 LightTable without_lights(const Scene& scene) {
@@ -34,8 +34,13 @@ SceneRays::SceneRays(const Scene& scene)
   tracer_.ray_time = 0.5f;
 }
 
+static bool is_two_sided(const Scene& scene, int instance) {
+  const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[static_cast<size_t>(instance)].mesh)];
+  return scene.materials[static_cast<size_t>(mesh.material)].double_sided != 0;
+}
+
 Sight SceneRays::look(vec3 from, vec3 direction) const {
-  PathTracer tracer = tracer_;  // it keeps state while it decides about alpha
+  PathTracer tracer = tracer_;  // it has state while it decides about alpha
   const Ray ray{from, direction};
   tracer.start_path(ray, no_media(), 0u, 0u);
   const Hit hit = embree_.closest_hit(tracer, ray, kHalfAlphaRay);
@@ -44,6 +49,7 @@ Sight SceneRays::look(vec3 from, vec3 direction) const {
   const Surface surface = tracer.surface_at(hit, direction, true);
   sight.distance = hit.t;
   sight.front = surface.front;
+  sight.two_sided = is_two_sided(scene_, hit.instance);
   sight.clear = surface.transmission > 0.5f;
   sight.normal = surface.geometric;
   sight.instance = hit.instance;
@@ -126,7 +132,7 @@ Surroundings surroundings(const SceneRays& rays, vec3 point) {
   float nearest = std::numeric_limits<float>::infinity();
   for (const vec3& direction : kDirections) {
     const Sight sight = rays.look(point, direction);
-    if (!sight.leaves()) (sight.front ? fronts : backs)++;
+    if (!sight.leaves()) (sight.front || sight.two_sided ? fronts : backs)++;
     nearest = std::min(nearest, sight.distance);
   }
   return {static_cast<float>(fronts) / kNearDirections, static_cast<float>(backs) / kNearDirections, nearest};

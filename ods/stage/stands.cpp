@@ -13,24 +13,24 @@ namespace ods {
 
 namespace {
 
-constexpr int kGridColumns = 20;  // of the grid over the scene, each way
-constexpr int kMostStoreys = 24;  // surfaces above each other that are looked at
+constexpr int kGridColumns = 20;  // cells of the grid over the scene, each way
+constexpr int kMostStoreys = 24;  // maximum number of surfaces above each other that are examined
 constexpr int kAzimuths = 16;
-constexpr float kLevel = 0.7071f;                                      // the least upward part of a floor's normal
-constexpr float kElevations[] = {-20.0f, -10.0f, 5.0f, 20.0f, 40.0f};  // degrees, of what is seen from a stand
+constexpr float kLevel = 0.7071f;                                      // minimum upward component of a floor's normal
+constexpr float kElevations[] = {-20.0f, -10.0f, 5.0f, 20.0f, 40.0f};  // degrees: the directions examined from a stand
 
 constexpr float kWithinSolid = 1e-3f;  // such a stand is worth less than any other
 
 struct View {
   float worth = 0.0f;
-  float near = 0.0f;   // share of the azimuths in which the ground reaches 4.4 m, or ends at a wall
-  float far = 0.0f;    // the same for 9 m
+  float near = 0.0f;   // fraction of the azimuths in which the ground reaches 4.4 m, or ends at a wall
+  float far = 0.0f;    // fraction of the azimuths in which the ground reaches 9 m, or ends at a wall
   float walls = 0.0f;  // as Stand::walls
-  float above = 0.0f;  // share of the directions above the horizon with something to see
-  float backs = 0.0f;  // share of the surfaces that show their backs
-  bool shut = false;   // nothing leads outside
+  float above = 0.0f;  // fraction of the directions above the horizon with visible surfaces
+  float backs = 0.0f;  // fraction of the surfaces that show their backs
+  bool shut = false;   // no direction leads outside
 
-  // As inside a rock with other things in it, or under the water of a lake; also in a room whose walls face outwards.
+  // Inside a rock that contains other objects, or under the water of a lake; also in a room whose walls face outwards.
   bool is_within_solid() const { return shut && backs > 0.25f; }
 };
 
@@ -67,7 +67,7 @@ View look_around(const SceneRays& rays, vec3 eye, float unit) {
   return view;
 }
 
-// How firm the ground is: 1 on a wide floor, less on a bed or a table from which one would fall, 0 on a ledge.
+// The safety of the ground: 1 on a wide floor, less on a bed or a table from which one could fall, 0 on a ledge.
 float footing(const SceneRays& rays, vec3 eye, float floor, float unit) {
   int level = 0, lower = 0;
   for (int i = 0; i < 8; i++) {
@@ -90,26 +90,27 @@ float centrality(const Bounds& core, vec3 point) {
   return std::clamp(1.0f - std::max(x, z), 0.0f, 1.0f);
 }
 
-// The same among things on all sides.
+// 1 in the middle of the core, 0 at its faces; for a viewer among objects on all sides.
 float depth_within(const Bounds& core, vec3 point) {
   const vec3 off = glm::abs(point - 0.5f * (core.low + core.high)) / max(0.5f * (core.high - core.low), vec3(1e-9f));
   return std::clamp(1.0f - std::max({off.x, off.y, off.z}), 0.0f, 1.0f);
 }
 
-// Ground without anything that rises above the eyes.
+// Returns whether the ground has no object that extends above the eyes.
 bool is_flat(const Bounds& core, float unit) {
   const vec3 size = core.high - core.low;
   return std::min(size.x, size.z) * unit >= 10.0f && size.y < 0.08f * std::max(size.x, size.z);
 }
 
-// Whether what is seen from a point is most of the scene: the walls of a room, not the inside of one thing among many.
+// Returns whether most of the scene is visible from a point: the walls of a room, as opposed to the inside of one
+// object among many.
 bool sees_most(const SceneRays& rays, const Bounds& core, vec3 eye) {
   const Bounds seen = seen_bounds(rays, eye);
   const vec3 seen_size = seen.high - seen.low, size = core.high - core.low;
   return seen_size.x * seen_size.y * seen_size.z >= 0.3f * size.x * size.y * size.z;
 }
 
-// A floor with its headroom; worth 0: nobody can stand there.
+// A floor with its headroom; worth 0 if a person cannot stand there.
 Stand judge_floor(const SceneRays& rays, const Bounds& core, vec3 foot, float headroom, float unit) {
   Stand stand;
   stand.floor = foot.y;
@@ -128,7 +129,7 @@ Stand judge_floor(const SceneRays& rays, const Bounds& core, vec3 foot, float he
   return stand;
 }
 
-// The best floor in a vertical line, from the top downwards.
+// The best floor on a vertical line, from the top downwards.
 Stand best_in_column(const SceneRays& rays, const Bounds& core, vec3 top, float unit) {
   Stand best;
   const vec3 down(0.0f, -1.0f, 0.0f);
@@ -176,7 +177,7 @@ std::optional<Stand> best_stand(const SceneRays& rays, const Bounds& core, float
 
 std::optional<Stand> best_float(const SceneRays& rays, const Bounds& core, float metres_per_unit) {
   constexpr int kCells = 7, kSectors = 16, kLeastSectors = 13, kLeastThings = 12;
-  constexpr float kSteep = 0.26f;  // the sine of 15 degrees: what is above and below does not surround
+  constexpr float kSteep = 0.26f;  // the sine of 15 degrees: objects above and below do not surround the viewer
   static const std::vector<vec3> kDirections = sphere_directions(2048);
   Stand best;
   for (int cell_number = 0; cell_number < kCells * kCells * kCells; cell_number++) {

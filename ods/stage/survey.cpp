@@ -14,7 +14,7 @@ namespace ods {
 
 namespace {
 
-constexpr size_t kMostSamples = 200000;  // of triangles
+constexpr size_t kMostSamples = 200000;  // triangles
 
 struct Triangle {
   vec3 corners[3];
@@ -29,7 +29,7 @@ size_t visible_triangles(const Scene& scene) {
   return count;
 }
 
-// Every so many triangles, at most kMostSamples in all.
+// Every n-th triangle, at most kMostSamples in all.
 std::vector<Triangle> sampled_triangles(const Scene& scene) {
   const size_t stride = visible_triangles(scene) / kMostSamples + 1;
   std::vector<Triangle> triangles;
@@ -95,7 +95,7 @@ Bounds core_bounds(const Scene& scene) {
 }
 
 float distance_to_see(const Scene& scene, const Bounds& core) {
-  constexpr float kCotangent = 1.7320508f;  // of 30 degrees
+  constexpr float kCotangent = 1.7320508f;  // cotangent of 30 degrees
   const vec3 middle = 0.5f * (core.low + core.high);
   float distance = 0.0f;
   for (const Triangle& triangle : sampled_triangles(scene)) {
@@ -131,8 +131,8 @@ float backs_seen_outside(const SceneRays& rays, const Bounds& core) {
   return hits == 0 ? 0.0f : static_cast<float>(backs) / static_cast<float>(hits);
 }
 
-// In a furnished room most triangles are furniture, so the core may have no walls: what is seen from a first stand
-// shows how far the place extends. An object may stand in a hall.
+// In a furnished room most triangles are furniture, so the core may have no walls. So the extent of the place is
+// measured from a first stand. An object may be in a hall.
 static void find_stand(const SceneRays& rays, float metres_per_unit, Survey& survey) {
   survey.stand = best_stand(rays, survey.core, metres_per_unit);
   const bool has_outliers = survey.core.low != survey.bounds.low || survey.core.high != survey.bounds.high;
@@ -152,7 +152,7 @@ static void find_stand(const SceneRays& rays, float metres_per_unit, Survey& sur
   if (stand) survey.stand = stand;
 }
 
-// An object and a place in metres are of like size up to some metres: from then on it is worth a word.
+// Objects and places in metres have similar sizes up to a few metres; larger ones are doubtful.
 static bool may_be_object(const PlaceSigns& signs) {
   constexpr float kLikeObjects = 10.0f;
   return signs.backs_outside < 0.1f && signs.extent > kLikeObjects && signs.detail < 1.0f;

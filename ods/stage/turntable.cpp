@@ -27,8 +27,8 @@ bool moves_a_node(Property property) {
   return property == Property::kTranslation || property == Property::kRotation || property == Property::kScale;
 }
 
-// Appends the table, a node, and copies of all nodes that stand on it. Returns the table; the copy of node i is table +
-// 1 + i. Lights and view points remain on the original nodes.
+// Appends the table's node, and copies of all nodes, as its descendants. Returns the table; the copy of node i is table
+// + 1 + i. Lights and view points remain on the original nodes.
 int add_table(Animation& animation, const dvec3& middle) {
   const int table = static_cast<int>(animation.nodes.size());
   std::vector<MovingNode> standing = animation.nodes;
@@ -62,7 +62,7 @@ void put_on_table(Scene& scene, int table, const dvec3& middle) {
     moves[static_cast<size_t>(moving.instance)] = 1;
     const bool skinned =
         moving.deformation != -1 && animation.deformations[static_cast<size_t>(moving.deformation)].skin != -1;
-    if (skinned) continue;  // its joints stand on the table
+    if (skinned) continue;  // its joints turn with the table
     if (moving.node == -1) {
       moving.local = moved_by(-middle) * moving.local;
       moving.node = table;

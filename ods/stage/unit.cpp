@@ -23,7 +23,7 @@ float extent(const Bounds& box) {
   return std::max({size.x, size.y, size.z});
 }
 
-// Whether the upper corners can be seen from high above the stand, as in a room; under a dome they cannot.
+// Returns whether the upper corners are visible from high above the stand, as in a room; under a dome they are not.
 bool is_boxy(const SceneRays& rays, const Bounds& box, const Stand& stand) {
   const vec3 middle = 0.5f * (box.low + box.high), half = 0.5f * (box.high - box.low);
   const vec3 from(stand.eye.x, *stand.floor + 0.8f * stand.headroom, stand.eye.z);
@@ -40,7 +40,7 @@ std::string unit_text(float metres) {
   return row ? std::string(row->plural) : fmt::format("{:g} m", metres);
 }
 
-// How far a height is from that of a usual room, as a ratio.
+// The ratio of a height to the height of a usual room, as a logarithm.
 float strangeness(float height) {
   return std::abs(std::log(height / kUsualRoom));
 }
@@ -50,7 +50,7 @@ UnitGuess with_unit(const SceneRays& rays, float metres, TakenFor taken_for, con
           survey(rays, metres, taken_for)};
 }
 
-// A room or place that is too large. Nobody builds a room that high, so what looks like an object may be one, too.
+// Handles a room or place that is too large. Rooms of that height do not exist, so an apparent object may be one, too.
 std::optional<UnitGuess> smaller_place(const SceneRays& rays, const Survey& own, TakenFor taken_for) {
   const std::optional<Stand>& stand = own.stand ? own.stand : own.refused;
   if (!stand || !stand->floor || taken_for == TakenFor::kObject) return std::nullopt;
@@ -69,7 +69,7 @@ std::optional<UnitGuess> smaller_place(const SceneRays& rays, const Survey& own,
   return std::nullopt;
 }
 
-// A room that is too small to stand in.
+// Handles a room that is too small to stand in.
 std::optional<UnitGuess> larger_room(const SceneRays& rays, const Survey& own, TakenFor taken_for) {
   if (taken_for == TakenFor::kObject || own.refused) return std::nullopt;
   if (extent(own.core) >= kSmallestPlace && backs_seen_outside(rays, own.core) < 0.5f) return std::nullopt;
@@ -83,13 +83,13 @@ std::optional<UnitGuess> larger_room(const SceneRays& rays, const Survey& own, T
   return best;
 }
 
-// An object that is shown as a model.
+// Handles an object that is shown as a model.
 UnitGuess model(const SceneRays& rays, Survey own) {
   const float size = distance_to_see(rays.scene(), own.core);
   const bool fits = size >= kSmallestObject && size <= kLargestObject;
   if (fits || size <= 0.0f) return {1.0f, "", std::move(own)};
   const float exact = std::clamp(kModelSize / size, kLeastUnit, kMostUnit);
-  const float metres = std::strtof(fmt::format("{:.3g}", exact).c_str(), nullptr);  // so that it can be repeated
+  const float metres = std::strtof(fmt::format("{:.3g}", exact).c_str(), nullptr);  // so that users can repeat it
   const float longest = extent(own.core);
   const std::string what =
       longest < 1.0f ? fmt::format("{:.3g} cm", 100.0f * longest) : fmt::format("{:.4g} m", longest);

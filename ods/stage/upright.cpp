@@ -14,15 +14,15 @@ namespace ods {
 namespace {
 
 constexpr size_t kLeastInstances = 8;
-constexpr float kSlack = 0.01f;  // of the scene's height: things at one height
+constexpr float kSlack = 0.01f;  // relative to the scene's height: tolerance for equal heights
 
-// What stands on the lowest floor along an axis.
+// The lowest floor along an axis and the objects on it.
 struct Ground {
   float standing = 0.0f;  // share of the instances
-  float floor = 0.0f;     // area of the level triangles there, over that of the scene's base
+  float floor = 0.0f;     // area of the level triangles there, over the area of the scene's base
 };
 
-// Each visible instance's box.
+// The box of each visible instance.
 std::vector<Bounds> boxes_of(const Scene& scene) {
   std::vector<Bounds> boxes;
   for (size_t i = 0; i < scene.instances.size(); i++) {
@@ -40,7 +40,7 @@ std::vector<Bounds> boxes_of(const Scene& scene) {
   return boxes;
 }
 
-// The height at which most boxes stand, and their share.
+// The height at which most boxes stand, and their fraction.
 std::pair<float, float> common_height(const std::vector<Bounds>& boxes, int axis, float slack) {
   std::vector<float> lows;
   for (const Bounds& box : boxes) lows.push_back(box.low[axis]);

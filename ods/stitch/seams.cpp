@@ -6,7 +6,7 @@
 
 namespace ods {
 
-// Display-encoded brightness, perceptually about uniform.
+// Display-encoded brightness, which is approximately perceptually uniform.
 static std::vector<float> brightness_of(const std::vector<float>& row, size_t channels) {
   std::vector<float> brightness(row.size() / channels);
   for (size_t x = 0; x < brightness.size(); x++) {

@@ -10,8 +10,8 @@
 namespace ods {
 
 struct SeamReport {
-  // The mean absolute second difference of brightness between horizontal neighbours, at slit borders, divided by the
-  // same elsewhere. 1: borders are no more visible than anything else.
+  // The mean absolute second difference of brightness between adjacent columns at slit borders, divided by the mean
+  // elsewhere. At 1, borders are no more visible than other columns.
   double ratio = 1.0;
   Picture picture;  // the second difference, times eight; borders are tinted red
 };

@@ -62,7 +62,7 @@ struct Judge {
     return std::atan(length(square_to(ray_at(camera, rig.eyes[eye], longitude, latitude), axis, a - b)) / distance);
   }
 
-  // `beyond`: how far past the slit and its fade.
+  // beyond: how far past the slit and its fade.
   SlitError at_slit(size_t eye, int slit, int pitch, float latitude, float distance, float beyond) const {
     const float middle = slit_longitude(rig, slit), half = 0.5f * slit_width(rig);
     const float reach = half * (1.0f + rig.options.blend) + beyond;
@@ -122,7 +122,7 @@ static SlitError error_at(const Judge& judge, float latitude, float distance, fl
   return worst;
 }
 
-// The error is that of the point actually shown, which lies that much to the side, above or below. An error of angle e
+// The error belongs to the point actually shown, which is that far to the side, above or below. An error of angle e
 // also changes the distance, by a factor of up to 1 + e.
 SlitError slit_error(const SlitRig& rig, float latitude, float distance) {
   const Judge judge(rig);

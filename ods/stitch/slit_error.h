@@ -27,7 +27,7 @@ SlitError slit_error(const SlitRig& rig, float latitude, float distance);
 // The largest error at any latitude.
 SlitError largest_slit_error(const SlitRig& rig, float distance);
 
-// How much of the picture one pixel of a view covers at a latitude (radians). A view's pixels have about the same
+// The part of the picture that one pixel of a view covers at a latitude (radians). A view's pixels have about the same
 // angular size everywhere, but the picture's columns narrow towards the poles, as the cosine of the latitude. If
 // `across` is well above 1, neighbouring columns look much the same, and a picture rendered directly has more
 // horizontal detail. SlitOptions::scale changes that; more slits do not.

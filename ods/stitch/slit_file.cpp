@@ -12,6 +12,7 @@
 #include "ods/base/decimal.h"
 #include "ods/base/error.h"
 #include "ods/base/json_reader.h"
+#include "ods/base/quote.h"
 #include "ods/files/atomic_file.h"
 #include "ods/files/read_file.h"
 #include "ods/image/image_file.h"
@@ -78,7 +79,7 @@ std::string write_slit_rig(const SlitRig& rig) {
                  {"height", rig.view.height},
                  {"fov", {decimal(rig.views[0].projection.fov), decimal(vertical_fov(rig.views[0]))}}}},
                {"camera", Json::parse(write_sidecar(camera))}};
-  std::string text = json.dump(2);
+  std::string text = json_document(json, 2);
   text.resize(text.size() - 2);  // the closing bracket; views follow, one per line
   text += ",\n  \"views\": [";
   for (size_t i = 0; i < rig.views.size(); i++) {
@@ -89,7 +90,7 @@ std::string write_slit_rig(const SlitRig& rig) {
                        {"slit", column % slits},
                        {"pitch", pitch},
                        {"matrix", matrix_of(rig, i)}};
-    text += fmt::format("{}\n    {}", i == 0 ? "" : ",", view.dump());
+    text += fmt::format("{}\n    {}", i == 0 ? "" : ",", json_document(view));
   }
   return text + "\n  ]\n}\n";
 }
@@ -158,7 +159,7 @@ SlitRig read_slit_rig(std::string_view text, const std::string& name, std::vecto
   read_options(in, options);
   const Json* camera = in.find("camera");
   if (!camera || !camera->is_object()) in.fail("camera", "must be an object {...}: the picture's camera");
-  const Sidecar file = read_sidecar(camera->dump(), name, warnings);
+  const Sidecar file = read_sidecar(json_document(*camera), name, warnings);
   const std::string fault = slit_fault(file.camera, file.eye, options);
   if (!fault.empty()) in.fail("", "describes an impossible rig: " + fault);
   SlitRig rig = make_slit_rig(file.camera, file.eye, file.eyes, options);

@@ -22,13 +22,14 @@ std::string write_slit_rig(const SlitRig& rig);
 // The matrix of a view, 16 numbers: the file's own if the rig was read from one.
 std::vector<float> view_matrix(const SlitRig& rig, size_t view);
 
-// `name` stands for the text in messages. A view's matrix alone gives its position and direction, so people may edit
-// it, but not the view's number or place in the list. Unknown keys add to `warnings`. Throws Error(kInput): not JSON,
-// not a rig, a newer version, a value out of range, missing views, a matrix that is not a rigid transform.
+// `name` stands for the text in messages. A view's matrix alone gives its position and direction, so users may edit it,
+// but not the view's number or place in the list. Unknown keys add to `warnings`. Throws Error(kInput) if the text is
+// not JSON, not a rig, of a newer version, or has a value out of range, missing views, or a matrix that is not a rigid
+// transform.
 SlitRig read_slit_rig(std::string_view text, const std::string& name, std::vector<std::string>& warnings);
 SlitRig load_slit_rig(const std::string& path, std::vector<std::string>& warnings);
 
-// Atomic. Throws Error(kOutput).
+// Writes the file atomically. Throws Error(kOutput).
 void save_slit_rig(const SlitRig& rig, const std::string& path);
 
 }  // namespace ods

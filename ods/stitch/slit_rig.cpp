@@ -76,7 +76,7 @@ Ray ray_at(const Camera& camera, int eye, float longitude, float latitude) {
 
 namespace {
 
-constexpr float kWidestTangent = 11.4f;  // of half of 170 degrees
+constexpr float kWidestTangent = 11.4f;  // tangent of half of 170 degrees
 
 // The tangents of the half angles that a view must cover.
 struct Window {
@@ -84,7 +84,7 @@ struct Window {
   float y = 0.0f;
 };
 
-// `ray`: the centre of what the view shows. `ahead`: where it looks; for a cap, along the axis.
+// ray: the centre of the view. ahead: the view's direction; for a cap, along the axis.
 StereoCamera view_of_ray(const Ray& ray, vec3 ahead, vec3 axis) {
   StereoCamera view;
   view.ipd = 0.0f;

@@ -9,8 +9,8 @@
 // perspective views, one above another, cover it from the bottom of the picture to the top. With a pole merge, each
 // view is at the position that the merge gives for the middle of its elevations.
 //
-// A point on the circle serves both eyes, but in opposite directions: the left eye at heading H is where the right eye
-// is at heading H + 180 degrees. No perspective view covers both, so eyes share no views.
+// A point on the circle serves both eyes, but in opposite directions: the left eye at heading H has the position of the
+// right eye at heading H + 180 degrees. No perspective view covers both, so eyes share no views.
 #pragma once
 #include <string>
 #include <string_view>
@@ -22,7 +22,7 @@
 
 namespace ods {
 
-// How a view measures depth.
+// The kind of depth in a view.
 enum class ViewDepth {
   kNone,
   kRay,    // metres from the view's own position, as in our pictures
@@ -50,7 +50,7 @@ struct SlitOptions {
 };
 
 struct SlitRig {
-  StereoCamera camera;  // of the stitched picture: lat-long, whole or a part
+  StereoCamera camera;  // camera of the stitched picture: lat-long, whole or a part
   Extent eye;           // size of one eye of it
   std::vector<int> eyes{kLeft, kRight};
   SlitOptions options;
@@ -61,15 +61,15 @@ struct SlitRig {
   // For a rig read from a file: each view's matrix as in the file, 16 numbers, row by row. `views` has the same
   // positions and directions, with rounded angles.
   std::vector<std::vector<float>> matrices;
-  Layout layout = default_layout(camera.projection);  // how the eyes of the picture share a file
+  Layout layout = default_layout(camera.projection);  // arrangement of the eyes in a file of the picture
 };
 
 size_t view_index(const SlitRig& rig, size_t eye, int slit, int pitch);
 
-// Why no such rig is possible, for messages; empty if one is.
+// The reason why no such rig is possible, for messages. Empty if one is.
 std::string slit_fault(const StereoCamera& camera, Extent eye, const SlitOptions& options);
 
-// Views cover the slit, its blend and the padding, and all have one size. Precondition: no slit_fault().
+// Makes the rig. Views cover the slit, its blend and the padding, and all have one size. Precondition: no slit_fault().
 SlitRig make_slit_rig(const StereoCamera& camera, Extent eye, const std::vector<int>& eyes, const SlitOptions& options);
 
 // Radians. The longitude of a slit's centre, and a slit's width; the latitude of the border between a pitch and the one
@@ -78,7 +78,7 @@ float slit_longitude(const SlitRig& rig, int slit);
 float slit_width(const SlitRig& rig);
 float pitch_border(const SlitRig& rig, int pitch);
 
-// Where a pitch looks, and the height it covers; a cap covers half of that, on one side of where it looks.
+// The direction of a pitch, and the height it covers; a cap covers half of that, on one side of its direction.
 float pitch_latitude(const SlitRig& rig, int pitch);
 float pitch_height(const SlitRig& rig);
 
@@ -88,7 +88,7 @@ float pitch_fade(const SlitRig& rig);
 // The lowest and the highest latitude that a pitch contributes to, including its fades.
 vec2 pitch_reach(const SlitRig& rig, int pitch);
 
-// Whether the slits wrap around: the last one's neighbour is the first.
+// Returns whether the slits wrap around, so that the first slit follows the last one.
 bool goes_round(const SlitRig& rig);
 
 // The picture's ray for an eye at this longitude and latitude.

@@ -47,7 +47,7 @@ RowInView SlitRows::find_row(const Camera& view, int place, int y) const {
   return {{at(middle - reach_), at(middle), at(middle + reach_)}, middle, reach_};
 }
 
-// Checked where they would differ most: at the ends of what the view shows, and between.
+// Checked where they would differ most: at the ends and in the middle of the view's part.
 bool SlitRows::is_alike(int slit, int pitch) const {
   constexpr float kSame = 1.0f / 256.0f;  // pixels of a view: covers the rounding of angles, but no more
   const float top = pitch_border(rig_, -1), bottom = pitch_border(rig_, rig_.options.pitches - 1);

@@ -26,7 +26,7 @@ struct PictureRays {
 struct RayInView {
   vec2 at{0.0f};
   vec2 beside{0.0f};
-  float nearer = 0.0f;  // metres by which the view is nearer than the ray's origin to the point hit
+  float nearer = 0.0f;  // metres by which the view is closer than the ray's origin to the hit point
 };
 RayInView ray_in_view(const Camera& view, Extent size, const PictureRays& rays, float x, float y);
 
@@ -46,7 +46,7 @@ inline RayInView ray_along(const RowInView& row, float x) {
 }
 
 // The rows of all slits of an eye. Views with the same pose relative to their slit as in the first slit share rows;
-// unless somebody edited the rig, that is all of them.
+// unless the rig was edited, these are all views.
 class SlitRows {
  public:
   // The rig must outlive this object.
@@ -54,7 +54,7 @@ class SlitRows {
 
   const PictureRays& rays() const { return rays_; }
 
-  // `place`: the slit's index along the picture, before wrapping around.
+  // place: the slit's index along the picture, before wrapping around.
   RowInView row(int place, int slit, int pitch, int y) const;
 
  private:

@@ -60,7 +60,7 @@ struct RowSums {
   int right = 0;
   std::vector<float> sums;   // per pixel and channel
   std::vector<float> whole;  // per pixel: the sum of the views' weights
-  std::vector<float> most;   // per pixel: the largest weight, whose view gives the channels that are not averaged
+  std::vector<float> most;   // per pixel: the largest weight; its view gives the channels that are not averaged
 
   void start(int from, int to, size_t channels) {
     const size_t count = static_cast<size_t>(to - from);
@@ -116,14 +116,14 @@ class Stitcher {
   const SlitRig& rig_;
   const OpenView& open_;
   LayerSet layers_;                      // shared by all views
-  std::optional<StoredPicture> sample_;  // the view that it came from
+  std::optional<StoredPicture> sample_;  // the view from which it was read
   size_t sample_index_ = 0;
-  std::vector<std::vector<Batch>> batches_;  // of each eye
+  std::vector<std::vector<Batch>> batches_;  // per eye
   std::shared_ptr<Scratch> picture_;         // a journal file, or memory
   size_t pixels_from_ = 0;                   // bytes
   std::mutex mutex_;
   std::vector<ViewFault> faults_;
-  std::atomic<int64_t> unseen_{0};  // of the current batch
+  std::atomic<int64_t> unseen_{0};  // count of the current batch
   int64_t unseen_all_ = 0;
 };
 
@@ -202,7 +202,7 @@ bool Stitcher::was_done(const Batch& batch) {
   return true;
 }
 
-// A batch with faulty views is done again by the next run.
+// A batch with faulty views is repeated by the next run.
 void Stitcher::set_done(const Batch& batch) {
   unseen_all_ += unseen_;
   if (!faults_.empty() || !picture_->on_disk()) return;
@@ -234,7 +234,7 @@ int Stitcher::slit_of(int place) const {
   return goes_round(rig_) ? (place + slits) % slits : std::clamp(place, 0, slits - 1);
 }
 
-// The slits of a range, reusing those that are open already.
+// The slits of a range, reusing those that are already open.
 std::map<int, Slit> Stitcher::open_slits(size_t eye, int first, int last, const std::map<int, Slit>& open) {
   std::map<int, Slit> slits;
   std::vector<std::pair<int, int>> wanted;  // slit, pitch
@@ -261,7 +261,7 @@ int Stitcher::slits_at_once() const {
 // --- pixels ----------------------------------------------------------------------------------------------------------
 
 // The weight of a slit or pitch at a distance from its centre, in units of their spacing, when they fade over `blend`.
-// A point exactly on a border belongs to both sides, so that it never belongs to none.
+// A point exactly on a border belongs to both sides, so that it always belongs to at least one.
 float weight_at(float distance, float blend) {
   constexpr float kSharpest = 1e-4f;
   return std::clamp((0.5f - distance) / std::max(blend, kSharpest) + 0.5f, 0.0f, 1.0f);
@@ -363,7 +363,7 @@ void Stitcher::make_eye(size_t eye, const std::function<void(int slit)>& done) {
   if (batches.empty()) return;
   const SlitRows rows(rig_, eye);
   std::map<int, Slit> slits = open_slits(eye, batches.front().first, batches.front().last, {});
-  const std::map<int, Slit> start(slits.begin(), std::next(slits.begin()));  // also the last one's neighbour
+  const std::map<int, Slit> start(slits.begin(), std::next(slits.begin()));  // also adjacent to the last one
   for (size_t i = 0; i < batches.size(); i++) {
     std::map<int, Slit> open = slits, next;
     open.insert(start.begin(), start.end());

@@ -20,22 +20,22 @@ struct LayerSet {
   size_t channels = 0;
   std::vector<char> is_nearest;  // per channel: never averaged
   size_t first_nearest = 0;      // index of that channel; the channel count if there is none
-  int depth = -1;                // the depth channel in metres; below 0: none
+  int depth = -1;                // index of the depth channel in metres; negative if there is none
 };
 LayerSet layers_of(const StoredPicture& picture);
 bool same_layers(const LayerSet& a, const LayerSet& b);
 
 class View {
  public:
-  // `pose`: the view's position and direction. Depth, if the view has it and the rig says which kind, is converted to
+  // pose: the view's position and direction. Depth, if the view has it and the rig specifies its kind, is converted to
   // depth along rays.
   View(StoredPicture picture, const StereoCamera& pose, ViewDepth depth);
   View(const View&) = delete;
   View& operator=(const View&) = delete;
 
-  // Fills `out` with all channels of the picture's pixels in row y from column `left` on: what their rays hit,
-  // filtered; depth is along their rays. Columns wrap around. Returns the number of pixels whose point is occluded in
-  // this view; the far background replaces it.
+  // Fills `out` with all channels of the picture's pixels in row y from column `left` on: the filtered hits of their
+  // rays, with depth along the rays. Columns wrap around. Returns the number of pixels whose point is occluded in this
+  // view; the far background replaces it.
   int fill(const PictureRays& rays, const RowInView& row, int y, int left, std::span<float> out) const;
 
  private:

@@ -58,7 +58,7 @@ void call_depth_z(StoredPicture& picture) {
   }
 }
 
-// N.X, N.Y, N.Z; names in multilayer files end likewise.
+// Matches N.X, N.Y, N.Z; names in multilayer files have the same ending.
 bool is_normal(const LayerPixels& layer) {
   if (layer.channels.size() != 3 || (layer.sample != SampleType::kHalf && layer.sample != SampleType::kFloat))
     return false;
@@ -67,7 +67,7 @@ bool is_normal(const LayerPixels& layer) {
   return name == "N" || name == "Normal" || name.ends_with(".N") || name.ends_with(".Normal");
 }
 
-// In place: nothing else reads the view's pixels.
+// In place, because nothing else reads the view's pixels.
 void turn_normals(const StoredPicture& picture, const Camera& camera) {
   for (const LayerPixels& layer : picture.eyes[0].layers) {
     if (!is_normal(layer)) continue;
@@ -91,7 +91,7 @@ void turn_normals(const StoredPicture& picture, const Camera& camera) {
   }
 }
 
-// `mark`: of the rig that the file should belong to.
+// mark: of the rig that the file should belong to.
 StoredPicture open_file(const std::string& path, const StereoCamera& pose, const std::string& mark) {
   OpenOptions options;
   options.format.one_eye = true;
@@ -219,7 +219,7 @@ void mark_folders(const SlitRig& rig, const ViewFiles& files) {
   if (has_rig_marks(rig, files)) return;
   const std::string text = mark_file_text(rig_mark(rig));
   for (const std::string& folder : view_folders(rig, files)) {
-    std::error_code ignored;  // writing reports the fault
+    std::error_code ignored;  // writing reports the error
     if (!folder.empty()) std::filesystem::create_directories(folder, ignored);
     write_file(folder + kRigMarkFile, text);
   }
@@ -235,7 +235,7 @@ OpenView open_view_files(const SlitRig& rig, const ViewFiles& files) {
   };
 }
 
-// What is wrong with a file, for messages; empty if nothing is.
+// The fault of a file, for messages. Empty if it has none.
 static std::string fault_of(const std::string& path, const StereoCamera& pose, Extent size, const std::string& mark,
                             bool thorough) {
   std::error_code error;
@@ -254,7 +254,7 @@ static std::string fault_of(const std::string& path, const StereoCamera& pose, E
 }
 
 std::vector<ViewFault> missing_views(const SlitRig& rig, const ViewFiles& files, bool thorough) {
-  std::map<std::string, std::vector<size_t>> views_of;  // of each file
+  std::map<std::string, std::vector<size_t>> views_of;  // per file
   for (size_t i = 0; i < rig.views.size(); i++) views_of[view_path(rig, files, i)].push_back(i);
   const Extent size{rig.view.width * files.columns, rig.view.height * files.rows};
   const std::string mark = rig_mark(rig);

@@ -25,10 +25,10 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-// What is rendered after a change, one after the other. Two samples are the fewest that can be denoised.
+// The steps of rendering after a change, in order. Denoising needs at least two samples.
 struct Step {
   bool is_patch;
-  float size;  // of the base: pixels across; of the patch: over its full width
+  float size;  // for the base: pixels across; for the patch: relative to its full width
   int samples;
 };
 constexpr Step kSteps[] = {
@@ -39,20 +39,20 @@ constexpr Step kSteps[] = {
 constexpr size_t kFirstOfPatch = 1;
 static_assert(kSteps[kFirstOfPatch].is_patch);
 
-// From this step on a light cache pays: it takes a second or two of a core to fill.
+// From this step on a light cache pays off: filling it takes a second or two of a core.
 constexpr size_t kFirstCached = 5;
 constexpr int kCachePaths = 1 << 18;
 
 constexpr float kScreen = 1280.0f;      // pixels across a view
-constexpr float kMostOfPatch = 0.8e6f;  // pixels of an eye
-constexpr float kLookMargin = 1.15f;    // the patch is larger than the view, so that small turns stay in it
+constexpr float kMostOfPatch = 0.8e6f;  // maximum pixels of an eye
+constexpr float kLookMargin = 1.15f;    // the patch is larger than the view, so that it covers small turns
 
-// A picture that gets finer.
+// A picture that is refined step by step.
 struct Canvas {
   StereoCamera camera;
   RenderOptions options;
   PictureSamples samples;
-  std::shared_ptr<const Picture> picture;  // as denoised; null: not yet
+  std::shared_ptr<const Picture> picture;  // denoised; null if not rendered yet
   bool is_patch = false;
 };
 
@@ -91,7 +91,7 @@ std::vector<uint8_t> display(const Picture& picture, float exposure, ToneCurve t
   return bytes;
 }
 
-// The part of the sphere that holds a view whose tangents are larger by the margin, in degrees.
+// The part of the sphere that contains a view whose tangents are enlarged by the margin, in degrees.
 struct Window {
   float half_width, low, high;
 };
@@ -105,7 +105,7 @@ Window window_of(const LiveView& view, float margin) {
   Window window;
   window.low = std::min(latitude(0.0f, -up), latitude(across, -up));
   window.high = std::max(latitude(0.0f, up), latitude(across, up));
-  // The corners nearest to a pole reach furthest around; beyond it, all the way.
+  // The corners closest to a pole have the largest range of headings; beyond the pole, all headings.
   const float ahead = std::cos(pitch) - up * std::sin(std::abs(pitch));
   window.half_width = ahead > 0.0f ? glm::degrees(std::atan(across / ahead)) : 180.0f;
   if (ahead <= 0.0f) (view.pitch < 0.0f ? window.low : window.high) = view.pitch < 0.0f ? -90.0f : 90.0f;
@@ -121,7 +121,8 @@ bool shows(const StereoCamera& patch, const LiveView& view) {
          window.high <= latitude.y;
 }
 
-// What an eye sees at a position of its picture. whole: the camera in whose pictures LivePick has its places.
+// The point that an eye sees at a position of its picture. whole: the camera whose picture LivePick's positions refer
+// to.
 std::optional<LivePick> pick_at(const LiveSeen& seen, const Camera& camera, int eye, vec2 uv, const Camera& whole) {
   const Image& depth = seen.picture->eyes[static_cast<size_t>(eye)].depth;
   const glm::ivec2 pixel = pixel_at(uv, depth);
@@ -166,29 +167,29 @@ struct LiveRender::State {
 
   const Clock::duration rest_after;
 
-  // What others set, and what they get.
+  // Shared with other threads.
   mutable std::mutex mutex;
   mutable std::condition_variable changed;
   LiveSettings settings;
   LiveView view;
-  int revision = 0;  // 0: there are no settings yet
+  int revision = 0;  // 0 if there are no settings yet
   bool ended = false;
-  Clock::time_point since;                         // when the settings changed
-  mutable int waiting = 0;                         // for a frame, now
-  mutable Clock::time_point asked = Clock::now();  // when somebody last waited for one
+  Clock::time_point since;                         // time of the last change of the settings
+  mutable int waiting = 0;                         // threads that wait for a frame
+  mutable Clock::time_point asked = Clock::now();  // last time that a frame was requested
   int last_number = 0;
-  std::shared_ptr<const LiveFrame> frames[2];  // of the base and the patch
-  LiveSeen seen[2];                            // likewise
+  std::shared_ptr<const LiveFrame> frames[2];  // the base and the patch
+  LiveSeen seen[2];                            // the base and the patch
   std::string fault;
 
-  // The thread's own.
+  // Used only by the render thread.
   Scene& scene;
   CpuRenderer renderer;
   double scene_time = 0.0;
-  LiveSettings rendered;  // what the canvases show
+  LiveSettings rendered;  // the settings of the canvases
   std::optional<Canvas> base, patch;
-  std::optional<LightCells> cells;  // for both; none: not yet
-  size_t next = 0;                  // step
+  std::optional<LightCells> cells;  // for both; not set if not filled yet
+  size_t next = 0;                  // index of the next step
   std::thread thread;
 
   void run();
@@ -210,7 +211,7 @@ struct LiveRender::State {
   }
 };
 
-// Every direction may be looked at next: the whole picture's paths fill the cells.
+// The viewer may turn in any direction, so the whole picture's paths fill the cells.
 void LiveRender::State::fill_cells(const Progress& progress) {
   RenderOptions options = base->options;
   options.indirect = Indirect::kCache;
@@ -218,7 +219,7 @@ void LiveRender::State::fill_cells(const Progress& progress) {
   cells = renderer.fill_cells({&rendered.camera, 1}, options, progress);
 }
 
-// False if it was cancelled: the samples are of no use then.
+// Returns false if it was cancelled; the samples are then unusable.
 bool LiveRender::State::refine(Canvas& canvas, int samples, int mine) {
   Progress progress;
   progress.cancelled = [&] { return is_old(mine) || (canvas.is_patch && !shows(canvas.camera, view_now())); };
@@ -246,7 +247,7 @@ static Extent size_of(const Step& step, const StereoCamera& camera) {
   return step.is_patch ? scaled(patch_extent(camera), step.size) : Extent{static_cast<int>(step.size), 0};
 }
 
-// coming: the step after it.
+// coming: the index of the next step.
 void LiveRender::State::publish(const Canvas& canvas, int mine, size_t coming) {
   auto frame = std::make_shared<LiveFrame>();
   frame->revision = mine;
@@ -258,7 +259,7 @@ void LiveRender::State::publish(const Canvas& canvas, int mine, size_t coming) {
   if (coming < std::size(kSteps)) {
     const Step& step = kSteps[coming];
     const int width = size_of(step, camera_of(step, view_now())).width;
-    const std::optional<Canvas>& same = step.is_patch ? patch : base;  // it may be larger already
+    const std::optional<Canvas>& same = step.is_patch ? patch : base;  // it may already be larger
     frame->next = {step.is_patch, std::max(width, same ? same->options.width : 0), step.samples};
   }
   const std::lock_guard<std::mutex> lock(mutex);
@@ -270,7 +271,7 @@ void LiveRender::State::publish(const Canvas& canvas, int mine, size_t coming) {
   changed.notify_all();
 }
 
-// Another exposure or tone curve shows what there is in it; all else begins anew.
+// A change of exposure or tone curve only redisplays the existing picture; all other changes restart rendering.
 void LiveRender::State::begin(int mine, const LiveSettings& now) {
   LiveSettings but_for_display = now;
   but_for_display.exposure = rendered.exposure, but_for_display.tone = rendered.tone;
@@ -336,7 +337,7 @@ void LiveRender::State::run() {
     } catch (const std::exception& error) {
       base.reset(), patch.reset(), cells.reset();
       rendered = LiveSettings();
-      rendered.time = -1.0;  // nothing is rendered with it: the next settings begin anew
+      rendered.time = -1.0;  // matches no settings, so that the next ones restart rendering
       const std::lock_guard<std::mutex> lock(mutex);
       fault = error.what();
       changed.notify_all();

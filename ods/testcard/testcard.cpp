@@ -17,7 +17,7 @@ namespace ods {
 
 constexpr float kSmallPlate = 2.4f;  // degrees high
 
-// Each line is visible to one eye alone.
+// Each line is visible to one eye only.
 static void add_eyes(CardView& view, float y) {
   view.letter("LEFT EYE", 0.0f, y + 2.4f, 26.0f, 4.4f, kLeftColor).eye = kLeft;
   view.letter("RIGHT EYE", 0.0f, y - 2.4f, 26.0f, 4.4f, kRightColor).eye = kRight;
@@ -42,8 +42,8 @@ static void add_sharpness(CardView& view, float y) {
   view.add(CardPattern::kStar, 15.0f, y - 0.5f, 13.0f, 13.0f);
 }
 
-// Nearer than 0.6 m is hard to fuse ahead of the viewer, nearer than 3.5 m straight up and down: the rules of the page
-// "Omnidirectional stereo (ODS) with POV-Ray".
+// Objects closer than 0.6 m are hard to fuse ahead of the viewer, closer than 3.5 m straight up and down: the rules of
+// the page "Omnidirectional stereo (ODS) with POV-Ray".
 static void add_quarter(std::vector<Card>& cards, float yaw, const std::string& name) {
   static const float kDistances[] = {0.4f, 0.6f, 1.0f, 1.5f, 2.0f, 3.5f, 8.0f, 20.0f};
   CardView view(cards, yaw, 0.0f);
@@ -119,7 +119,7 @@ Testcard make_testcard(const StereoCamera& stereo, Extent eye, const std::vector
 
 namespace {
 
-// Where a pixel hits the card. Lengths are in the card's units: tangents.
+// The point where a pixel's ray hits the card. Lengths are in the card's units: tangents.
 struct Spot {
   vec2 at;
   float pixel;  // the pixel's size there

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A card that shows at a glance whether a player interprets a stereo 360 picture correctly: which eye sees which half,
-// degrees, poles, the seam, depth steps and which of them are safe, roundness, greys and single pixels.
+// degrees, poles, the seam, safe and unsafe depth steps, roundness, greys and single pixels.
 //
 // The card is a world of flat cards around the camera, at their own distances, drawn along the camera's rays, so it is
 // exact in every projection, merge and convergence. Edges are antialiased analytically.
@@ -31,14 +31,14 @@ enum class CardPattern {
 struct Card {
   CardPattern pattern = CardPattern::kPlate;
   vec3 middle, right, up;
-  float inverse_depth = 0.0f;  // 1 / metres; 0: at infinity
+  float inverse_depth = 0.0f;  // 1 / metres; 0 at infinity
   vec2 half{0.0f};
   float reach = -1.0f;  // cosine of the largest angle between its centre and a ray that hits it
   vec3 color{1.0f};
   int pixels = 0;
   int count = 1, lit = -1;
   float phase = 0.0f;
-  int eye = kMono;  // kLeft, kRight: the lettering is visible to this eye alone
+  int eye = kMono;  // kLeft, kRight if the lettering is visible to this eye only
   std::vector<Stroke> strokes;
   float stroke = 0.0f;  // half the stroke width
 };
@@ -46,14 +46,14 @@ struct Card {
 struct Testcard {
   Camera camera;
   Extent eye;
-  std::vector<Card> cards;  // in painting order: the nearest last
+  std::vector<Card> cards;  // in painting order, the closest last
 };
 
-// The camera is at the origin of the card's world, whatever its position. `lines` are written above the centre.
-// Precondition: as make_camera(); sides above 0.
+// The camera is at the origin of the card's world, regardless of its position. `lines` are written above the centre.
+// Preconditions: those of make_camera(); sides above 0.
 Testcard make_testcard(const StereoCamera& stereo, Extent eye, const std::vector<std::string>& lines);
 
-// The height in pixels of the small plates' capitals in such a picture; below kLegible they cannot be read.
+// The height in pixels of the small plates' capitals in such a picture; below kLegible they are illegible.
 double letter_height(const ProjectionSetting& projection, int width);
 inline constexpr double kLegible = 6.0;
 
@@ -72,7 +72,7 @@ std::vector<Card> testcard_marks(const StereoCamera& stereo, Extent eye, int fra
 int first_frame_of(int second, double fps);
 int flash_frames(double fps);
 
-// Whether a ray hits a card or passes within `margin` radians of its border. Precondition: a card at infinity.
+// Returns whether a ray hits a card or passes within `margin` radians of its border. Precondition: a card at infinity.
 bool is_on_card(const Card& card, vec3 direction, float margin);
 
 // Computes Card::reach of all cards.

@@ -24,11 +24,11 @@ struct TestcardVideo {
   Packing packing;
   StoredPicture prototype;                    // eyes without layers
   std::shared_ptr<VideoFrame> still;          // without marks
-  std::vector<std::vector<ColumnRuns>> runs;  // where marks are: rows of each eye
+  std::vector<std::vector<ColumnRuns>> runs;  // the pixels with marks, per row of each eye
 };
 
-// eyes as in EyeImage; plan: from plan_eyes() for them. Precondition: eyes that do not overlap and are multiples of the
-// chroma block.
+// Makes the video's data. eyes: as in EyeImage; plan: from plan_eyes() for them. Precondition: eyes that do not overlap
+// and are multiples of the chroma block.
 TestcardVideo make_testcard_video(const Testcard& card, const StereoCamera& camera, const std::vector<int>& eyes,
                                   const VideoPlan& plan, FrameRate rate, const Packing& packing);
 
@@ -37,7 +37,7 @@ std::shared_ptr<VideoFrame> testcard_frame(const TestcardVideo& video, int numbe
 // A mono wav file as long as the video, 48 kHz, 16 bits: a beep of 1 kHz during each flash.
 std::string testcard_sound(int frames, double fps);
 
-// Draws and encodes the frames, with beeps unless options.sound names another file. Throws Error as make_video().
+// Draws and encodes the frames, with beeps unless options.sound specifies another file. Throws Error like make_video().
 void write_testcard_video(const TestcardVideo& video, const VideoPlan& plan, int frames, EncodeOptions options,
                           const std::string& path, const Progress& progress = {});
 

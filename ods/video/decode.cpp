@@ -28,7 +28,7 @@ namespace ods {
 
 using av::checked, av::made, av::Owned;
 
-// --- what the video says ---------------------------------------------------------------------------------------------
+// --- the stream's properties -----------------------------------------------------------------------------------------
 
 static std::optional<VideoCodec> codec_of(AVCodecID id) {
   switch (id) {
@@ -47,7 +47,7 @@ static std::optional<VideoCodec> codec_of(AVCodecID id) {
   }
 }
 
-// Bytes of this kind that the container says of the stream; empty: none.
+// Side data of this kind that the container has for the stream; empty if there is none.
 static std::string side_data(const AVStream& stream, AVPacketSideDataType kind) {
 #if LIBAVCODEC_VERSION_INT >= AV_VERSION_INT(60, 31, 102)
   const AVPacketSideData* data =
@@ -60,7 +60,7 @@ static std::string side_data(const AVStream& stream, AVPacketSideDataType kind) 
 #endif
 }
 
-// Likewise of a picture.
+// Side data of this kind in a picture; empty if there is none.
 static std::string side_data(const AVFrame& frame, AVFrameSideDataType kind) {
   const AVFrameSideData* data = av_frame_get_side_data(&frame, kind);
   return data == nullptr ? "" : std::string(reinterpret_cast<const char*>(data->data), data->size);
@@ -68,7 +68,7 @@ static std::string side_data(const AVFrame& frame, AVFrameSideDataType kind) {
 
 namespace {
 
-// How the picture is to be turned before it is shown.
+// The rotation of the picture for display.
 enum class Turn { kNone, kHalf, kOther };
 
 }  // namespace
@@ -85,7 +85,7 @@ static Turn turn_of(const AVStream& stream) {
   return angle < 0.5 ? Turn::kNone : angle > 179.5 ? Turn::kHalf : Turn::kOther;
 }
 
-// Reads the pixel format. Returns why it is unsupported; empty if it is supported.
+// Reads the pixel format. Returns the reason why it is unsupported; empty if it is supported.
 static std::string read_format(AVPixelFormat format, VideoStream& stream) {
   const AVPixFmtDescriptor* descriptor = av_pix_fmt_desc_get(format);
   const std::string name = descriptor == nullptr ? "unknown" : descriptor->name;
@@ -142,7 +142,7 @@ static void turn_row(const uint8_t* from, int width, bool is_between, uint8_t* t
   for (int x = width - 1; x > 0; x--) out[x] = static_cast<T>((out[x - 1] + out[x] + 1) / 2);
 }
 
-// Chroma that is sited at the left one of two pixels would be at the right one: it is interpolated.
+// Chroma sited at the left one of two pixels would be at the right one after the rotation, so it is interpolated.
 static Owned<AVFrame> upright(const AVFrame& from) {
   const AVPixFmtDescriptor& format = *av_pix_fmt_desc_get(static_cast<AVPixelFormat>(from.format));
   Owned<AVFrame> to(made(av_frame_alloc()));
@@ -170,7 +170,7 @@ bool can_decode_both_views() {
   return av_opt_find(&options, "view_ids", nullptr, 0, AV_OPT_SEARCH_FAKE_OBJ) != nullptr;
 }
 
-// Whether the second of two views is the left eye's.
+// Returns whether the second of two views is the left eye's.
 static bool is_left_second(const AVFrame& first, const AVFrame& second, Views views) {
   const auto eye_of = [](const AVFrame& frame) {
     const AVFrameSideData* said = av_frame_get_side_data(&frame, AV_FRAME_DATA_STEREO3D);
@@ -181,7 +181,7 @@ static bool is_left_second(const AVFrame& first, const AVFrame& second, Views vi
   return views == Views::kRightAndLeft;
 }
 
-// Both have the same format.
+// Joins two views, which have the same format.
 static void put_beside(const AVFrame& left, const AVFrame& right, AVFrame& both) {
   checked(av_frame_copy_props(&both, &left), ErrorKind::kMemory, "cannot join two views");
   both.decode_error_flags |= right.decode_error_flags;
@@ -219,7 +219,7 @@ struct VideoDecoder::State {
   const AVStream* source = nullptr;
   Owned<AVCodecContext> decoder;
   int64_t count = 0;  // frames so far
-  FrameTime last;     // of the frame before
+  FrameTime last;     // time of the previous frame
   std::shared_ptr<AVFrame> waiting;
   bool has_skipped = false;
 
@@ -298,7 +298,7 @@ struct VideoDecoder::State {
     if (alpha != nullptr && other != nullptr) stream.has_alpha = true;
   }
 
-  // False at the end of the stream.
+  // Returns false at the end of the stream.
   bool receive(AVFrame& frame) {
     const Owned<AVPacket> packet(made(av_packet_alloc()));
     for (;;) {
@@ -317,7 +317,7 @@ struct VideoDecoder::State {
     }
   }
 
-  // The views of a picture follow each other.
+  // The views of a picture are consecutive.
   bool receive_both(AVFrame& both) {
     const Owned<AVFrame> first(made(av_frame_alloc())), second(made(av_frame_alloc()));
     if (!receive(*first)) return false;
@@ -327,7 +327,7 @@ struct VideoDecoder::State {
         continue;
       fail(fmt::format("picture {} has eyes of other sizes or formats than the first", count));
     }
-    // A frame that is turned later has its eyes at the other sides until then.
+    // The eyes of a frame that is turned later are at opposite sides until then.
     const bool swap = is_left_second(*first, *second, views) != stream.is_turned;
     put_beside(swap ? *second : *first, swap ? *first : *second, both);
     return true;
@@ -367,7 +367,7 @@ struct VideoDecoder::State {
     return has_frame ? frame : nullptr;
   }
 
-  // HEVC says of its light only in its pictures.
+  // HEVC has the metadata of its light only in its pictures.
   void read_light() {
     if (!stream.words.is_hdr()) return;
     std::string &display = stream.words.mastering_display, &level = stream.words.light_level;
@@ -426,15 +426,15 @@ std::optional<DecodedFrame> VideoDecoder::next() {
 
 void VideoDecoder::skip_to(double seconds) {
   State& state = *state_;
-  const double kReordered = 1.0;  // seconds: a key frame is shown at most so much later than it is decoded
-  const double kRounded = 0.5;    // ticks, by which a time may be off
+  const double kReordered = 1.0;  // seconds: maximum delay from decoding a key frame to showing it
+  const double kRounded = 0.5;    // ticks: rounding error of a time
   const int64_t wanted = static_cast<int64_t>(std::ceil(seconds * state.ticks() - kRounded));
   state.has_skipped = true;
   const int64_t before = static_cast<int64_t>((seconds - kReordered) * state.ticks());
   if (av_seek_frame(state.file.get(), state.source->index, before, AVSEEK_FLAG_BACKWARD) >= 0) {
     avcodec_flush_buffers(state.decoder.get());
     state.waiting.reset();
-    state.last = {std::numeric_limits<int64_t>::min() / 2, 0};  // times ascend from here on: it may be a step back
+    state.last = {std::numeric_limits<int64_t>::min() / 2, 0};  // times ascend from here on: this may be a step back
   }
   while (std::shared_ptr<AVFrame> frame = state.take()) {
     if (state.time_of(*frame).start < wanted) continue;

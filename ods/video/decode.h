@@ -18,25 +18,26 @@ namespace ods {
 struct VideoStream {
   Extent size;
   FrameRate rate;
-  std::optional<VideoCodec> codec;  // none: some other codec
+  std::optional<VideoCodec> codec;  // not set for other codecs
   int bits = 8;                     // 8 to 16
   Chroma chroma = Chroma::k420;
   ColorCode color;
   ColorWords words;
   bool has_alpha = false;
-  bool is_turned = false;   // stored upside down: VideoDecoder turns it upright
+  bool is_turned = false;   // stored upside down; VideoDecoder turns it upright
   FrameRate clock;          // ticks per second of FrameTime
-  double start = 0.0;       // when the first picture is shown, in seconds
-  double file_start = 0.0;  // when the first picture or sound begins
-  // What the first picture carries beside its pixels and no encoder here keeps, for people. Known once it is decoded.
+  double start = 0.0;       // time of the first picture, in seconds
+  double file_start = 0.0;  // time of the first picture or sound
+  // Data of the first picture, besides its pixels, that no encoder here keeps; texts for users. Known once it is
+  // decoded.
   std::vector<std::string> unkept;
-  int count = 0;  // number of pictures, as stated or computed from the duration; 0: unknown
+  int count = 0;  // number of pictures, as stored or computed from the duration; 0 if unknown
 
-  // From the first picture on.
+  // The time in seconds from the first picture on.
   double seconds_at(const FrameTime& time) const { return static_cast<double>(time.start) / clock.value() - start; }
 };
 
-// One decoded picture. The planes stay valid while `memory` lives.
+// One decoded picture. The planes stay valid as long as `memory`.
 struct DecodedFrame {
   FrameTime time;
   Planes planes;                     // read only
@@ -45,18 +46,18 @@ struct DecodedFrame {
   std::shared_ptr<const void> memory;
 };
 
-// What to decode of a stream that has the eyes as layers (MV-HEVC): the first layer, as of any other stream, or both as
-// one frame, the left eye's at the left. Where the stream does not say which is which, the first one is the left or the
-// right eye's.
+// The layers to decode of a stream with the eyes as layers (MV-HEVC): only the first layer, as for any other stream, or
+// both as one frame, with the left eye on the left. If the stream does not specify the order, the first one is the left
+// or the right eye's.
 enum class Views { kFirst, kLeftAndRight, kRightAndLeft };
 
-// Whether this machine's libavcodec can decode both: since FFmpeg 7.1.
+// Returns whether this machine's libavcodec can decode both: FFmpeg 7.1 or later.
 bool can_decode_both_views();
 
 class VideoDecoder {
  public:
-  // track: as in video_file.h. threads: 0 lets the decoder choose. Throws Error(kInput): a damaged video, no decoder
-  // for it, pictures stored rotated by 90 degrees, pixel formats other than planar Y'CbCr, matrices other than
+  // track: as in video_file.h. threads: 0 lets the decoder choose. Throws Error(kInput) for a damaged video, a missing
+  // decoder, pictures stored rotated by 90 degrees, pixel formats other than planar Y'CbCr, matrices other than
   // ColorCode's. Precondition: views is kFirst, or can_decode_both_views().
   VideoDecoder(const std::string& path, uint64_t track, Views views = Views::kFirst, int threads = 0);
   VideoDecoder(const VideoDecoder&) = delete;
@@ -65,11 +66,12 @@ class VideoDecoder {
 
   const VideoStream& stream() const;
 
-  // The next picture; nothing after the last. Pictures that the file's edit list leaves out are skipped. Times ascend.
-  // Throws Error(kInput): it is damaged, in another format than the first, or lacks an eye.
+  // The next picture, or nullopt after the last. Pictures excluded by the file's edit list are skipped. Times ascend.
+  // Throws Error(kInput) if it is damaged, in another format than the first, or lacks an eye.
   std::optional<DecodedFrame> next();
 
-  // Makes the first picture at or after this time, in seconds of the file, the next one. Throws as next().
+  // Makes the first picture at or after this time, in seconds of the file, the next one. Throws the same errors as
+  // next().
   void skip_to(double seconds);
 
  private:
@@ -77,10 +79,10 @@ class VideoDecoder {
   std::unique_ptr<State> state_;
 };
 
-// Throws Error(kInput) if the pictures' numbers mean other light than sRGB's: HDR, BT.2020.
+// Throws Error(kInput) if the colours are not sRGB's: HDR, BT.2020.
 void refuse_other_colors(const VideoStream& stream, const std::string& path);
 
-// Encoder settings to match a video; nothing if that is not possible.
+// Encoder settings to match a video. Returns nullopt if that is not possible.
 std::optional<Packing> packing_like(const VideoStream& stream, Container container);
 
 }  // namespace ods

@@ -24,6 +24,11 @@ extern "C" {
 #include <libavutil/opt.h>
 }
 
+// libnuma, which x265 asks to keep its threads near their memory, prints where it cannot: without /sys, in many
+// containers. A program may define these two (numa(3)); a library of ours prints nothing.
+extern "C" void numa_error(char*) {}
+extern "C" void numa_warn(int, char*, ...) {}
+
 namespace ods {
 
 using av::checked, av::made, av::Owned;
@@ -105,7 +110,7 @@ static void set_clock(AVCodecContext& context, const EncodeOptions& options) {
   const FrameRate &rate = options.rate, clock = options.clock.value_or(rate);
   context.time_base = {clock.seconds, clock.count};
   context.framerate = {rate.count, rate.seconds};
-#if LIBAVCODEC_VERSION_MAJOR < 61  // libvpx and libaom take this for the duration of each picture
+#if LIBAVCODEC_VERSION_MAJOR < 61  // libvpx and libaom use this as the duration of each picture
   context.ticks_per_frame = std::max(1, static_cast<int>(std::lround(clock.value() / rate.value())));
 #endif
 }
@@ -148,41 +153,52 @@ static void set_quality(AVCodecContext& context, const EncoderFacts& facts, cons
   }
 }
 
-// x265's largest block. In frames of a single one it reads memory that it never wrote, so its output differs from run
-// to run: those get smaller blocks.
+// x265's largest block. For frames of a single block it reads uninitialized memory, so its output differs from run to
+// run; such frames get smaller blocks.
 static int largest_block(const AVCodecContext& context) {
   const int side = std::max(context.width, context.height);
   return side > 64 ? 64 : side > 32 ? 32 : 16;
 }
 
-// Of these, x264 keeps a hundred megabytes and more for each picture that it works on or looks ahead at.
+// For such pictures, x264 needs a hundred megabytes or more for each one that it encodes or looks ahead at.
 static bool is_large(const AVCodecContext& context) {
   return static_cast<int64_t>(context.width) * context.height > 6'000'000;
 }
 
-// The output must not depend on the number of threads. x264's depends on its thread count, so that is fixed; x265's on
-// the number of frames in flight; with a bit rate it differs from run to run if there are several. libvpx's and
-// libaom's differ between one thread and several. SVT-AV1's and ProRes's do not depend on it.
+static int processors_for(const EncodeOptions& options) {
+  return options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+// The threads of x265's pool. With fewer than four, its lookahead searches in another way and the output differs; more
+// than 64 become several pools. If x265 is not told their number, it asks libnuma, which counts no processors where
+// /sys is missing; x265 then does without a pool, and the output differs again.
+static int x265_pool(const EncodeOptions& options) {
+  return std::clamp(processors_for(options), 4, 64);
+}
+
+// The output must not depend on the number of threads. x264's output depends on its thread count, so that is fixed;
+// x265's on the number of frames in flight, and with a bit rate it differs from run to run if there are several.
+// libvpx's and libaom's differ between one thread and several. SVT-AV1's and ProRes's do not depend on it.
 static void set_threads(AVCodecContext& context, const EncoderFacts& facts, const EncodeOptions& options) {
   const int x264_threads = is_large(context) ? 6 : 12;
-  const auto processors = static_cast<int>(std::thread::hardware_concurrency());
-  const int wanted = options.threads > 0 ? options.threads : std::max(1, processors);
   context.thread_count = options.threads;
   if (facts.name == "libx264") context.thread_count = x264_threads;
   if (facts.name == "libx265") {
-    constexpr int kFrames = 3, kBlock = 64;  // of its largest block; a frame trails the one before it by some rows
+    constexpr int kFrames = 3, kBlock = 64;  // size of its largest block; a frame trails the previous one by some rows
     const int rows = (context.height + kBlock - 1) / kBlock;
     context.thread_count = options.bitrate ? 1 : std::clamp((rows + 1) / 2, 1, kFrames);
   }
-  if (facts.name == "libaom-av1" || facts.name == "libvpx-vp9") context.thread_count = std::clamp(wanted, 2, 64);
+  if (facts.name == "libaom-av1" || facts.name == "libvpx-vp9") {
+    context.thread_count = std::clamp(processors_for(options), 2, 64);
+  }
 }
 
-// What HDR pictures say of their light, in the stream's own messages too: as x264, x265 and SVT-AV1 want to be told.
-// Units of the first two: 1/50,000 of a chromaticity and 1/10,000 of a candela per square metre.
+// The light metadata of HDR pictures, which is also in the stream's own messages, in the syntax of x264, x265 and
+// SVT-AV1. Units of the first two: 1/50,000 of a chromaticity and 1/10,000 of a candela per square metre.
 namespace {
 
 struct LightWords {
-  std::string display, level;  // empty: unsaid
+  std::string display, level;  // empty if unspecified
 };
 
 }  // namespace
@@ -210,7 +226,7 @@ static LightWords light_words(const ColorWords& words, bool in_units) {
   return result;
 }
 
-// ":NAME=VALUE" for each that is there.
+// ":NAME=VALUE" for each existing value.
 static std::string light_options(const LightWords& light, std::string_view display, std::string_view level) {
   std::string text;
   if (!light.display.empty()) text += fmt::format(":{}={}", display, light.display);
@@ -225,7 +241,7 @@ static std::string light_options(std::string_view encoder, const ColorWords& wor
   return "";
 }
 
-// x264's code for AVX-512 reads memory that it never wrote, so its output differs from run to run, seen up to 320x160.
+// x264's code for AVX-512 reads uninitialized memory, so its output differs from run to run, observed up to 320x160.
 static bool has_avx512() {
 #if defined(__x86_64__)
   return (av_get_cpu_flags() & AV_CPU_FLAG_AVX512) != 0;
@@ -240,17 +256,16 @@ static void set_own_words(AVCodecContext& context, const EncoderFacts& facts, co
   const std::string light = light_options(name, options.words);
   if (name == "libx264") {
     const bool is_fast = smallest_level(Codec::kH264, size, options.rate.value()) > "5.2";
-    // Without it the decoders of early headsets show garbage.
+    // Without this the decoders of early headsets show garbage.
     const std::string words = std::string(is_fast ? ":mvrange=511" : "") + (has_avx512() ? ":asm=AVX2" : "") + light;
     if (!words.empty()) set(context, "x264-params", words.substr(1));
   }
   if (name == "libsvtav1" && !light.empty()) set(context, "svtav1-params", light.substr(1));
   if (name == "libx264" && options.preset.empty() && is_large(context)) set(context, "rc-lookahead", "20");
-  if (name == "libx265") {                                   // logs to the console on its own
-    std::string words = "log-level=none:open-gop=0:info=0";  // its info SEI would contain the thread count
-    if (options.threads > 0) words += fmt::format(":pools={}", options.threads);
-    words += fmt::format(":ctu={}", largest_block(context)) + light;
-    set(context, "x265-params", words);
+  if (name == "libx265") {                                          // logs to the console on its own
+    const char* const kQuiet = "log-level=none:open-gop=0:info=0";  // its info SEI would contain the thread count
+    set(context, "x265-params",
+        fmt::format("{}:pools={}:ctu={}{}", kQuiet, x265_pool(options), largest_block(context), light));
   }
   if (name == "libaom-av1" || name == "libvpx-vp9") set(context, "row-mt", "1");
   if (name == "libvpx-vp9") {
@@ -309,7 +324,7 @@ void check_encoder(Container container, const EncodeOptions& options) {
   open_side_tracks(options, container);
 }
 
-// What an HDR video says of its light, for the container.
+// Adds the light metadata of an HDR video to the container.
 static void add_light(AVStream& stream, AVPacketSideDataType kind, const std::string& bytes) {
   if (bytes.empty()) return;
 #if LIBAVCODEC_VERSION_INT >= AV_VERSION_INT(60, 31, 102)
@@ -328,13 +343,13 @@ struct VideoEncoder::State {
   EncodeOptions options;
   Extent size;
   Owned<AVFormatContext> file;
-  Owned<AVCodecContext> pictures;  // none between two parts
+  Owned<AVCodecContext> pictures;  // null between two parts
   AVRational tick{0, 1};
   std::vector<std::unique_ptr<SideTracks>> others;
   int64_t count = 0;                     // frames of this part so far
-  int64_t end = 0;                       // of all pictures so far
-  int64_t decoded = INT64_MIN;           // of the last picture
-  std::map<int64_t, int64_t> durations;  // of the frames in the encoder, by start
+  int64_t end = 0;                       // over all pictures so far
+  int64_t decoded = INT64_MIN;           // decode time of the last picture
+  std::map<int64_t, int64_t> durations;  // durations of the frames in the encoder, by start time
   std::function<void(const EncodedPicture&)> keep;
 
   ~State() {
@@ -356,7 +371,7 @@ struct VideoEncoder::State {
     return *stream;
   }
 
-  // null: end of the video.
+  // frame: null at the end of the video.
   void encode(const AVFrame* frame) {
     AVCodecContext& encoder = *pictures;
     checked(avcodec_send_frame(&encoder, frame), ErrorKind::kOutput, fmt::format("cannot encode '{}'", path));
@@ -382,7 +397,7 @@ struct VideoEncoder::State {
     pictures.reset();
   }
 
-  // The first pictures of a part may claim to be decoded before the last ones of the part before it.
+  // The decode times of the first pictures of a part may precede those of the last ones of the previous part.
   void write(AVPacket& packet) {
     end = std::max(end, packet.pts + packet.duration);
     if (packet.dts != AV_NOPTS_VALUE && decoded != INT64_MIN) packet.dts = std::max(packet.dts, decoded + 1);
@@ -394,7 +409,7 @@ struct VideoEncoder::State {
     add_others(until, false);
   }
 
-  // Adds what the other tracks have up to this time.
+  // Adds the packets of the other tracks up to this time.
   void add_others(int64_t ticks, bool is_end) {
     const double until = static_cast<double>(ticks) * av_q2d(tick);
     for (const auto& tracks : others) {
@@ -426,7 +441,7 @@ VideoEncoder::VideoEncoder(const AtomicFile& to, Container container, Extent siz
   add_light(stream, AV_PKT_DATA_MASTERING_DISPLAY_METADATA, options.words.mastering_display);
   add_light(stream, AV_PKT_DATA_CONTENT_LIGHT_LEVEL, options.words.light_level);
   if (has_boxes(container) && options.packing.codec == VideoCodec::kHevc) {
-    stream.codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');  // the only tag that Apple plays
+    stream.codecpar->codec_tag = MKTAG('h', 'v', 'c', '1');  // the only tag that Apple's players accept
   }
   state.others = open_side_tracks(options, container);
   for (const auto& tracks : state.others) tracks->add_to(*file);

@@ -26,7 +26,7 @@ struct FrameRate {
   double value() const { return static_cast<double>(count) / seconds; }
 };
 
-// When a picture is shown, in ticks of a clock.
+// The time and duration of a picture, in ticks of a clock.
 struct FrameTime {
   int64_t start = 0;
   int64_t duration = 1;
@@ -34,35 +34,35 @@ struct FrameTime {
 
 struct EncodeOptions {
   Packing packing;
-  std::string encoder;             // one of known_encoders(); empty: the first available
-  std::string preset;              // the encoder's own preset name; empty: its default
+  std::string encoder;             // one of known_encoders(); if empty, the first available
+  std::string preset;              // the encoder's own preset name; if empty, its default
   std::optional<double> bitrate;   // Mbit/s, replaces packing.quality
   FrameRate rate;                  // pictures per second, on average
-  std::optional<FrameRate> clock;  // ticks per second of FrameTime; none: a tick per picture
-  ColorCode color;                 // of the frames
+  std::optional<FrameRate> clock;  // ticks per second of FrameTime; if not set, a tick per picture
+  ColorCode color;                 // colours of the frames
   ColorWords words;
-  int threads = 0;    // 0: the encoder chooses
-  std::string sound;  // a file with sound to encode; empty: none but what is kept
+  int threads = 0;    // 0 lets the encoder choose
+  std::string sound;  // a file with sound to encode; if empty, only kept sound
   KeepOptions keep;
-  bool for_apple = false;  // SphericalMetadata
+  bool for_apple = false;  // as in SphericalMetadata
 };
 
 // A picture as encoded; times in ticks of the encoder's clock.
 struct EncodedPicture {
   int64_t shown = 0;
-  int64_t decoded = 0;  // when a decoder takes it: pictures come in this order
+  int64_t decoded = 0;  // decode time; pictures come in this order
   int64_t duration = 1;
-  int flags = 0;  // libavcodec's: a key frame, one that no other needs
+  int flags = 0;  // libavcodec's: a key frame, a disposable frame
   std::string_view bytes;
 };
 
-// Pictures from one key frame to the next at the latest.
+// Maximum number of pictures between key frames.
 int key_interval(const FrameRate& rate);
 
 bool has_encoder(std::string_view name);
 
-// Throws Error(kUsage) if this machine cannot encode such pictures or sound; the message says what is missing and what
-// is available. Writes nothing.
+// Throws Error(kUsage) if this machine cannot encode such pictures or sound; the message names the missing and the
+// available encoders. Writes nothing.
 void check_encoder(Container container, const EncodeOptions& options);
 
 // Writes a video file: the header before the pictures, a key frame about every second. The same frames on the same
@@ -80,16 +80,17 @@ class VideoEncoder {
   // read.
   void add(std::shared_ptr<const VideoFrame> frame, const FrameTime& time);
 
-  // Calls `take` with every picture that is encoded from now on.
+  // Calls `take` with every picture encoded from now on.
   void keep(std::function<void(const EncodedPicture&)> take);
-  // Ends a part: all frames so far are encoded, and the next one is encoded as if it were the first. Throws as add().
+  // Ends a part: all frames so far are encoded, and the next one is encoded as if it were the first. Throws the same
+  // errors as add().
   void end_part();
   // Adds a picture that another encoder with the same options kept; all of its parts come before the first frame.
   void add(const EncodedPicture& picture);
-  // What the file says of the encoding once for all pictures.
+  // The parameters of the encoding that the file stores once for all pictures.
   std::string header() const;
 
-  // Writes the rest. Sound ends with the pictures at the latest. Throws as add().
+  // Writes the rest. Sound ends with the pictures at the latest. Throws the same errors as add().
   void finish();
 
  private:

@@ -58,7 +58,7 @@ void Footage::choose(const TimeSpan& span) {
 
 std::optional<DecodedFrame> Footage::next() {
   std::optional<DecodedFrame> frame = decode(next_);
-  const double rounded = 0.5 / stream().clock.value();  // a time may be off by half a tick
+  const double rounded = 0.5 / stream().clock.value();  // rounding error of a time: half a tick
   return frame && span_.to && seconds_of(*frame) >= *span_.to - rounded ? std::nullopt : frame;
 }
 

@@ -15,34 +15,35 @@ namespace ods {
 
 enum class FootageKind { kPicture, kFrames, kVideo };
 
-// A pattern (shot.####.exr) means frames; a file with a video's first bytes or extension is a video; anything else is a
-// picture.
+// A pattern (shot.####.exr) stands for frames; a file with a video's first bytes or extension is a video; anything else
+// is a picture.
 FootageKind footage_kind(const std::string& path);
 
 // A part of a video, in seconds from its first picture: the pictures that begin in it.
 struct TimeSpan {
   double from = 0.0;
-  std::optional<double> to;  // none: to the end
+  std::optional<double> to;  // not set for the end
 
   bool is_part() const { return from > 0.0 || to; }
 };
 
 class Footage {
  public:
-  // Of footage_kind(). A picture is read on demand. Throws Error(kInput): a video that cannot be read.
+  // Opens an input of footage_kind(). A picture is read on demand. Throws Error(kInput) for a video that cannot be
+  // read.
   Footage(const std::string& path, const FormatHint& known);
 
   FootageKind kind() const { return kind_; }
   const std::string& path() const { return path_; }
 
-  // The frame numbers, ascending. A video counts from 0, up to the length that it claims, which may be wrong; a single
-  // picture has none. Throws Error(kInput).
+  // The frame numbers, ascending. A video counts from 0, up to its stored length, which may be wrong; a single picture
+  // has none. Throws Error(kInput).
   std::vector<int> frames() const;
 
   // The file of a frame, for messages; for a video, the video.
   std::string path_of(int frame) const;
 
-  // The picture of a frame; nothing if there is no such frame. A single picture serves every frame and is read once.
+  // The picture of a frame, or nullopt if there is no such frame. A single picture serves every frame and is read once.
   // Request frames of a video in ascending order; files may be requested from any thread. Throws Error(kInput).
   std::optional<StoredPicture> picture(int frame);
 
@@ -57,9 +58,9 @@ class Footage {
   void choose(const TimeSpan& span);
   // The next frame of the video.
   std::optional<DecodedFrame> next();
-  // When it begins, in seconds from the video's first picture, whatever part was chosen.
+  // Start time, in seconds from the video's first picture, independent of choose().
   double seconds_of(const DecodedFrame& frame) const;
-  // How many frames the part probably has, at least 1.
+  // The expected number of frames of the part, at least 1.
   int expected_count() const;
 
  private:
@@ -71,7 +72,7 @@ class Footage {
   std::optional<VideoInput> video_;
   std::unique_ptr<VideoDecoder> decoder_;
   TimeSpan span_;
-  int next_ = 0;  // the next frame to decode
+  int next_ = 0;  // number of the next frame to decode
 };
 
 }  // namespace ods

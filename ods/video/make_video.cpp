@@ -39,7 +39,7 @@ static std::vector<std::string> patterns_of(const std::string& pattern) {
   return {path_for_eye(pattern, kLeft), path_for_eye(pattern, kRight)};
 }
 
-// For messages, which must stay one line.
+// A list of frames for messages, which must stay one line.
 static std::string some_of(const std::vector<int>& frames) {
   const size_t kLongest = 200;
   const std::string text = frames_text(frames);
@@ -73,7 +73,7 @@ FrameFiles find_frames(const std::string& pattern, const std::optional<std::vect
 
 // --- the plan --------------------------------------------------------------------------------------------------------
 
-// Reads a PNG's first bytes alone: opening it would scan the whole file.
+// Reads only a PNG's first bytes, because opening it would scan the whole file.
 static Extent size_of(const std::string& path) {
   const std::vector<unsigned char> start = read_start(path, 24);
   const std::string_view bytes(reinterpret_cast<const char*>(start.data()), start.size());
@@ -84,7 +84,7 @@ static Extent size_of(const std::string& path) {
   return {info.width, info.height};
 }
 
-// Throws if a frame's header gives another size than the first frame's.
+// Throws if the size in a frame's header differs from the first frame's.
 static void check_sizes(const FrameFiles& files) {
   for (const std::string& pattern : patterns_of(files.pattern)) {
     const FrameNames names = names_in(pattern);

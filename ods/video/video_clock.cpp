@@ -13,9 +13,9 @@ VideoClock::VideoClock(const VideoStream& stream, const FrameTime& first, bool i
     : clock_(stream.clock), first_(first.start) {
   zero_ = is_cut ? first.start : std::llround(stream.file_start * stream.clock.value());
   start_ = static_cast<double>(zero_) / stream.clock.value();
-  const int kFine = 10000;  // ticks per second: rounding to them is not seen
+  const int kFine = 10000;  // ticks per second: rounding to them is imperceptible
   if (stream.clock.seconds != 1 || stream.clock.count >= kFine) return;
-  // The coarsest clock that has both the old ticks and the frames of an even rate.
+  // The coarsest clock that can express both the old ticks and the frames of an even rate.
   const int64_t ticks = std::lcm(int64_t{stream.clock.count}, int64_t{stream.rate.count});
   if (ticks > 10'000'000) return;
   scale_ = ticks / stream.clock.count;

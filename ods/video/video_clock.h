@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The times of a video that is made of another's pictures.
+// The times of a video that is made from another's pictures.
 //
-// A part of a video (TimeCut::is_cut) begins with its first picture; a whole one keeps the distance between the
-// beginnings of picture and sound. Matroska rounds times to milliseconds; where they are those of an even rate, so
-// rounded, they become exact again.
+// A part of a video (TimeCut::is_cut) begins with its first picture; a whole one keeps the time between the beginnings
+// of picture and sound. Matroska rounds times to milliseconds; if they are the rounded times of an even rate, they are
+// made exact again.
 #pragma once
 #include "ods/video/decode.h"
 
@@ -13,10 +13,10 @@ namespace ods {
 
 class VideoClock {
  public:
-  // first: of the pictures that are used.
+  // first: time of the first picture that is used.
   VideoClock(const VideoStream& stream, const FrameTime& first, bool is_cut);
 
-  // Sets the clock, and where the copied sound begins.
+  // Sets the clock, and the start of the copied sound.
   void set(EncodeOptions& options) const;
 
   // The time of a picture in the new video.
@@ -25,12 +25,12 @@ class VideoClock {
  private:
   int64_t even(int64_t ticks) const;
 
-  FrameRate clock_;     // of the new video
-  double start_ = 0.0;  // of the new video, in seconds of the old one
-  int64_t zero_ = 0;    // the same, in the old clock's ticks
+  FrameRate clock_;     // clock of the new video
+  double start_ = 0.0;  // start of the new video, in seconds of the old one
+  int64_t zero_ = 0;    // start of the new video in the old clock's ticks
   int64_t first_ = 0;   // in the old clock's ticks
   int64_t scale_ = 1;   // new ticks per old one
-  int64_t frame_ = 0;   // new ticks per frame of the even rate; 0: times are exact already
+  int64_t frame_ = 0;   // new ticks per frame of the even rate; 0 if times are already exact
 };
 
 }  // namespace ods

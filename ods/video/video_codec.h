@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How videos are encoded: codecs, the containers that hold them, settings per target.
+// Encoding settings of videos: codecs, the containers that support them, settings per target.
 #pragma once
 #include <optional>
 #include <span>
@@ -27,10 +27,10 @@ constexpr std::string_view video_codec_name(VideoCodec codec) {
   return name_in(kVideoCodecTable, codec);
 }
 
-// The codec in codec_level.h; nothing for codecs without levels there.
+// The codec in codec_level.h. Returns nullopt for codecs without levels there.
 std::optional<Codec> level_codec(VideoCodec codec);
 
-// By file extension, in upper or lower case.
+// The container by file extension, in upper or lower case.
 std::optional<Container> container_of_path(const std::string& path);
 bool can_hold(Container container, VideoCodec codec);
 std::vector<Container> containers_of(VideoCodec codec);
@@ -38,14 +38,14 @@ std::vector<Container> containers_of(VideoCodec codec);
 // Bits are 8 or 10; prores is always 10-bit, 422 or 444.
 bool can_have(VideoCodec codec, int bits, Chroma chroma);
 
-// What a video says of its colours beside ColorCode. The numbers are those of ITU-T H.273: 1 is BT.709.
+// Colour metadata of a video besides ColorCode. The numbers are those of ITU-T H.273: 1 is BT.709.
 struct ColorWords {
   int primaries = 1;
   int transfer = 1;
   int matrix = 1;
-  int chroma_place = 1;  // H.273's number + 1, as in FFmpeg: 0 is unsaid, 1 is left
-  // What an HDR video says of the display on which it was graded and of its own brightness, in FFmpeg's records
-  // AVMasteringDisplayMetadata and AVContentLightMetadata; empty: unsaid.
+  int chroma_place = 1;  // H.273's number + 1, as in FFmpeg: 0 is unspecified, 1 is left
+  // Metadata of an HDR video about the display on which it was graded and its own brightness, in FFmpeg's records
+  // AVMasteringDisplayMetadata and AVContentLightMetadata. Empty if unspecified.
   std::string mastering_display, light_level;
 
   // PQ or HLG.
@@ -53,7 +53,7 @@ struct ColorWords {
   bool operator==(const ColorWords&) const = default;
 };
 
-// What the video is for.
+// The purpose of the video.
 enum class VideoTarget { kVrPlayers, kQuest, kYoutube, kMaster };
 inline constexpr NameRow<VideoTarget> kVideoTargetTable[] = {
     {VideoTarget::kVrPlayers, "vr-players"},
@@ -74,7 +74,7 @@ struct Packing {
   VideoCodec codec = VideoCodec::kH264;
   int bits = 8;
   Chroma chroma = Chroma::k420;
-  std::optional<int> quality;  // on the encoder's scale: lower is better and larger; none: the default
+  std::optional<int> quality;  // on the encoder's scale: lower is better and larger; default if not set
 };
 Packing packing_for(VideoTarget target, Extent size, double fps);
 
@@ -83,15 +83,15 @@ struct EncoderFacts {
   std::string_view name;
   VideoCodec codec;
   bool only_420;
-  int worst_quality;  // the scale runs from 0 to this; 0: it has no scale
+  int worst_quality;  // the scale runs from 0 to this; 0 if it has no scale
   int quality;        // default
   std::string_view preset_option;
   std::string_view preset;   // default
-  std::string_view presets;  // all, separated by spaces, from the fastest to the finest
+  std::string_view presets;  // all presets, separated by spaces, from the fastest to the slowest
 };
 std::span<const EncoderFacts> known_encoders();
 
-// The largest size of the same aspect, in steps of 64 pixels, that a level allows; nothing if none does.
+// The largest size of the same aspect, in steps of 64 pixels, that a level allows. Returns nullopt if none does.
 std::optional<Extent> largest_in_levels(Codec codec, Extent size, double fps);
 
 }  // namespace ods

@@ -32,8 +32,8 @@ class VideoFrame {
   std::unique_ptr<std::byte[], Free> memory_;
 };
 
-// Frames of one form that are used again when nobody holds them any more: fresh memory costs a video as much time as
-// its filter, because the kernel clears every page. Frames may outlive the pool.
+// A pool of frames of one format that are reused when they are no longer referenced: fresh memory would cost a video as
+// much time as its filter, because the kernel clears every page. Frames may outlive the pool.
 class FramePool {
  public:
   FramePool(Extent size, const Packing& packing);  // as for VideoFrame
@@ -45,19 +45,19 @@ class FramePool {
   std::shared_ptr<Shelf> shelf_;
 };
 
-// How scene-linear light is displayed. Only float pictures need it; others are display-referred already.
+// The conversion of scene-linear light for display. Only float pictures need it; others are already display-referred.
 struct DisplayTransform {
   float exposure = 0.0f;  // EV
   ToneCurve tone = ToneCurve::kNeutral;
 };
 
-// srgb_encode(), fast: accurate to a millionth. Goes on beyond 1, to 2, and below 0, where it is odd.
+// A fast srgb_encode(), accurate to a millionth. Extended beyond 1, up to 2, and below 0, where it is odd.
 float video_code(float linear);
-// The same of many.
+// video_code() for many values.
 void video_codes(std::span<const float> light, float* codes);
-// The way back: srgb_decode() of the code rounded to 16 bits, which goes on likewise. Codes are -0.5 to 1.5.
+// The inverse: srgb_decode() of the code rounded to 16 bits, extended in the same way. Codes are -0.5 to 1.5.
 float video_light(float code);
-// The same of a row laid out as in CodeRows, as R, G, B and 0 for every pixel.
+// video_light() for a row laid out as in CodeRows. Writes R, G, B and 0 for every pixel.
 void video_lights(std::span<const float> row, float* pixels);
 
 // The video layout for a picture: kTopBottom or kSideBySide, squeezed or not.

@@ -23,7 +23,7 @@ static Error unusable(const std::string& path, const std::string& why) {
 
 // --- format ----------------------------------------------------------------------------------------------------------
 
-// None: mono.
+// Returns nullopt for mono.
 static std::optional<Layout> layout_of_video(VideoStereo stereo, const std::string& path) {
   if (stereo == VideoStereo::kOneView) return Layout::kSeparate;
   const EyeArrangement eyes = arrangement_of(stereo);
@@ -44,7 +44,7 @@ static ProjectionSetting projection_of(const SphericalMetadata& metadata, const 
   return projection;
 }
 
-// A track whose eyes are layers, as it is decoded. `known` says what the caller wants of it.
+// The decoded form of a track whose eyes are layers. `known` contains the caller's settings.
 static VideoTrack decoded_track(const VideoTrack& stored, const FormatHint& known, VideoInput& video) {
   VideoTrack track = stored;
   if (!track.layers) return track;
@@ -88,14 +88,14 @@ static void set_orientation(StereoCamera& stereo, const SphericalMetadata& metad
   stereo.roll = static_cast<float>(metadata.roll);
 }
 
-// The metadata of a lat-long that shows as much as these meshes.
+// Sets the metadata of a lat-long that covers the directions of these meshes.
 static void say_lat_long(SphericalMetadata& metadata, const std::vector<TextureMesh>& eyes, Layout layout) {
   const bool is_half = std::all_of(eyes.begin(), eyes.end(), is_front_half);
   set_projection(metadata, find_projection(is_half ? "vr180" : "lat-long")->setting);
   metadata.stereo = layout == Layout::kSeparate ? VideoStereo::kOneView : video_stereo(layout);
 }
 
-// Reads the mesh of a video that has one; if nobody can, V1 tells.
+// Reads the mesh of a video that has one. If it cannot be read, V1 is used.
 static void take_mesh(VideoInput& video, const VideoTrack& track) {
   std::vector<std::string>& notes = video.prototype.guesses;
   try {

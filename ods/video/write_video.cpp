@@ -52,7 +52,7 @@ static EncodedPicture picture_of(std::string_view record) {
 
 namespace {
 
-// What of the video is finished, kept for a next call.
+// The finished parts of a video, kept for a later call.
 class Parts {
  public:
   Parts(const NewVideo& video, const std::string& path, VideoEncoder& encoder) : encoder_(encoder) {
@@ -72,7 +72,7 @@ class Parts {
 
   int finished() const { return file_ ? file_->count() * frames_ : 0; }
 
-  // After each frame; `done`: so many are in the encoder, finished ones included.
+  // Called after each frame. done: number of frames in the encoder, including finished ones.
   void count(int done) {
     if (!file_ || done % frames_ != 0) return;
     encoder_.end_part();
@@ -86,7 +86,7 @@ class Parts {
  private:
   VideoEncoder& encoder_;
   std::optional<PartsFile> file_;
-  int frames_ = 0;  // of a part
+  int frames_ = 0;  // per part
 };
 
 }  // namespace
@@ -116,7 +116,7 @@ static int encode_frames(const NewVideo& video, const std::function<std::optiona
   return done;
 }
 
-// What the old video says, and that four channels of new sound are first-order ambisonics.
+// The old video's sound metadata; four channels of new sound are first-order ambisonics.
 static OtherTags other_tags(const EncodeOptions& options, Container container) {
   OtherTags tags;
   if (!has_boxes(container)) return tags;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes a tagged video of frames that are made in parallel, in one pass.
+// Writes a tagged video from frames that are computed in parallel, in one pass.
 #pragma once
 #include <functional>
 #include <memory>
@@ -14,13 +14,12 @@
 
 namespace ods {
 
-// Going on where a killed call stopped. What is encoded is kept beside the video (ods/files/parts_file.h), in parts of
-// at least kPartFrames frames, until the video is complete. A bit rate, which is kept over the whole video, allows no
-// parts.
+// Resuming after a killed call. Encoded frames are kept beside the video (ods/files/parts_file.h), in parts of at least
+// kPartFrames frames, until the video is complete. A bit rate, which applies to the whole video, does not allow parts.
 struct Resume {
-  Settings settings;                                   // all that the frames depend on; empty: no parts
-  std::function<void(const std::string& words)> tell;  // says that it goes on. May be empty
-  bool restart = false;                                // discards what is kept
+  Settings settings;                                   // all that the frames depend on; if empty, no parts are kept
+  std::function<void(const std::string& words)> tell;  // called when it resumes. May be empty
+  bool restart = false;                                // discards kept parts
 };
 inline constexpr int kPartFrames = 240;
 
@@ -28,12 +27,12 @@ struct NewVideo {
   Extent size;
   EncodeOptions options;
   SphericalMetadata metadata;  // options.for_apple adds to it
-  int count = 0;               // frames, as far as known: for the progress
-  size_t frame_bytes = 0;      // memory that making one takes, beside the frame itself
+  int count = 0;               // number of frames, if known, for the progress
+  size_t frame_bytes = 0;      // memory for computing one, besides the frame itself
   Resume resume = {};
 };
 
-// A frame that is still to be made: `make` is called once, from any thread.
+// A frame that is still to be computed: `make` is called once, from any thread.
 struct PendingFrame {
   FrameTime time;
   std::function<std::shared_ptr<VideoFrame>()> make;
@@ -44,10 +43,10 @@ struct WrittenVideo {
   int frames = 0;
 };
 
-// `next` returns the frames in order, one call at a time, and nothing at the end. As many are made at once as fit half
-// of the free memory. The file is complete or not there at all; the same frames and settings give the same bytes, in
-// one call or several. Throws Error as VideoEncoder, PartsFile and tag_video(), and kCancelled; also what `next` and
-// `make` throw.
+// Writes a video. `next` returns the frames in order, one call at a time, and nullopt at the end. As many frames are
+// computed at once as fit into half of the free memory. The file is written atomically; the same frames and settings
+// give the same bytes, in one call or several. Throws Error like VideoEncoder, PartsFile and tag_video(), and
+// kCancelled; also errors thrown by `next` and `make`.
 WrittenVideo write_video(const NewVideo& video, const std::function<std::optional<PendingFrame>()>& next,
                          const std::string& path, const Progress& progress = {});
 

@@ -32,19 +32,19 @@ Planes Planes::at(int x, int y) const {
 
 namespace {
 
-// The shares of the primaries in the luma.
+// The weights of the primaries in the luma.
 struct Weights {
   float red = 0.2126f, green = 0.7152f, blue = 0.0722f;
 };
 
-// How a value of luma (0..1) or chroma (-0.5..0.5) becomes a number.
+// Converts a value of luma (0..1) or chroma (-0.5..0.5) to a code.
 struct Scale {
   float luma_zero, luma, chroma_zero, chroma;  // at 8 bits
-  float unit;                                  // of 8 bits, in numbers of this many bits
-  float most;                                  // the largest number
+  float unit;                                  // one step of 8 bits, in codes of this bit depth
+  float most;                                  // maximum code
 };
 
-// The chroma of some rows, before rounding.
+// The chroma of several rows, before rounding.
 struct Color {
   std::vector<float> cb, cr;
 };
@@ -148,7 +148,7 @@ ODS_WIDE static void get_color(const Planes& planes, Extent size, size_t plane, 
     }
     return;
   }
-  // The samples of this row, the last one twice: pixels between two have their mean.
+  // The samples of this row, with the last one repeated: pixels between two samples have their mean.
   const int column = first / 2, samples = (first + count - 1) / 2 - column + 2;
   thread_local std::vector<float> row;
   row.resize(static_cast<size_t>(samples));

@@ -17,7 +17,7 @@
 namespace ods {
 
 // Chroma subsampling. Chroma is co-sited with the left pixels and half way between rows: the mean of both rows and,
-// horizontally, of the pixel and its neighbours weighted 1 2 1.
+// horizontally, of the pixel and the adjacent ones, weighted 1 2 1.
 enum class Chroma { k420, k422, k444 };
 inline constexpr NameRow<Chroma> kChromaTable[] = {
     {Chroma::k420, "420"},
@@ -31,7 +31,8 @@ constexpr std::string_view chroma_name(Chroma chroma) {
 }
 Extent chroma_block(Chroma chroma);  // 2x2, 2x1, 1x1
 
-// Y, Cb and Cr of a frame or a part of it; rows are `stride` bytes apart. 8 bits use bytes, more use 16-bit words.
+// Y, Cb and Cr of a frame or a part of it; rows are `stride` bytes apart. 8 bits are stored in bytes, more in 16-bit
+// words.
 struct Planes {
   int bits = 8;
   Chroma chroma = Chroma::k420;
@@ -54,17 +55,17 @@ struct ColorCode {
   bool operator==(const ColorCode&) const = default;
 };
 
-// Converts an image into its planes; chroma does not filter across its borders. Values outside 0..1 are kept as far as
-// the numbers reach. Precondition: `size` is a multiple of the chroma block.
+// Converts an image into its planes; chroma does not filter across its borders. Values outside 0..1 are clamped to the
+// range of the codes. Precondition: `size` is a multiple of the chroma block.
 void put_ycbcr(const CodeRows& rows, Extent size, const Planes& planes, const ColorCode& color = {});
 
-// The same from several rows at once, at most kMostCodeRows: `rows` are laid out as in CodeRows, one after the other.
+// Converts several rows at once, at most kMostCodeRows: `rows` are laid out as in CodeRows, one after the other.
 constexpr int kMostCodeRows = 16;
 using CodeBands = std::function<void(int y, int count, std::span<float> rows)>;
 void put_ycbcr_bands(const CodeBands& bands, Extent size, const Planes& planes, const ColorCode& color = {});
 
-// Fills `row`, laid out as in CodeRows, with pixels of row y from column `first` on; values may lie outside 0..1.
-// Chroma is interpolated linearly within the image.
+// Fills `row`, laid out as in CodeRows, with pixels of row y from column `first` on; values may be outside 0..1. Chroma
+// is interpolated linearly within the image.
 void get_codes(const Planes& planes, Extent size, const ColorCode& color, int y, int first, std::span<float> row);
 
 }  // namespace ods

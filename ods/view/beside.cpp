@@ -23,7 +23,7 @@ constexpr size_t kMostCaption = 400;
 constexpr size_t kMostTitle = 100;
 constexpr size_t kMostText = 1000;
 
-// The file with another end beside a file, and what is in it; empty if there is none.
+// The file with another extension beside a file, and its contents; empty if there is none.
 std::string text_beside(const std::string& path, const char* end, size_t most, std::string& name) {
   name = std::filesystem::path(path).replace_extension(end).native();
   std::error_code ignored;

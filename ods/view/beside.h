@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What people put beside a picture or a video for its viewers: notes and subtitles. docs/view.md describes the files.
+// Files beside a picture or a video for its viewers: notes and subtitles. docs/view.md describes the files.
 #pragma once
 #include <string>
 #include <vector>
@@ -18,10 +18,12 @@ struct Notes {
   std::vector<Hotspot> hotspots;
 };
 
-// Of PICTURE.notes.json beside PICTURE.jpg; empty without one. Throws Error(kInput): no such JSON, or too much of it.
+// Reads PICTURE.notes.json beside PICTURE.jpg; empty if there is none. Throws Error(kInput) if it is not such JSON, or
+// is too long.
 Notes read_notes(const std::string& picture);
 
-// The text of FILM.vtt beside FILM.mp4 (WebVTT); empty without one. Throws Error(kInput): another format, or too long.
+// Returns the text of VIDEO.vtt beside VIDEO.mp4 (WebVTT); empty if there is none. Throws Error(kInput) if it has
+// another format, or is too long.
 std::string read_subtitles(const std::string& video);
 
 }  // namespace ods

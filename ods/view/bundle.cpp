@@ -57,10 +57,10 @@ bool is_left_out(std::string_view name, PageHost host) {
 struct Modules {
   std::set<std::string> known;
   std::string script;
-  std::vector<std::string> later;  // what they import when it is wanted
+  std::vector<std::string> later;  // modules that they import on demand
 };
 
-// Behind what it imports.
+// After its imports.
 void add(const std::string& name, PageHost host, Modules& modules) {
   if (is_left_out(name, host) || !modules.known.insert(name).second) return;
   const std::string text(find_page_file(name)->data);
@@ -77,7 +77,7 @@ void add_later(PageHost host, Modules& modules) {
   }
 }
 
-// What is there at first sight.
+// The code for the first view.
 Modules first_of(const std::string& entry, PageHost host) {
   Modules modules;
   if (host == PageHost::kStudio) add("studio.js", host, modules);

@@ -34,7 +34,7 @@ std::string_view media_type(std::string_view name) {
       {".webp", "image/webp"},
       {".mp4", "video/mp4"},
       {".m4v", "video/mp4"},
-      {".mov", "video/mp4"},  // what browsers play of it is the same
+      {".mov", "video/mp4"},  // the part that browsers play is the same
       {".webm", "video/webm"},
       {".mkv", "video/x-matroska"},
   };

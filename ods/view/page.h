@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The files of the viewer's page: those of web/, which the build puts into the program (cmake/page.sh).
+// The files of the viewer's page: the contents of web/, which the build puts into the program (cmake/page.sh).
 #pragma once
 #include <span>
 #include <string_view>
@@ -15,11 +15,10 @@ struct PageFile {
 
 std::span<const PageFile> page_files();
 
-// Null if the page has no such file.
+// Returns null if the page has no such file.
 const PageFile* find_page_file(std::string_view name);
 
-// The media type for a file of this name, as browsers want it: by its extension, application/octet-stream if that is
-// unknown.
+// Returns the media type for a file of this name, by its extension; application/octet-stream if that is unknown.
 std::string_view media_type(std::string_view name);
 
 }  // namespace ods

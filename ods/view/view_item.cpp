@@ -3,17 +3,15 @@
 #include "ods/view/view_item.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "ods/base/error.h"
+#include "ods/base/quote.h"
 #include "ods/convert/convert.h"
-#include "ods/files/file_input.h"
 #include "ods/image/format/file_format.h"
 #include "ods/image/small_rows.h"
 #include "ods/video/container/video_file.h"
@@ -22,7 +20,7 @@
 
 namespace ods {
 
-// What browsers decode, with each eye in a rectangle of its own.
+// Files that browsers decode, with each eye in a rectangle of its own.
 static bool browsers_read(const std::string& path, const StoredPicture& picture) {
   const auto format = format_of_path(path);
   if (!picture.maps.empty()) return false;
@@ -30,7 +28,7 @@ static bool browsers_read(const std::string& path, const StoredPicture& picture)
   return picture.eyes.size() == 1 || arrangement_of(picture.layout).is_halves();
 }
 
-// Whether the track of sound that browsers play is ambisonic, with the channels that the page knows
+// Returns whether the sound track that browsers play is ambisonic, with the channels that the page supports
 // (web/ambisonics.js).
 static bool hears_around(const std::string& path) {
   const std::vector<SoundTrack> sound = read_video_file(path).sound;
@@ -89,7 +87,7 @@ std::vector<std::string> item_files(const ViewItem& item, size_t index) {
   return files;
 }
 
-// How light_png() arranges the eyes: as the file, if it is so simple.
+// The layout of light_png(): the file's layout, if it is simple enough.
 static Layout light_layout(const StoredPicture& picture) {
   if (picture.eyes.size() == 1) return Layout::kSeparate;
   return arrangement_of(picture.layout).is_halves() ? picture.layout : Layout::kTopBottom;
@@ -103,13 +101,13 @@ bool has_light(const ViewItem& item) {
   return 2 * size.width <= kLargest && size.height <= kLargest;
 }
 
-// Of other files a server has nothing earlier than the whole.
+// Only JPEG can be previewed early; other formats must be decoded in full first.
 bool has_preview(const ViewItem& item, bool is_live) {
   if (item.is_video || !item.has_own_file || item.picture.size.width < 2 * kPreviewWidth) return false;
   return !is_live || format_of_path(item.path) == FileFormat::kJpeg;
 }
 
-// Of a file with both eyes: the fractions at which an eye begins, and its size.
+// The place of an eye in a file with both eyes: the fractions at which it begins, and its size.
 static std::array<double, 4> eye_part(Layout layout, int eye_count, int index) {
   const Extent eye{2, 2}, whole = packed_size(layout, eye, eye_count);
   const EyeCorner corner = eye_count == 1 ? EyeCorner() : eye_corner(layout, eye, index);
@@ -181,21 +179,13 @@ std::string view_json(std::span<const ViewItem> items, bool is_live, const Json&
                {"tones", Json::array()}, {"live", is_live},      {"studio", studio}};
   for (const ToneCurve tone : kToneCurves) json["tones"].push_back(tone_curve_name(tone));
   for (size_t i = 0; i < items.size(); i++) json["items"].push_back(item_json(items[i], i, is_live));
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_document(json);
 }
 
-// For a file that exists for a moment, because image libraries want one. It is removed at once, by us or by whoever
-// ends the process.
-static std::string momentary_path(const char* extension) {
-  static std::atomic<int> made{0};
-  return (std::filesystem::temp_directory_path() / fmt::format("ods-view-{}-{}{}", getpid(), made++, extension))
-      .string();
-}
-
-static std::string file_of(FileHeader header, Extent size, const RowSource& rows) {
+static std::string file_of(const std::string& name, FileHeader header, Extent size, const RowSource& rows) {
   header.width = size.width, header.height = size.height;
   header.channels = {{"R"}, {"G"}, {"B"}};
-  return image_bytes(momentary_path(header.format == FileFormat::kPng ? ".png" : ".jpg"), header, rows);
+  return image_bytes(name, header, rows);
 }
 
 static std::string jpeg_of(const StoredPicture& picture, const ConvertTarget& target, const EyeOptions& options) {
@@ -203,9 +193,7 @@ static std::string jpeg_of(const StoredPicture& picture, const ConvertTarget& ta
   save.tone = picture.is_float ? options.tone : ToneCurve::kLinear;
   save.exposure = picture.is_float ? options.exposure : 0.0f;
   const Conversion conversion = convert(picture, target);
-  const std::string path = momentary_path(".jpg");
-  save_picture(conversion.rows, nullptr, save, path);
-  return take_file(path);
+  return eye_bytes(conversion.rows, 0, FileFormat::kJpeg, save);
 }
 
 // Means of the file's code values over whole pixels; `part`: 0..1 of the file, x, y, width, height.
@@ -245,7 +233,7 @@ static std::string small_jpeg(const std::string& path, int width, const std::arr
   FileHeader header;
   header.format = FileFormat::kJpeg;
   header.quality = 85;
-  return file_of(header, {image.width, image.height},
+  return file_of(path, header, {image.width, image.height},
                  [&](int y, std::span<float> row) { std::copy_n(image.at(0, y), row.size(), row.data()); });
 }
 
@@ -258,7 +246,7 @@ std::string light_png(const StoredPicture& picture) {
   const size_t width = static_cast<size_t>(whole.width), channels = count_channels(rows.layers);
   FileHeader header;
   header.format = FileFormat::kPng;
-  return file_of(header, {2 * whole.width, whole.height}, [&](int y, std::span<float> row) {
+  return file_of("the light", header, {2 * whole.width, whole.height}, [&](int y, std::span<float> row) {
     std::vector<float> pixels(static_cast<size_t>(rows.eye.width) * channels);
     for (int i = 0; i < count; i++) {
       const EyeCorner corner = count == 1 ? EyeCorner() : eye_corner(layout, rows.eye, i);

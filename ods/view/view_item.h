@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures and videos as the viewer's page shows them: a file that browsers read, or a JPEG of each eye, and what the
-// page's shader needs to know of the camera. docs/view.md describes view.json.
+// Pictures and videos as the viewer's page shows them: a file that browsers read, or a JPEG of each eye, and the camera
+// for the page's shader. docs/view.md describes view.json.
 #pragma once
 #include <memory>
 #include <span>
@@ -22,7 +22,7 @@ struct ViewItem {
   bool is_video = false;
   bool is_light = false;      // scene-linear: shown with an exposure and a tone curve
   bool has_own_file = false;  // browsers read the file itself and divide it into eyes; else each eye is sent as a JPEG
-  FormatHint known;           // what the caller knew of it
+  FormatHint known;           // the format as far as the caller specified it
   StoredPicture picture;      // its header, without pixels
   double fps = 0.0;           // of a video; 0: unknown
   bool is_ambisonic = false;  // a video's sound: first order, AmbiX
@@ -30,11 +30,11 @@ struct ViewItem {
   std::string subtitles;  // of a video: WebVTT
 };
 
-// Finds out what a file shows, as `ods convert` would read it. Throws Error(kInput) as open_picture() and open_video();
-// also for a format of browsers that holds no picture.
+// Opens a file and resolves its format as `ods convert` does. Throws Error(kInput) as open_picture() and open_video()
+// do, and for a browser format that contains no picture.
 ViewItem open_view_item(const std::string& path, const FormatHint& known = {});
 
-// The page's view.json: items, and the layouts, projections and tone curves that they can be changed to.
+// Returns the page's view.json: items, and the layouts, projections and tone curves that can be chosen for them.
 // is_live: eyes are sent by a server, which can develop them again. studio: of the studio, or null.
 std::string view_json(std::span<const ViewItem> items, bool is_live, const Json& studio);
 
@@ -43,39 +43,41 @@ std::string item_file(size_t index, std::string_view name);
 inline constexpr std::string_view kPreviewFile = "preview.jpg", kThumbnailFile = "thumbnail.jpg",
                                   kLightFile = "light.png", kPosterFile = "poster.jpg";
 
-// Likewise the names of what an item shows: item/0/picture.png, or item/0/left.jpg and item/0/right.jpg.
+// The names under which view.json refers to the pictures of an item: item/0/picture.png, or item/0/left.jpg and
+// item/0/right.jpg.
 std::vector<std::string> item_files(const ViewItem& item, size_t index);
 
 constexpr int kPreviewWidth = 1024, kThumbnailWidth = 256;  // pixels of an eye, up to twice as many
 
-// Whether there is a preview, which view.json names: a small copy of a file that browsers read, both eyes as they are.
-// is_live: as view_json().
+// Returns whether there is a preview, which view.json names: a small copy of a file that browsers read, both eyes as
+// they are. is_live: as view_json().
 bool has_preview(const ViewItem& item, bool is_live);
 
-// A picture's pixels; a video's first picture. Throws Error(kInput).
+// Returns a picture with its pixels, or a video's first picture. Throws Error(kInput).
 StoredPicture open_shown(const ViewItem& item);
 
-// As JPEGs: the preview, and a small left eye of any item, of a video its first picture. Throw Error(kInput) where the
-// file cannot be read, Error(kOutput) as eye_jpeg().
+// Return as JPEGs the preview, and a small left eye of any item (of a video's first picture). Throw Error(kInput) if
+// the file cannot be read, and as eye_jpeg() does.
 std::string preview_jpeg(const ViewItem& item);
 std::string thumbnail_jpeg(const ViewItem& item);
 
-// Whether an item's light is sent as it is, and what is sent: a PNG of both eyes, twice as wide. Its left half has the
-// high bytes of the halves of R, G and B, its right half the low ones. The eyes are as view.json's "light_layout" says.
+// Whether an item's linear light is sent unchanged, and the PNG that is sent: both eyes, twice as wide. Its left half
+// has the high bytes of the half floats of R, G and B, its right half the low bytes. view.json's "light_layout" is the
+// layout of the eyes.
 bool has_light(const ViewItem& item);
 std::string light_png(const StoredPicture& picture);
 
 struct EyeOptions {
   float exposure = 0.0f;  // stops, and with the tone curve only for scene-linear pictures
   ToneCurve tone = ToneCurve::kNeutral;
-  int most_wide = 0;  // pixels; 0: as the picture has it
+  int most_wide = 0;  // pixels; 0: the picture's width
 };
 
-// One eye (kLeft, kRight, kMono) as a JPEG. The picture has its pixels. Throws Error(kOutput) if the temporary folder
-// is not writable.
+// Returns one eye (kLeft, kRight, kMono) as a JPEG. Precondition: the picture has its pixels. Throws Error(kUsage) if
+// it is too large for a JPEG.
 std::string eye_jpeg(const StoredPicture& picture, int eye, const EyeOptions& options);
 
-// What one eye sees straight ahead, 960 pixels wide, as a JPEG: for pages until the picture is there.
+// Returns the view of one eye straight ahead, 960 pixels wide, as a JPEG: for pages until the picture is loaded.
 std::string poster_jpeg(const StoredPicture& picture);
 
 }  // namespace ods

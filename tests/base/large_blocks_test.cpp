@@ -21,7 +21,7 @@ size_t resident_megabytes() {
   return pages * static_cast<size_t>(sysconf(_SC_PAGESIZE)) / kMegabyte;
 }
 
-// volatile: a compiler may drop a block that nobody reads.
+// volatile: a compiler may drop a block that is never read.
 void* touched(size_t size) {
   void* volatile block = std::malloc(size);
   std::memset(block, 1, size);

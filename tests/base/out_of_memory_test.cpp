@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Memory that runs out at any moment: the caller gets std::bad_alloc or Error(kMemory), the process goes on, and no
-// half a file stays. This program's operator new fails where a test says so, in every thread and every library.
+// Memory that runs out at any moment: the caller gets std::bad_alloc or Error(kMemory), the process continues, and no
+// partial file stays. This program's operator new fails where a test chooses, in every thread and every library.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -148,7 +148,7 @@ TEST_P(OutOfMemory, SavingAndOpeningPictures) {
   }
 }
 
-// What a library does that allocates in a destructor.
+// Acts as a library that allocates in a destructor.
 void allocate_without_throwing() noexcept {
   fail_allocations(0, true);
   const std::vector<char> bytes(100);
@@ -156,17 +156,28 @@ void allocate_without_throwing() noexcept {
 }
 
 TEST(OutOfMemoryDeathTest, TheCommandSaysSoWhereNothingMayThrow) {
-  EXPECT_EXIT(std::exit(run_command(allocate_without_throwing)), testing::ExitedWithCode(1),
+  const auto allocate = [] { return allocate_without_throwing(), kExitOk; };
+  EXPECT_EXIT(std::exit(run_to_exit_code(allocate)), testing::ExitedWithCode(1),
               "^ods: error: not enough memory; a smaller scene or picture needs less\n$");
-  EXPECT_EXIT(_exit(run_command([] {
+  EXPECT_EXIT(_exit(run_to_exit_code([]() -> ExitCode {
                 fail_allocations(0, true);
                 throw std::bad_alloc();
               })),
               testing::ExitedWithCode(1), "^ods: error: not enough memory; a smaller scene or picture needs less\n$");
 }
 
+TEST(OutOfMemoryDeathTest, TheCommandNamesItsFiles) {
+  EXPECT_EXIT(_exit(run_to_exit_code([]() -> ExitCode {
+                name_inputs({"a.png", "b.png"});
+                fail_allocations(0, true);
+                throw std::bad_alloc();
+              })),
+              testing::ExitedWithCode(1),
+              "^ods: error: not enough memory for 'a.png', 'b.png'; a smaller scene or picture needs less\n$");
+}
+
 TEST(OutOfMemoryDeathTest, TheCommandSaysThatNoThreadStarts) {
-  EXPECT_EXIT(_exit(run_command([] { throw std::system_error(EAGAIN, std::generic_category()); })),
+  EXPECT_EXIT(_exit(run_to_exit_code([]() -> ExitCode { throw std::system_error(EAGAIN, std::generic_category()); })),
               testing::ExitedWithCode(1), "^ods: error: cannot start a thread");
 }
 

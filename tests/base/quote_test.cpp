@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is quoted comes back from the languages' own parsers.
+// The languages' own parsers return quoted text unchanged.
 #include "ods/base/quote.h"
 
 #include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
 
 #include "tests/support/programs.h"
 #include "tests/support/temporary_folder.h"
@@ -85,6 +87,16 @@ TEST(Quote, LineBreaksControlsAndWrongBytesAreNotQuotable) {
     EXPECT_FALSE(is_quotable(word)) << word;
   }
   EXPECT_FALSE(is_quotable(std::string_view("a\0b", 3)));
+}
+
+TEST(Quote, NoLanguageGetsControlCharacters) {
+  for (const char* text : {"\x1b[2J", "\x9b", "\xc2\x9b", "a\nb", "a\tb", "\x7f"})
+    EXPECT_FALSE(is_quotable(text)) << text;
+  EXPECT_EQ(xml_text("\x1b<\x9b>\xc2\x9b"), "?&lt;?&gt;?");
+  const nlohmann::ordered_json json = {{"name", "\x1b\x7f\xc2\x9b\xc3\xa9"}};
+  EXPECT_EQ(json_document(json), "{\"name\":\"\\u001b\\u007f\\u009b\xc3\xa9\"}");
+  EXPECT_EQ(nlohmann::ordered_json::parse(json_document(json, 2)), json);
+  EXPECT_EQ(json_document("a\xff"), "\"a\xef\xbf\xbd\"");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 TEST(Settings, ComeBackFromTheirText) {
   const Settings settings = {{"samples", "64", ""}, {"scene", "d41d8cd9", "a b.glb"}, {"light", "", ""}};
-  const Settings again = parse_settings(settings_text(settings));
+  const Settings again = parse_settings(settings_text(settings)).value();
   ASSERT_EQ(again.size(), settings.size());
   for (size_t i = 0; i < settings.size(); i++) {
     EXPECT_EQ(again[i].name, settings[i].name);
@@ -17,6 +17,17 @@ TEST(Settings, ComeBackFromTheirText) {
     EXPECT_EQ(again[i].path, settings[i].path);
   }
   EXPECT_EQ(settings_difference(settings, again), "");
+}
+
+TEST(Settings, AreKnownToBeWhole) {
+  const std::string text = settings_text({{"samples", "64", ""}, {"scene", "d41d8cd9", "a b.glb"}});
+  for (size_t size = 0; size < text.size(); size++) EXPECT_FALSE(parse_settings(text.substr(0, size))) << size;
+  for (size_t i = 0; i < text.size(); i++) {
+    std::string changed = text;
+    changed[i] ^= 1;
+    EXPECT_FALSE(parse_settings(changed)) << i;
+  }
+  EXPECT_TRUE(parse_settings(settings_text({})).value().empty());
 }
 
 TEST(Settings, DifferencesAreSaidWhicheverSideHasThem) {

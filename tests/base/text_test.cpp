@@ -26,6 +26,20 @@ TEST(ValidUtf8, KeepsCharactersAndReplacesOtherBytes) {
   EXPECT_EQ(valid_utf8("\xf4\x90\x80\x80"), no + no + no + no) << "beyond the last character";
 }
 
+TEST(TerminalText, HasNothingThatMovesATerminal) {
+  EXPECT_EQ(terminal_text("a line\n\tand \xc3\xa9\xe6\x97\xa5\n"), "a line\n\tand \xc3\xa9\xe6\x97\xa5\n");
+  EXPECT_EQ(terminal_text("\x1b[2J\r\b\x7f"), "?[2J???");
+  EXPECT_EQ(terminal_text("\x9b"
+                          "2J \xff"),
+            "?2J ?")
+      << "bytes that are no UTF-8";
+  EXPECT_EQ(terminal_text("\xc2\x9b"
+                          "2J \xc2\x85\xc2\xa0"),
+            "?2J ?\xc2\xa0")
+      << "control characters of two bytes";
+  EXPECT_EQ(terminal_text(std::string("a\0b", 3)), "a?b");
+}
+
 TEST(LibraryWords, AreOneLineOfText) {
   EXPECT_EQ(library_words("bad\nchannel \"\x80R\"\n"), "bad channel \"\xef\xbf\xbdR\"");
   EXPECT_THROW(library_words("std::bad_alloc"), std::bad_alloc);

@@ -44,7 +44,7 @@ StereoCamera without_meaningless_numbers(StereoCamera camera) {
   return camera;
 }
 
-// As a header holds them; a real file keeps floats bit for bit (metadata_test).
+// Attributes as a header stores them; a real file keeps floats bit for bit (metadata_test).
 FileInfo header_of(const StereoCamera& camera) {
   std::vector<Attribute> attributes;
   add_camera(attributes, camera);
@@ -177,7 +177,7 @@ TEST(CameraFields, ExtremesComeBack) {
   }
 }
 
-// What our own reader refused: windows of less than a degree or wider than 100 to 1.
+// Values that our own reader refused: windows of less than a degree or wider than 100 to 1.
 TEST(CameraFields, NarrowWindowsComeBack) {
   StereoCamera camera;
   camera.projection = find_projection("perspective")->setting;

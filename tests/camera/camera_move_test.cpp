@@ -40,7 +40,7 @@ TEST(CameraMove, TurnsOnTheSpotToTheRightAndComesRound) {
   EXPECT_NEAR(moved(at(vec3(1)), move, 1.0).yaw, 270.0f, 1e-4f);
 }
 
-// What stood straight ahead at the distance of the pivot stays straight ahead there.
+// A point straight ahead at the distance of the pivot stays straight ahead there.
 TEST(CameraMove, GoesAroundAPivotAndFacesIt) {
   CameraMove move;
   move.seconds = 10.0;

@@ -36,7 +36,7 @@ void expect_same(const char* name, const Given& given, const Formula& formula) {
     const ExactRay exact = formula(double{uv.x}, double{uv.y}, eye);
     const dvec3 direction = normalize(exact.direction);
     ASSERT_LT(length(dvec3(ray.direction) - direction), 1e-6) << name << ' ' << uv.x << ' ' << uv.y;
-    // Small powers of a cosine are steep at the poles, where floats tell elevations apart by 1e-7.
+    // Small powers of a cosine are steep at the poles, where floats resolve elevations to 1e-7.
     ASSERT_LT(length(dvec3(ray.origin) - exact.origin), uv.y < 1e-3f || uv.y > 0.999f ? 1e-5 : 1e-6)
         << name << ' ' << uv.x << ' ' << uv.y;
   }

@@ -30,7 +30,7 @@ TEST(EyeCorrection, NoneLeavesEverythingWhereItIs) {
   EXPECT_EQ(corrected_color({}, vec3(0.2f, 0.5f, 3.0f)), vec3(0.2f, 0.5f, 3.0f));
 }
 
-// As a camera that is turned to the right, up and clockwise.
+// The rotation of a camera that is turned to the right, up and clockwise.
 TEST(EyeCorrection, TurnsAsACameraDoes) {
   expect_near(stored_direction(correction(&EyeCorrection::yaw, 30.0f), toward(10.0, 0.0)), toward(40.0, 0.0));
   expect_near(stored_direction(correction(&EyeCorrection::pitch, 10.0f), toward(0.0, 0.0)), toward(0.0, 10.0));

@@ -83,7 +83,7 @@ TEST(Layout, EveryEyeIsWhereItsLayoutSays) {
   }
 }
 
-// eye_corner() and packed_row() say the same, each in its own way.
+// eye_corner() and packed_row() agree.
 TEST(Layout, HalvesBeginWhereTheirRowsDo) {
   const Extent eye{4, 2};
   for (Layout layout : kLayouts) {

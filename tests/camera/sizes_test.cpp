@@ -48,7 +48,7 @@ TEST(Sizes, QuickresRowsAreThePages) {
   EXPECT_EQ(rows, 7);
 }
 
-// What people ask for today, and nothing larger than its codec: 8K is 7680x4320 pixels.
+// The sizes in common use, and none larger than its codec: 8K is 7680x4320 pixels.
 TEST(Sizes, HeadsetsAndSitesOfToday) {
   for (const char* name : {"quest-3", "quest-3-mono", "quest-3-vr180", "youtube-8k", "youtube-8k-mono"}) {
     const Extent file = file_size(row(name));

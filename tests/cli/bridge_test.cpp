@@ -2,82 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Scenes of other programs, with a script in the place of Blender.
-#include <gtest/gtest.h>
-#include <sys/stat.h>
-
-#include <algorithm>
-#include <chrono>
-#include <filesystem>
-#include <fstream>
-#include <thread>
-
-#include "ods/picture/metadata/sidecar.h"
-#include "tests/support/cli_runner.h"
-#include "tests/support/gltf_builder.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/bridge_fixture.h"
 
 namespace ods::bridge_test {
-
-namespace fs = std::filesystem;
-
-void write(const fs::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
-std::string read(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-class Bridge : public ::testing::Test {
- protected:
-  Bridge() {
-    setenv("XDG_CACHE_HOME", (folder_ + "/cache").c_str(), 1);
-    const Binary glb = make_triangle().glb();
-    write(folder_ + "/made.glb", {glb.begin(), glb.end()});
-    write(scene_, "BLENDER-v304 and so on");
-    answer(R"({"omnistereo_bridge": 1})");
-  }
-
-  // What the script does with $folder.
-  void program(const std::string& text) {
-    const fs::path path = folder_ + "/blender";
-    write(path, "#!/bin/sh\necho x >>" + folder_ + "/runs\nwhile [ \"$1\" != -- ]; do shift; done\nfolder=$3\n" + text);
-    fs::permissions(path, fs::perms::owner_all);
-  }
-
-  // The script converts well, with this in bridge.json.
-  void answer(const std::string& json, const std::string& before = "") {
-    write(folder_ + "/made.json", json);
-    program(before + "\ncp " + folder_ + "/made.glb \"$folder/scene.glb\"\ncp " + folder_ +
-            "/made.json \"$folder/bridge.json\"\necho 'ods-bridge done 1' >&2\n");
-  }
-
-  size_t runs() const { return read(folder_ + "/runs").size() / 2; }
-
-  std::vector<std::string> info() const { return {"info", scene_, "--blender", folder_ + "/blender"}; }
-
-  // What the cache holds, hidden files too.
-  size_t kept() const {
-    std::error_code error;
-    const fs::directory_iterator all(folder_ + "/cache/ods/scenes", error);
-    return error ? 0 : static_cast<size_t>(std::distance(begin(all), end(all)));
-  }
-
-  void expect_failure(const std::string& says, std::vector<std::string> more = {}) {
-    std::vector<std::string> words = info();
-    words.insert(words.end(), more.begin(), more.end());
-    Ods ods(words);
-    EXPECT_EQ(ods.finish(), 3) << says;
-    EXPECT_NE(ods.err.find("ods: error: '" + scene_ + "': " + says), std::string::npos) << ods.err;
-    EXPECT_EQ(ods.out, "");
-    EXPECT_EQ(kept(), 0u) << says;
-  }
-
-  const TemporaryFolder holder_;
-  const std::string folder_ = holder_.path(".");
-  const std::string scene_ = folder_ + "/house.blend";
-};
 
 TEST_F(Bridge, ConvertsOnceWhileTheFileIsTheSame) {
   Ods first(info());
@@ -141,24 +68,125 @@ TEST_F(Bridge, AFailingBlenderIsOneLine) {
   expect_failure("Blender ended before it was done");
 }
 
-TEST_F(Bridge, AHangingBlenderIsEnded) {
-  program("echo $$ >" + folder_ + "/process\nsleep 1000 &\necho $! >>" + folder_ + "/process\nwait");
-  expect_failure("Blender did not finish within 0.5 seconds", {"--blender-limit", "0.5"});
-  std::ifstream processes(folder_ + "/process");
-  for (int process = 0; processes >> process;) {
-    for (int i = 0; i < 100 && ::kill(process, 0) == 0; i++) std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    const std::string state = read("/proc/" + std::to_string(process) + "/stat");
-    EXPECT_TRUE(state.empty() || state.find(") Z") != std::string::npos) << state;
+// Itself, what it has started, what has a session of its own, and what hears no SIGTERM.
+TEST_F(Bridge, AHangingBlenderIsEndedWithAllThatItHasStarted) {
+  program(hanging());
+  expect_failure("Blender did not finish within 0.5 seconds (--blender-limit gives it more)",
+                 {"--blender-limit", "0.5"});
+  expect_ended();
+}
+
+TEST_F(Bridge, ABlenderThatIsDoneLeavesNoProcess) {
+  answer(R"({"omnistereo_bridge": 1})", "setsid sleep 1000 & echo $! >>" + folder_ + "/process");
+  Ods ods(info());
+  EXPECT_EQ(ods.finish(), 0) << ods.err;
+  expect_ended();
+}
+
+TEST_F(Bridge, WhateverEndsUsEndsBlenderAndLeavesNothing) {
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    fs::remove(folder_ + "/started");
+    program(hanging());
+    Ods ods(info());
+    while (!fs::exists(folder_ + "/started")) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ods.kill(signal);
+    EXPECT_EQ(ods.finish(), signal == SIGKILL ? 1000 + signal : 128 + signal);
+    expect_ended();
+    for (int i = 0; i < 200 && has_folder(); i++) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_FALSE(has_folder()) << signal;
+    EXPECT_EQ(kept(), signal == SIGKILL ? 1u : 0u) << "the claim, which is free when its holder is dead";
+    fs::remove_all(folder_ + "/cache");
   }
 }
 
-TEST_F(Bridge, AnInterruptLeavesNothing) {
-  program("touch " + folder_ + "/started\nexec sleep 1000");
-  Ods ods(info());
-  while (!fs::exists(folder_ + "/started")) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  ods.kill(SIGTERM);
-  EXPECT_EQ(ods.finish(), 128 + SIGTERM);
+TEST_F(Bridge, TemporaryFilesAreRemoved) {
+  const std::string shared = folder_ + "/shared";
+  fs::create_directory(shared);
+  for (const char* name : {"TMPDIR", "TMP", "TEMP"}) setenv(name, shared.c_str(), 1);
+  const std::string leave =
+      "for f in \"$TMPDIR\" \"$TMP\" \"$TEMP\"; do mkdir -p \"$f/blender_1/deep\"; touch \"$f/x\"; done";
+  answer(R"({"omnistereo_bridge": 1})", leave);
+  Ods well(info());
+  EXPECT_EQ(well.finish(), 0) << well.err;
+  EXPECT_EQ(kept(), 1u);
+  EXPECT_TRUE(fs::is_empty(shared));
+  for (const char* name : {"TMPDIR", "TMP", "TEMP"}) unsetenv(name);
+}
+
+TEST_F(Bridge, AHangingAssimpIsEnded) {
+  write(folder_ + "/car.3ds", "x");
+  write(folder_ + "/assimp", "#!/bin/sh\n" + hanging());
+  fs::permissions(folder_ + "/assimp", fs::perms::owner_all);
+  const std::string path = getenv("PATH");
+  setenv("PATH", (folder_ + ":/usr/bin:/bin").c_str(), 1);
+  Ods ods({"info", folder_ + "/car.3ds", "--blender-limit", "0.5"});
+  EXPECT_EQ(ods.finish(), 3);
+  EXPECT_NE(ods.err.find("car.3ds': Assimp did not finish within 0.5 seconds (--blender-limit gives it more)"),
+            std::string::npos)
+      << ods.err;
+  expect_ended();
+  write(folder_ + "/assimp", "#!/bin/sh\necho 'ERROR: Failed to load file: bad chunk'\nexit 10\n");
+  Ods said({"info", folder_ + "/car.3ds"});
+  EXPECT_EQ(said.finish(), 3);
+  EXPECT_NE(said.err.find("it said: ERROR: Failed to load file: bad chunk"), std::string::npos) << said.err;
+  setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(kept(), 0u);
+}
+
+// A faulty command line is told before Blender starts.
+TEST_F(Bridge, TheCommandLineComesFirst) {
+  const std::vector<std::vector<std::string>> faulty = {
+      {"render", scene_, "-o", folder_ + "/p.png", "--widht", "512"},
+      {"render", scene_},
+      {"render", scene_, "-o", folder_ + "/p.png", "--width", "0"},
+      {"render", scene_, "-o", folder_ + "/p.png", "--parts", "2"},
+      {"render", "room", "-o", folder_ + "/p.png", "--camera-file", scene_, "--ipd", "x"},
+      {"video", scene_, "-o", folder_ + "/v.mp4", "--time", "1"},
+      {"comfort", scene_, "--gaze", "0"},
+      {"info", scene_, "--jsn"},
+  };
+  for (std::vector<std::string> words : faulty) {
+    words.insert(words.end(), {"--blender", folder_ + "/blender"});
+    Ods ods(words);
+    EXPECT_EQ(ods.finish(), 2) << words[0] << " " << words.back() << ods.err;
+  }
+  EXPECT_EQ(runs(), 0u);
+}
+
+TEST_F(Bridge, QuietIsQuiet) {
+  for (const std::vector<std::string>& scene :
+       {std::vector<std::string>{scene_}, std::vector<std::string>{"furnace", "--camera-file", scene_}}) {
+    answer(R"({"omnistereo_bridge": 1, "camera": {"omnistereo_camera": 1, "ipd": 0.08}})");
+    fs::remove_all(folder_ + "/cache");
+    std::vector<std::string> words = {"render"};
+    words.insert(words.end(), scene.begin(), scene.end());
+    words.insert(words.end(), {"--blender", folder_ + "/blender", "-o", folder_ + "/p.png", "--width", "16",
+                               "--samples", "1", "--bounces", "1", "-q"});
+    Ods ods(words);
+    EXPECT_EQ(ods.finish(), 0);
+    EXPECT_EQ(ods.err, "");
+  }
+  EXPECT_EQ(runs(), 2u);
+}
+
+// The numbers of a lens are for the projection of the file's camera, which is unknown before the file is converted.
+TEST_F(Bridge, LensOptionsAreForTheFilesProjection) {
+  answer(R"({"omnistereo_bridge": 1, "camera": {"omnistereo_camera": 1,
+      "projection": {"name": "fisheye", "fov": 170}, "merge_top": {"mode": "none"}, "merge_bottom": {"mode": "none"}}})");
+  const std::string picture = folder_ + "/p.exr";
+  std::vector<std::string> words = {"render", scene_,    "--blender", folder_ + "/blender", "-o", picture,
+                                    "-q",     "--width", "16",        "--samples",          "1",  "--bounces",
+                                    "1",      "--fov",   "120",       "--sidecar"};
+  Ods ods(words);
+  ASSERT_EQ(ods.finish(), 0) << ods.err;
+  std::vector<std::string> warnings;
+  const StereoCamera camera = load_sidecar(folder_ + "/p.camera.json", warnings).camera;
+  EXPECT_TRUE(is_fisheye(camera.projection.kind));
+  EXPECT_EQ(camera.projection.fov, 120.0f);
+  words.insert(words.end(), {"--range", "-90,90"});
+  Ods wrong(words);
+  EXPECT_EQ(wrong.finish(), 2);
+  EXPECT_NE(wrong.err.find("--range is for"), std::string::npos) << wrong.err;
 }
 
 TEST_F(Bridge, SaysWhatIsMissing) {
@@ -181,13 +209,13 @@ TEST_F(Bridge, SaysWhatIsMissing) {
   EXPECT_NE(old.err.find("needs Assimp's command to be read: install it"), std::string::npos) << old.err;
 }
 
-// Blender reads no FBX in ASCII, and an OBJ's own words may be in any encoding. Assimp leaves the pictures where they
-// are, in the words of the program that wrote the scene.
+// Blender does not read FBX in ASCII, and an OBJ may be in any encoding. Assimp leaves the pictures where they are, by
+// the paths of the program that wrote the scene.
 TEST_F(Bridge, WhatBlenderCannotReadAssimpDoes) {
   GltfBuilder made = make_triangle();
   made.primitive()["attributes"]["TEXCOORD_0"] = made.add<float>({0, 0, 1, 0, 0, 1}, kFloat, "VEC2");
   made.primitive()["material"] = 0;
-  made.json["images"] = {{{"uri", ".\\Wood.PNG"}}, {{"uri", "C:\\gone.png"}}};
+  made.json["images"] = {{{"uri", ".\\Wood.PNG"}}, {{"uri", "C:\\gone.png"}}, {{"uri", folder_ + "/out/there.png"}}};
   made.json["textures"] = {{{"source", 0}}, {{"source", 1}}};
   made.json["materials"] = {{{"name", "B*r"},
                              {"emissiveFactor", {1, 1, 1}},
@@ -198,6 +226,8 @@ TEST_F(Bridge, WhatBlenderCannotReadAssimpDoes) {
   write(folder_ + "/made.glb", {glb.begin(), glb.end()});
   const Binary png = small_png();
   write(folder_ + "/wood.png", {png.begin(), png.end()});
+  fs::create_directories(folder_ + "/out");
+  write(folder_ + "/out/there.png", {png.begin(), png.end()});
   write(folder_ + "/car.fbx", "; FBX 7.4.0 project file");
   program("echo 'ods-bridge error Blender cannot read it' >&2\nexit 3");
   const std::vector<std::string> words = {"info", folder_ + "/car.fbx", "--blender", folder_ + "/blender"};
@@ -212,6 +242,7 @@ TEST_F(Bridge, WhatBlenderCannotReadAssimpDoes) {
   EXPECT_NE(first.out.find("materials      1, 1 textures"), std::string::npos) << first.out;
   EXPECT_NE(first.out.find("0 glowing triangles"), std::string::npos) << first.out;
   EXPECT_NE(first.out.find("there is no picture 'C:\\gone.png'"), std::string::npos) << first.out;
+  EXPECT_NE(first.out.find("/out/there.png'"), std::string::npos) << "an absolute path is not followed: " << first.out;
   Ods second(words);
   EXPECT_EQ(second.finish(), 0);
   EXPECT_EQ(second.err, "");
@@ -237,20 +268,6 @@ TEST_F(Bridge, RefusesWhatIsNoBlenderFile) {
   Ods confined({"info", scene_, "--confine", folder_});
   EXPECT_EQ(confined.finish(), 2);
   EXPECT_NE(confined.err.find("--confine does not hold"), std::string::npos) << confined.err;
-}
-
-TEST_F(Bridge, KeepsFortyScenesAtMost) {
-  const fs::path cache = folder_ + "/cache/ods/scenes";
-  for (int i = 0; i < 45; i++) {
-    const fs::path old = cache / std::to_string(i);
-    fs::create_directories(old);
-    write(old / "bridge.json", "{}");
-    fs::last_write_time(old / "bridge.json", fs::file_time_type::clock::now() - std::chrono::hours(100 - i));
-  }
-  EXPECT_EQ(Ods(info()).finish(), 0);
-  EXPECT_EQ(kept(), 40u);
-  EXPECT_FALSE(fs::exists(cache / "5")) << "the oldest go first";
-  EXPECT_TRUE(fs::exists(cache / "6"));
 }
 
 // Options win over the file, and the file over what is usual.

@@ -137,7 +137,7 @@ TEST_F(Confine, ASkyIsNotReplacedAfterItsCheck) {
   other.join();
 }
 
-// Neither a scene nor a sky tells whether a file outside exists, and no message names a descriptor.
+// Neither a scene nor a sky reveals whether a file outside exists, and messages do not name descriptors.
 TEST_F(Confine, MessagesNameTheFileAsItWasGiven) {
   const std::string confine = " --confine " + folder.path("in");
   const std::string sky = "render furnace -o " + folder.path("p.png") + confine + " --env ";
@@ -157,7 +157,7 @@ TEST_F(Confine, TheFolderMustBeThere) {
   expect_refused("--confine: there is no folder");
 }
 
-// What a stranger reads in a message must not be what is in a file.
+// Messages to a stranger must not contain the contents of a file.
 TEST_F(Confine, MessagesQuoteNoOtherFile) {
   ods::GltfBuilder file = ods::make_triangle();
   file.json["images"] = {{{"uri", "../out/secret"}}};

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "ods/files/atomic_file.h"
 #include "ods/image/format/png_chunks.h"
 #include "ods/image/image_file.h"
 #include "ods/picture/metadata/sidecar.h"
@@ -46,7 +47,7 @@ TEST_F(CliConvert, ToOtherProjectionsAndBack) {
   }
 }
 
-// The words of ods probe: it calls one eye mono.
+// The names of ods probe: it calls one eye mono.
 TEST_F(CliConvert, MonoIsALayoutOfWhatIsRead) {
   const std::string room = make("room.png");
   ASSERT_EQ(convert(room, "one.png", "-q --layout mono --projection perspective --width 32"), 0) << err;
@@ -82,7 +83,7 @@ TEST_F(CliConvert, Vr180LiesSideBySideUnlessTold) {
   ASSERT_EQ(run("camera --for json --projection vr180 --width 64 -o " + sidecar), 0) << err;
   std::vector<std::string> warnings;
   EXPECT_EQ(ods::load_sidecar(sidecar, warnings).layout, ods::Layout::kSideBySide);
-  ASSERT_EQ(run("camera --for json --from " + sidecar + " --yaw 20 -o " + sidecar), 0) << err;
+  ASSERT_EQ(run("camera --for json --camera-file " + sidecar + " --yaw 20 -o " + sidecar), 0) << err;
   EXPECT_EQ(ods::load_sidecar(sidecar, warnings).layout, ods::Layout::kSideBySide);
   ASSERT_EQ(run("camera --for json --projection vr180 --layout top-bottom --width 64 -o " + sidecar), 0) << err;
   EXPECT_EQ(ods::load_sidecar(sidecar, warnings).layout, ods::Layout::kTopBottom);
@@ -100,7 +101,7 @@ TEST_F(CliConvert, OptionsAreJudgedByThePicture) {
 
   const std::string half = make("half.png", "--projection vr180 --sidecar");
   std::filesystem::rename(folder.path("half.camera.json"), folder.path("other.json"));
-  EXPECT_EQ(convert(half, "whole.exr", "--camera " + folder.path("other.json")), 0) << err;
+  EXPECT_EQ(convert(half, "whole.exr", "--camera-file " + folder.path("other.json")), 0) << err;
   EXPECT_EQ(open("whole.exr").layout, ods::Layout::kSideBySide);
 }
 
@@ -112,7 +113,7 @@ TEST_F(CliConvert, ToItselfIsTheSamePicture) {
   EXPECT_EQ(run("compare " + room + " " + folder.path("wide.png") + " --max-error 0"), 0) << err << out;
 }
 
-// The same picture in linear light, as renderers write that know no sRGB, and with a profile that nobody can use.
+// The picture in linear light, as renderers without sRGB write it, and with an unusable profile.
 TEST_F(CliConvert, ColourSpacesAreHonoured) {
   const std::string room = make("room_TB.png");
   const ods::Image image = ods::read_image(room);
@@ -209,7 +210,7 @@ TEST_F(CliConvert, TitlesGoOverFrames) {
   ASSERT_EQ(run("over " + titles + " " + shots + " -q -o " + made), 0) << err;
   const auto differs = [&](const std::string& number) {
     return run("compare " + folder.path("shot_TB." + number + ".png") + " " +
-               folder.path("made_TB." + number + ".png") + " --max-error 0.1") == 1;
+               folder.path("made_TB." + number + ".png") + " --max-error 0.1") == 5;
   };
   EXPECT_TRUE(differs("2"));
   EXPECT_FALSE(differs("3")) << out;  // no title there

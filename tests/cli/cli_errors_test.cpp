@@ -24,10 +24,10 @@ struct Fault {
   std::string says;
 };
 
-// What the commands below read, and no trace of what they should not have written.
+// The files that the commands below read, and no trace of files that they must not write.
 class CliErrors : public Cli {
  protected:
-  // What the table reads, and nothing else: to make all of it takes longer than many a table.
+  // The files that the table reads, and nothing else: making all of them takes longer than most tables.
   void provide(const std::vector<Fault>& faults) {
     const auto is_read = [&](const std::string& name) {
       return std::any_of(faults.begin(), faults.end(),
@@ -168,10 +168,10 @@ TEST_F(CliErrors, OfPicturesThatAreRead) {
           {"over @p_TB.png @p_TB.png -o @a.png", kUsage, "alpha"},
           {"over @absent.png @p_TB.png -o @a.png", kInput, "absent.png"},
           {"over @p.exr @p.exr -o @a.mp4", kUsage, "a video output needs a video as background"},
-          {"camera --from @absent.json", kInput, "absent.json"},
+          {"camera --camera-file @absent.json", kInput, "absent.json"},
           {"render furnace -o @", kUsage, "it is a folder: add the name of a file"},
-          {"camera --from @empty.json", kInput, "empty.json"},
-          {"camera --from @broken.json", kInput, "broken.json"}});
+          {"camera --camera-file @empty.json", kInput, "empty.json"},
+          {"camera --camera-file @broken.json", kInput, "broken.json"}});
 }
 
 TEST_F(CliErrors, OfTitles) {
@@ -205,7 +205,7 @@ TEST_F(CliErrors, OfVideos) {
           {encode + "--to-layout anaglyph-dubois", kUsage, "--to-layout"},
           {encode + "--audio @absent.wav", kInput, "absent.wav"},
           {encode + "--audio @broken.png", kInput, "broken.png"},
-          {encode + "--audio @p_TB.png", kInput, "p_TB.png': it has none; give --audio a sound file"},
+          {encode + "--audio @p_TB.png", kInput, "p_TB.png': it is not a sound or video file"},
           {"encode @f.####.png -o /proc/a.mp4", kOutput, "/proc/a.mp4"},
           {"video furnace", kUsage, "-o"},
           {"video furnace -o @a.mp4", kUsage, "--duration"},
@@ -251,7 +251,7 @@ TEST_F(CliErrors, OfSlits) {
           {"stitch @rig.json @v.####.png --frames 1-2 -o @a.####.png", kUsage, "--frames"}});
 }
 
-// Also one that has barely begun. Here it waits for somebody to read its 80 KB.
+// Also one that has barely begun. Here it waits until its 80 KB are read.
 TEST_F(CliErrors, EveryCommandSaysThatItWasInterrupted) {
   Ods command({"--help=zsh"});
   const auto catches = [&] {

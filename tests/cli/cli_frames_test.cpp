@@ -188,9 +188,9 @@ TEST_F(SharedFrames, OfAnotherMachineAreWaitedFor) {
   std::filesystem::copy(folder.path("shot.1.png"), folder.path("shot.2.png"));
   EXPECT_EQ(sharing.finish(), 0) << sharing.err;
   EXPECT_EQ(sharing.out.find("shot.2.png"), std::string::npos) << sharing.out;
-  // Without --skip-existing every frame is rendered, whoever else may be at it.
+  // Without --skip-existing every frame is rendered, even if another process is rendering it.
   EXPECT_EQ(run(video("--frames 2", "shot.#.png")), 0) << err;
-  // Silent for longer than a minute it is nobody's.
+  // A claim without an update for more than a minute is free.
   std::filesystem::remove(folder.path("shot.2.png"));
   std::filesystem::last_write_time(folder.path(".shot.2.png.claim"),
                                    std::filesystem::file_time_type::clock::now() - std::chrono::seconds(70));

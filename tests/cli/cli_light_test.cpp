@@ -23,7 +23,7 @@ class Light : public Cli {
     EXPECT_EQ(run("render " + from + " --width 32 --samples 4 --eyes mono -o " + picture + " " + more), 0) << err;
     return ods::read_image(picture).pixels;
   }
-  // Of a pixel behind the camera, to the left and above, where the studio's key light is.
+  // The radiance of a pixel behind the camera, to the left and above, where the studio's key light is.
   float behind(const std::string& more) { return render(more)[3 * (32 * 4 + 4) + 1]; }
   bool says(const std::string& words) const { return err.find(words) != std::string::npos; }
 
@@ -115,7 +115,7 @@ TEST_F(Light, BadWordsAreRefusedInOneLine) {
       {"--env skye", 3, "no such file as 'skye'"},
       {"--background nan", 2, "--background is"},
       {"--background moon.exr", 3, "--background: no such file as 'moon.exr'"},
-      {"--background 0 --transparent", 2, "exclude each other"},
+      {"--background 0 --transparent", 2, "--background cannot be used with --transparent"},
       {"--lamp 1,2", 2, "--lamp is auto, none or a place"},
       {"--lamp bright", 2, "--lamp is auto, none or a place"},
       {"--lamp 1,nan,2", 2, "--lamp is auto, none or a place"},

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the command answers to options that are wrong, and to those that every command has.
+// The command's answers to wrong options, and to the options that every command has.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -13,6 +13,7 @@
 
 #include "ods/base/json_reader.h"
 #include "ods/camera/camera_fields.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/image_file.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "tests/support/cli_runner.h"
@@ -128,7 +129,7 @@ TEST_F(Cli, AMisleadingNameIsReportedOnce) {
   }
 }
 
-// The command line takes every camera that files take, and says it into them as it was given.
+// The command line accepts every camera that files accept, and writes it into them unchanged.
 TEST_F(Cli, CamerasAtTheEndsOfTheirRangesComeBack) {
   const std::string sidecar = folder.path("a.camera.json");
   for (const bool most : {false, true}) {
@@ -162,7 +163,7 @@ TEST_F(Cli, CamerasAtTheEndsOfTheirRangesComeBack) {
       const ods::Sidecar back = ods::load_sidecar(sidecar, warnings);
       camera.projection.aspect = back.camera.projection.aspect;
       EXPECT_EQ(back.camera, camera) << words;
-      ASSERT_EQ(run("camera --for json --from " + sidecar + " -o " + sidecar), 0) << err;
+      ASSERT_EQ(run("camera --for json --camera-file " + sidecar + " -o " + sidecar), 0) << err;
     }
   }
 }

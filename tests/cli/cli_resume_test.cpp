@@ -43,11 +43,11 @@ TEST_F(Resume, GoesOnToTheSameBits) {
   ASSERT_EQ(whole(words("whole.png", {"--threads", "2"})), 0) << err;
   ASSERT_EQ(interrupted(words("a.png")), 128 + SIGINT) << err;
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.png.unfinished", "whole.png"}));
-  EXPECT_NE(err.find("the same command goes on"), std::string::npos) << err;
+  EXPECT_NE(err.find("the same command resumes"), std::string::npos) << err;
   EXPECT_TRUE(err.ends_with("ods: interrupted\n")) << err;
   ASSERT_EQ(interrupted(words("a.png"), SIGTERM), 128 + SIGTERM) << err;
   ASSERT_EQ(whole(words("a.png")), 0) << err;
-  EXPECT_NE(err.find("goes on with what '"), std::string::npos) << err;
+  EXPECT_NE(err.find("resuming from '"), std::string::npos) << err;
   EXPECT_EQ(folder.read("a.png"), folder.read("whole.png"));
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.png", "whole.png"}));
 }

@@ -107,7 +107,7 @@ TEST_F(CliStitch, ViewsOfAnotherRigAreRefused) {
   EXPECT_EQ(run("stitch " + rig + " " + views + " --list-missing"), 3);
   EXPECT_EQ(render(), 3) << "a folder is of one rig";
   EXPECT_NE(err.find(mark + "': the views belong to another rig"), std::string::npos) << err;
-  std::filesystem::remove(mark);  // the views' own headers say it, too
+  std::filesystem::remove(mark);  // the views' own headers record it, too
   EXPECT_EQ(stitch("picture.exr"), 3);
   EXPECT_NE(err.find("0001.exr': " + fault), std::string::npos) << err;
   EXPECT_EQ(run("stitch " + rig + " " + views + " --list-missing"), 0);
@@ -130,7 +130,7 @@ TEST_F(CliStitch, ViewsThatDoNotSayTheirRigAreNoted) {
   EXPECT_NE(err.find("the mark is damaged"), std::string::npos) << err;
 }
 
-// Where a view of another rig was left in the folder.
+// A view of another rig was left in the folder.
 TEST_F(CliStitch, AViewOfAnotherRigIsAtFault) {
   views = folder.path("views/####.png");
   ASSERT_EQ(plan("--slits 12 --width 64 --ipd 0.06"), 0) << err;
@@ -235,7 +235,8 @@ TEST_F(CliStitch, ATiltedHeadIsRefused) {
 // From the scene when the rig is planned, or from the views' depth when they are put together.
 TEST_F(CliStitch, TheMergeFollowsDepth) {
   const auto worst = [&](const std::string& picture) {
-    EXPECT_LE(run("comfort " + picture + " --json"), 1) << err;
+    const int code = run("comfort " + picture + " --json");
+    EXPECT_TRUE(code == 0 || code == 5) << err;
     const size_t at = out.find("\"vertical\": ");
     return at == std::string::npos ? -1.0 : std::atof(out.c_str() + at + 12);
   };
@@ -256,7 +257,7 @@ TEST_F(CliStitch, TheMergeFollowsDepth) {
   ASSERT_EQ(render_room(), 0) << err;
   ASSERT_EQ(stitch("planned.exr", "--sidecar"), 0) << err;
   EXPECT_LE(worst(folder.path("planned.exr")), 20.5);
-  // Where there is no depth.
+  // Views without depth.
   EXPECT_EQ(plan("--slits 12 --width 64 --merge auto"), 2);
   EXPECT_NE(err.find("add --scene SCENE"), std::string::npos) << err;
   ASSERT_EQ(plan(), 0) << err;

@@ -1,30 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods video as its users meet it: one command, and what becomes of it when it is killed.
-#include <fmt/format.h>
-
-#include <filesystem>
-#include <map>
-#include <set>
-
-#include "ods/camera/camera_fields.h"
-#include "ods/video/encode.h"
-#include "tests/support/cli_runner.h"
-#include "tests/support/gltf_builder.h"
+// ods video: frames that are kept, shared and resumed.
+#include "tests/support/video_fixture.h"
 
 namespace ods::cli_video_test {
-
-class Video : public Cli {
- protected:
-  void SetUp() override {
-    if (!ods::has_encoder("libx264")) GTEST_SKIP() << "skipped: this machine has no libx264";
-  }
-
-  std::string words(const std::string& name, const std::string& more = "") const {
-    return "video toys --width 32 --samples 1 --frames 1-4 -o " + folder.path(name) + " " + more;
-  }
-};
 
 TEST_F(Video, OneCommandMakesATaggedVideoAndCleansUp) {
   ASSERT_EQ(run(words("video_360_TB.mp4", "--fps 25")), 0) << err;
@@ -46,7 +26,7 @@ TEST_F(Video, FormsOfFrames) {
   EXPECT_EQ(metadata_text(*ods::read_video_file(folder.path("b_360.mp4")).tracks[0].v2), "mono, lat-long");
 }
 
-// The words that mislead go; those of what is written come.
+// Misleading metadata are removed; the metadata of the new video are added.
 TEST_F(Video, ANameThatPlayersUnderstandIsProposed) {
   const std::tuple<const char*, const char*, const char*> kCases[] = {
       {"a_180.mp4", "", "a_360_TB.mp4"},
@@ -79,7 +59,7 @@ TEST_F(Video, FramesAreKeptWhereAskedAndUsedAgain) {
   ASSERT_EQ(folder.names(), (std::vector<std::string>{"a.mp4", "a.mp4.frames"}));
   const std::string video = folder.read("a.mp4");
   // Another packing of the same frames, and more of them.
-  ASSERT_EQ(run(words("a.mp4", "--keep-frames --exposure 1 --frames 1-5")), 0) << err;
+  ASSERT_EQ(run(words("a.mp4", "--keep-frames --tone linear --frames 1-5")), 0) << err;
   EXPECT_NE(err.find("4 of 5 frames exist already"), std::string::npos) << err;
   EXPECT_NE(folder.read("a.mp4"), video);
   ASSERT_EQ(run("encode " + folder.path("a.mp4.frames/frame.######.exr") + " --codec h264 --frames 1-4 -o " +
@@ -89,7 +69,27 @@ TEST_F(Video, FramesAreKeptWhereAskedAndUsedAgain) {
   EXPECT_EQ(folder.read("b.mp4"), video);
 }
 
-// Those beside a missing frame are rendered anew, for its sake.
+// Frames whose pixels stop when they are clean belong to the exposure at which they were judged; others to none.
+TEST_F(Video, FramesJudgedAtAnotherExposureAreNotMixedIn) {
+  const auto video = [&](const std::string& more) {
+    return "video toys --width 16 --samples 64 --denoise none --keep-frames --frames 1-2 -o " + folder.path("a.mp4") +
+           " " + more;
+  };
+  ASSERT_EQ(run(video("--noise 0.05")), 0) << err;
+  EXPECT_EQ(run(video("--noise 0.05 --exposure 4")), 2);
+  EXPECT_NE(err.find("--exposure was 0, now 4; --restart"), std::string::npos) << err;
+  ASSERT_EQ(run(video("--noise none --restart")), 0) << err;
+  const std::string first = folder.read("a.mp4");
+  ASSERT_EQ(run(video("--noise none --exposure 4")), 0) << err;
+  EXPECT_NE(folder.read("a.mp4"), first);
+  // An exposure that a first look has found holds for frames that are added.
+  ASSERT_EQ(run(video("--noise 0.05 --env 0.05 --restart")), 0) << err;
+  EXPECT_NE(err.find(" stops, from a first look"), std::string::npos) << err;
+  ASSERT_EQ(run(video("--noise 0.05 --env 0.05 --frames 1-4")), 0) << err;
+  EXPECT_NE(err.find(" stops, as the frames that exist"), std::string::npos) << err;
+}
+
+// Frames beside a missing one are rendered again, for its sake.
 TEST_F(Video, DenoisedFramesDrawOnEachOtherAndNotOnInterruptions) {
   const auto path = [&](int number) { return folder.path(fmt::format("a.mp4.frames/frame.{:06}.exr", number)); };
   const auto read = [&](int number) { return folder.read(fmt::format("a.mp4.frames/frame.{:06}.exr", number)); };
@@ -115,8 +115,9 @@ TEST_F(Video, FramesOfAnotherJobAreNotMixedIn) {
   ASSERT_EQ(run(words("a.mp4", "--keep-frames")), 0) << err;
   const std::string video = folder.read("a.mp4");
   EXPECT_EQ(run(words("a.mp4", "--samples 2")), 2);
-  EXPECT_NE(err.find("a.mp4.frames' was made with other options: --samples was 1, now 2; --restart"), std::string::npos)
-      << err;
+  for (const char* part : {"a.mp4.frames' was made with other options: ", "--samples was 1, now 2; ", "; --restart"}) {
+    EXPECT_NE(err.find(part), std::string::npos) << part << "\n" << err;
+  }
   EXPECT_EQ(folder.read("a.mp4"), video);
   ASSERT_EQ(run(words("a.mp4", "--samples 2 --restart")), 0) << err;
   EXPECT_NE(folder.read("a.mp4"), video);
@@ -126,6 +127,25 @@ TEST_F(Video, FramesOfAnotherJobAreNotMixedIn) {
   EXPECT_EQ(run(words("b.mp4")), 2);
   EXPECT_EQ(run(words("b.mp4", "--restart")), 0) << err;
   EXPECT_EQ(folder.read("b.mp4.frames/diary.txt"), "mine");
+}
+
+// A truncated note is reported as damaged, not as made with other options, and the frames stay.
+TEST_F(Video, ACutNoteIsDamaged) {
+  ASSERT_EQ(run(words("a.mp4", "--keep-frames")), 0) << err;
+  const std::string note = folder.read("a.mp4.frames/job.txt");
+  const std::string frame = folder.read("a.mp4.frames/frame.000001.exr");
+  std::string changed = note;
+  changed[note.size() / 2] ^= 1;
+  for (const std::string& damaged :
+       {std::string(), note.substr(0, 10), note.substr(0, 27), note.substr(0, note.size() / 2),
+        note.substr(0, note.size() - 1), note + "x", changed}) {
+    folder.write("a.mp4.frames/job.txt", damaged);
+    EXPECT_EQ(run(words("a.mp4")), 3) << damaged.size();
+    EXPECT_NE(err.find("a.mp4.frames/job.txt' is damaged: remove '"), std::string::npos) << err;
+    EXPECT_EQ(folder.read("a.mp4.frames/frame.000001.exr"), frame);
+  }
+  folder.write("a.mp4.frames/job.txt", note);
+  EXPECT_EQ(run(words("a.mp4")), 0) << err;
 }
 
 TEST_F(Video, TheSceneIsOfTheJob) {
@@ -175,157 +195,6 @@ TEST_F(Video, ACopyOfTheSceneIsTheSameSceneAndAChangedFileIsNamed) {
   write("two");
   EXPECT_EQ(video("two"), 0) << err;
 }
-
-// Of every option of ods video it is known whether it changes frames: what changes the video alone may change while its
-// frames are being made, what changes a frame is refused by name.
-class VideoOptions : public Video {
- protected:
-  void SetUp() override {
-    Video::SetUp();
-    if (IsSkipped()) return;
-    ASSERT_EQ(run(job), 0) << err;
-    const std::string frame = folder.path("a.mp4.frames/frame.000001.exr");
-    made = std::filesystem::last_write_time(frame);
-  }
-  bool frames_are_those() const {
-    return std::filesystem::last_write_time(folder.path("a.mp4.frames/frame.000001.exr")) == made;
-  }
-
-  const std::string job = "video furnace --width 16 --samples 1 --frames 1-2 --keep-frames -o " + folder.path("a.mp4");
-  std::filesystem::file_time_type made;
-};
-
-const std::map<std::string, std::string> kVideoAlone = {
-    {"--target", "youtube"}, {"--codec", "h264"},      {"--encoder", "libx264"}, {"--preset", "ultrafast"},
-    {"--crf", "30"},         {"--bitrate", "1"},       {"--bits", "10"},         {"--chroma", "444"},
-    {"--apple", ""},         {"--exposure", "1"},      {"--tone", "linear"},     {"--frames", "1-3"},
-    {"--threads", "1"},      {"--progress", "openjd"}, {"--quiet", ""},          {"--no-color", ""},
-    {"--confine", "."},      {"--keep-frames", ""},    {"--skip-existing", ""},  {"--duration", "3"},
-    {"--brighter", "1"},     {"--force", ""},
-};
-std::map<std::string, std::string> with_circle(std::map<std::string, std::string> options) {
-  for (const ods::CameraFieldRow& row : ods::camera_fields()) {
-    if (!row.help.empty()) options.emplace(fmt::format("--{}", row.setting), "0.06");
-  }
-  return options;
-}
-const std::map<std::string, std::string> kOfFrames = with_circle({
-    {"--scene", "0"},
-    {"--variant", "red"},
-    {"--solid-glass", ""},
-    {"--portable", ""},
-    {"--unit", "cm"},
-    {"--as", "object"},
-    {"--up", "z"},
-    {"--light-unit", "watt"},
-    {"--env", "0.5"},
-    {"--lamp", "0,0.5,0"},
-    {"--background", "0.5"},
-    {"--unlit", ""},
-    {"--width", "32"},
-    {"--height", "10"},
-    {"--eyes", "mono"},
-    {"--layout", "sbs"},
-    {"--camera", "other"},
-    {"--position", "0,1,0"},
-    {"--yaw", "10"},
-    {"--pitch", "10"},
-    {"--roll", "10"},
-    {"--camera-preset", "google:IPD=0.1"},
-    {"--merge", "none"},
-    {"--merge-top", "power"},
-    {"--merge-bottom", "linear"},
-    {"--convergence", "shift,3"},
-    {"--axis", "1,1,0"},
-    {"--lens", "0.01,2"},
-    {"--left-handed", ""},
-    {"--projection", "vr180"},
-    {"--face", "up"},
-    {"--range", "-90,90"},
-    {"--animation", "walk"},
-    {"--fps", "25"},
-    {"--turntable", "1"},
-    {"--fly-to", "0,1,0"},
-    {"--shutter", "180"},
-    {"--grain", "changing"},
-    {"--quality", "draft"},
-    {"--samples", "2"},
-    {"--noise", "0.05"},
-    {"--time-limit", "1h"},
-    {"--denoise", "none"},
-    {"--bounces", "2"},
-    {"--clamp", "3"},
-    {"--caustics", "path"},
-    {"--indirect", "path"},
-    {"--filter", "box"},
-    {"--seed", "7"},
-});
-// These ask for other files (tested elsewhere), say where, or need another one; --time and --sidecar are refused.
-const std::set<std::string> kOthers = {"--output",
-                                       "--audio",
-                                       "--rig",
-                                       "--restart",
-                                       "--size",
-                                       "--merge-map",
-                                       "--fov",
-                                       "--lens-direction",
-                                       "--time",
-                                       "--only",
-                                       "--wait",
-                                       "--raw",
-                                       "--sidecar",
-                                       "--merge-map-inverted",
-                                       "--head-tilt-map",
-                                       "--sensor",
-                                       "--lens-polynomial",
-                                       "--bake",
-                                       "--blender",
-                                       "--blender-limit",
-                                       "--camera-from"};
-
-TEST_F(VideoOptions, EveryOptionIsOneOrTheOther) {
-  ASSERT_EQ(run("video --help"), 0);
-  std::istringstream help(out);
-  std::set<std::string> options;
-  for (std::string line; std::getline(help, line);) {
-    const size_t dashes = line.find("--");
-    if (!line.starts_with("  -") || dashes > 5) continue;
-    options.insert(line.substr(dashes, line.find_first_of(" ,", dashes) - dashes));
-  }
-  EXPECT_GT(options.size(), 60u);
-  for (const std::string& option : options) {
-    const size_t known = kVideoAlone.count(option) + kOfFrames.count(option) + kOthers.count(option);
-    EXPECT_EQ(known, 1u) << option << ": does it change frames? Then cli/render/frame_settings.cpp has to know it";
-  }
-}
-
-TEST_F(VideoOptions, WhatChangesTheVideoAloneMayChange) {
-  for (const auto& [option, value] : kVideoAlone) {
-    EXPECT_EQ(run(job + " " + option + " " + value), 0) << option << err;
-    EXPECT_TRUE(frames_are_those()) << option;
-  }
-}
-
-TEST_F(VideoOptions, WhatChangesAFrameIsRefusedByName) {
-  for (const auto& [option, value] : kOfFrames) {
-    EXPECT_EQ(run(job + " " + option + " " + value), 2) << option << err;
-    const std::map<std::string, std::string> kSaidAs = {
-        {"--merge", "--merge-top"}, {"--camera-preset", "--ipd"}, {"--face", "--projection"}, {"--quality", "--noise"}};
-    const auto other = kSaidAs.find(option);
-    const std::string said = other == kSaidAs.end() ? option : other->second;
-    EXPECT_NE(err.find(said + " was "), std::string::npos) << option << ": " << err;
-    EXPECT_TRUE(frames_are_those()) << option;
-  }
-  ASSERT_EQ(run("render furnace --width 16 --samples 1 --eyes mono -q -o " + folder.path("map.png")), 0) << err;
-  EXPECT_EQ(run(job + " --merge-map " + folder.path("map.png")), 2);
-  EXPECT_NE(err.find("--merge-top was cosine,60,90,1, now map"), std::string::npos) << err;
-  EXPECT_EQ(run(job + " --head-tilt-map " + folder.path("map.png")), 2);
-  EXPECT_NE(err.find("--head-tilt-map is new"), std::string::npos) << err;
-  EXPECT_EQ(run(job + " --projection fisheye --fov 100 --lens-direction 20,10"), 2);
-  EXPECT_NE(err.find("; and 1 more; --restart"), std::string::npos) << err;
-}
-
-// --- two at once, and what is not ours ------------------------------------------------------------------------------
 
 TEST_F(Video, OneProcessAtATimeMakesAVideo) {
   const std::vector<std::string> job = {"video", "toys",     "--width", "32", "--samples",

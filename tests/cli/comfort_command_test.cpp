@@ -62,7 +62,7 @@ float street(float elevation) {
   return elevation < 0.0f ? 1.6f / std::sin(-elevation * 3.14159f / 180.0f) : 1e10f;
 }
 
-// What should be 1 / metres, or a share of the farthest, taken for metres.
+// Depth in 1 / metres, or as a share of the farthest, interpreted as metres.
 float inverted_street(float elevation) {
   return 0.5f + 20.0f / std::min(street(elevation), 40.0f);
 }
@@ -82,12 +82,12 @@ TEST_F(ComfortCommand, ASceneAndItsPictureAreJudgedAlike) {
   EXPECT_NEAR(scene["nearest"], same["nearest"], 1e-3);
 }
 
-// What the report says would do, does.
+// The distances that "would do" in the report suffice.
 TEST_F(ComfortCommand, ItsCuresCure) {
   const std::string words = "room --width 256 --position 1.9,0.5,0.4 --merge none";
   const Json before = judged(words);
   ASSERT_EQ(before["level"], "error") << out;
-  EXPECT_EQ(code, 1);
+  EXPECT_EQ(code, 5);
   ASSERT_FALSE(before["places"].empty());
   EXPECT_GT(before["places"][0]["enough"], before["places"][0]["distance"]);
   const double ipd = 0.99 * before["largest_ipd"].get<double>();
@@ -111,7 +111,7 @@ TEST_F(ComfortCommand, AMergeByDepthCuresWhatIsAboveAndBelow) {
   EXPECT_EQ(run("testcard -o " + folder.path("card.png") + " --merge auto"), 2);
 }
 
-// The picture itself keeps the merge; where one is missing that only a sidecar keeps, the eyes tell what they show.
+// The picture itself keeps the merge; where one is missing that only a sidecar keeps, the eyes show it.
 TEST_F(ComfortCommand, AMergeMapIsNotForgotten) {
   const std::string words = " --width 512 --samples 4 --bounces 1 -q ";
   const std::string merged = folder.path("merged.exr");
@@ -120,7 +120,7 @@ TEST_F(ComfortCommand, AMergeMapIsNotForgotten) {
   EXPECT_LE(alone["most"]["vertical"], 26.0);
   EXPECT_FALSE(alone.contains("matched"));
 
-  // Eyes half as far apart, and in one column a little more, so that the map is no curve.
+  // Eyes half as far apart, and in one column a little more, so that the map is not a curve.
   ods::ExrForm form;
   form.width = 8, form.height = 4, form.channels = {"B", "G", "R"};
   form.types = {Imf::FLOAT, Imf::FLOAT, Imf::FLOAT};
@@ -156,7 +156,8 @@ TEST_F(ComfortCommand, AMergeThatNobodyWroteDownIsMeasured) {
 }
 
 TEST_F(ComfortCommand, TextNamesThingsAndWhatWouldDo) {
-  EXPECT_EQ(run("comfort room --width 256 --position 1.9,0.5,0.4 --merge none"), 1);
+  EXPECT_EQ(run("comfort room --width 256 --position 1.9,0.5,0.4 --merge none"), 5);
+  EXPECT_EQ(err.find("error:"), std::string::npos) << "a verdict is not a failure: " << err;
   EXPECT_NE(out.find("m would do"), std::string::npos) << out;
   EXPECT_NE(out.find("cure: move these things"), std::string::npos) << out;
   EXPECT_NE(out.find("by solid angle"), std::string::npos) << out;
@@ -171,6 +172,32 @@ TEST_F(ComfortCommand, TheHeatIsAPictureOfBothEyes) {
   EXPECT_EQ(info.height, 256);
 }
 
+// Every part of the report has the verdict of both eyes, whichever of them strains.
+TEST_F(ComfortCommand, TheWorseEyeDecides) {
+  const auto far = [](float) { return 20.0f; };
+  const auto near = [](float elevation) { return elevation == -20.0f ? 0.3f : 20.0f; };  // pillars
+  for (const std::string worse : {"left", "right"}) {
+    const std::string better = worse == "left" ? "right" : "left";
+    write_depth("pair_" + worse + ".exr", "Z", near);
+    write_depth("pair_" + better + ".exr", "Z", far);
+    const std::string pair = folder.path("pair_%V.exr"), page = folder.path("pair.html");
+    EXPECT_EQ(run("comfort " + pair + " --html " + page), 5) << err;
+    EXPECT_NE(out.find("pair_%V.exr: error;"), std::string::npos) << out;
+    EXPECT_NE(out.find(worse + " eye: error"), std::string::npos) << out;
+    EXPECT_NE(out.find("error: an area, 0.3"), std::string::npos) << out;
+    EXPECT_EQ(err.find("error:"), std::string::npos) << err;
+    EXPECT_NE(text_of(page).find("<b class=\"error\">error</b></h1>"), std::string::npos);
+    EXPECT_NE(text_of(page).find("The " + worse + " eye:"), std::string::npos);
+    const Json found = judged(pair);
+    EXPECT_EQ(code, 5);
+    EXPECT_EQ(found["level"], "error");
+    EXPECT_EQ(found["eyes"][worse], "error");
+    EXPECT_EQ(found["eyes"][better], "ok");
+    EXPECT_EQ(found["places"][0]["eye"], worse);
+    EXPECT_GT(found["share"]["error"], 0.0);
+  }
+}
+
 // Without depth, by matching the eyes: the same verdict as with it, and how sure it is.
 TEST_F(ComfortCommand, APictureWithoutDepthIsMatched) {
   const std::string words =
@@ -179,7 +206,7 @@ TEST_F(ComfortCommand, APictureWithoutDepthIsMatched) {
   ASSERT_EQ(run("convert -q " + folder.path("x.exr") + " -o " + folder.path("x_360_TB.jpg")), 0) << err;
   const Json exact = judged(folder.path("x.exr"));
   const Json found = judged(folder.path("x_360_TB.jpg"));
-  EXPECT_EQ(code, 1);
+  EXPECT_EQ(code, 5);
   EXPECT_EQ(found["level"], exact["level"]);
   EXPECT_NEAR(found["nearest"], exact["nearest"], 0.15 * exact["nearest"].get<double>());
   EXPECT_GT(found["matched"]["share"], 0.3);
@@ -219,7 +246,7 @@ TEST_F(ComfortCommand, ThingsAreNamedInPictures) {
   EXPECT_NE(out.find("'Sail <1>', 0."), std::string::npos) << out;
 }
 
-// Whoever reads only the report, and moves the first thing as it says, has a clean one at last.
+// Moving the first thing of each report as it suggests leads to a clean report.
 TEST_F(ComfortCommand, AReaderOfTheReportKnowsWhatToMove) {
   std::array<double, 3> place = {0.35, 0.1, -0.2};  // of the sail, from the camera
   const std::string scene = folder.path("sail.glb");
@@ -289,8 +316,8 @@ TEST_F(ComfortCommand, DepthWithoutSenseIsSaid) {
                       {"0, negative or NaN everywhere", 3, [](float) { return -2.0f; }},
                       {"0, negative or NaN everywhere", 3, [](float) { return std::nanf(""); }},
                       {"infinite everywhere", 0, [](float) { return kInfinity; }},
-                      {"have no depth, and are not judged", 1, [](float e) { return e > 0.0f ? std::nanf("") : 3.0f; }},
-                      {"looks inverted", 1, inverted_street}};
+                      {"have no depth, and are not judged", 5, [](float e) { return e > 0.0f ? std::nanf("") : 3.0f; }},
+                      {"looks inverted", 5, inverted_street}};
   for (const Row& row : rows) {
     write_depth("bad.exr", "Z", row.depth);
     EXPECT_EQ(run("comfort " + folder.path("bad.exr")), row.code) << row.says << "\n" << err;
@@ -300,7 +327,7 @@ TEST_F(ComfortCommand, DepthWithoutSenseIsSaid) {
     EXPECT_NE(line.find("bad.exr"), std::string::npos) << line;
     EXPECT_EQ(line.find("bad.exr"), line.rfind("bad.exr")) << line;
   }
-  // Blender's name, and an upright street, which is no mistake.
+  // Blender's name, and an upright street, which is not a mistake.
   write_depth("blender.exr", "ViewLayer.Depth.Z", street);
   const Json found = judged(folder.path("blender.exr"));
   EXPECT_EQ(err.find("inverted"), std::string::npos) << err;

@@ -27,7 +27,8 @@ class ConvertDepth : public Cli {
 
   // In minutes of arc, as ods comfort measures it.
   double worst_vertical(const std::string& name) {
-    EXPECT_LE(run(in_folder("comfort @" + name + " --json")), 1) << err;
+    const int code = run(in_folder("comfort @" + name + " --json"));
+    EXPECT_TRUE(code == 0 || code == 5) << err;
     const size_t at = out.find("\"vertical\": ");
     return at == std::string::npos ? -1.0 : std::atof(out.c_str() + at + 12);
   }
@@ -68,7 +69,7 @@ TEST_F(ConvertDepth, MakesTwoEyesOfOne) {
   run_well("convert @panorama.png --depth @depth.exr --holes empty --ipd 0.2 --merge none -q -o @holes.exr");
   EXPECT_EQ(open("holes.exr").eyes[0].layers[0].channels.size(), 4u);
   EXPECT_FLOAT_EQ(open("holes.exr").camera.ipd, 0.2f);
-  // Of the same depth, the same as from the layer of the file itself.
+  // The same depth gives the same result as the layer of the file itself.
   run_well("convert @depth.exr --eyes both --merge none -q -o @by_layer.png");
   run_well("convert @panorama.png --depth @depth.exr --merge none -q -o @by_file.png");
   EXPECT_EQ(run(in_folder("compare @by_layer.png @by_file.png --min-psnr 24")), 0) << out << err;
@@ -132,7 +133,7 @@ TEST_F(ConvertDepth, TheMergeOfAVideoFollowsItsDepthSteadily) {
     before = up;
   }
   run_well("convert @mono_360.mp4 --depth @depth.#.pfm --merge auto -q -o @made_360_TB.mp4");
-  // Frames do the same, whoever makes which of them.
+  // Frames give the same result, whichever process makes them.
   run_well(
       "convert @panorama.#.png --fps 4 --depth @depth.#.pfm --merge auto --only 2/2 -q --sidecar -o "
       "@part_360_TB.#.exr");

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // ods encode as its users meet it.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -9,6 +11,7 @@
 #include "ods/video/encode.h"
 #include "tests/support/cli_runner.h"
 #include "tests/support/made_frames.h"
+#include "tests/support/programs.h"
 
 namespace ods::encode_command_test {
 
@@ -34,6 +37,27 @@ TEST_F(EncodeCommand, FramesBecomeAVideo) {
   EXPECT_NE(err.find("h264, 8 bits, 420, level 1.1, 128x128, 3 frames at 29.97 a second"), std::string::npos) << err;
   EXPECT_NE(err.find("top-bottom: it has the shape of two eyes"), std::string::npos) << err;
   EXPECT_EQ(err.find("warning"), std::string::npos) << err;
+}
+
+// FFmpeg's test picture moves in many ways: x265 finds other motion in it with other threads, if it may. Without /sys,
+// as in some containers, libnuma counts no processors.
+TEST_F(EncodeCommand, HevcHasTheSameBytesWhateverThreadsAndWithoutSys) {
+  if (!ods::has_encoder("libx265")) GTEST_SKIP() << "skipped: this machine encodes no HEVC";
+  const std::string frames = "ffmpeg -v error -f lavfi -i testsrc2=size=640x640 -frames:v 30 " + pattern("a.%d.png");
+  if (const std::string why = ods::missing("ffmpeg", frames); !why.empty()) GTEST_SKIP() << why;
+  const auto encode = [&](int threads, const std::string& in = "") {
+    const ods::Ran ran =
+        ods::run_line(fmt::format("{} '{}' encode {} -q --layout mono --codec hevc --threads {} -o {}", in,
+                                  ods::ods_command(), pattern(), threads, folder.path("video.mp4")));
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_EQ(ran.out, "");
+    return folder.read("video.mp4");
+  };
+  const std::string video = encode(1);
+  EXPECT_TRUE(encode(5) == video);
+  const std::string hidden = "unshare --map-root-user --mount sh -c 'mount -t tmpfs none /sys && exec \"$@\"' sh";
+  if (ods::run_line(hidden + " true").code != 0) GTEST_SKIP() << "skipped: nothing hides /sys here";
+  EXPECT_TRUE(encode(0, hidden) == video);
 }
 
 TEST_F(EncodeCommand, TheSoundOfAnExistingVideoCanBeTaggedAsAmbisonics) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The table of docs/foreign.md: each of its commands is run as printed, on a file made as the camera or the program of
-// its row writes it, and what it makes shows the world of that file. Where ods stops, it says what to do.
+// its row writes it, and its output shows the world of that file. If ods stops, it names the alternative.
 #include <fmt/format.h>
 
 #include <fstream>
@@ -35,7 +35,7 @@ ProjectionSetting named(const std::string& name) {
 
 constexpr World kWorld = World::kHall;
 
-// Of two cameras side by side, unless it is one eye.
+// A picture of two cameras side by side, unless it is one eye.
 Image view(const ProjectionSetting& projection, int eye, Extent size, float yaw = 0.0f) {
   StereoCamera camera;
   camera.projection = projection, camera.yaw = yaw;
@@ -110,7 +110,7 @@ std::string jpeg_of(const TemporaryFolder& folder, const Image& image) {
   return bytes;
 }
 
-// Three frames without a word about their form.
+// Three frames without metadata.
 void write_film(const std::string& path, const Image& image) {
   const Extent size{image.width, image.height};
   EncodeOptions options;
@@ -182,7 +182,7 @@ struct Row {
   std::string command;  // as the last one has it
   std::function<void(const TemporaryFolder& folder, const std::string& name)> make;
   Form form;        // of what comes out
-  std::string why;  // instead: what the error says
+  std::string why;  // instead: the error's message
   bool needs_heif = false;
 };
 void PrintTo(const Row& row, std::ostream* out) {
@@ -239,7 +239,7 @@ void make_turned_photo(const TemporaryFolder& folder, const std::string& name) {
   folder.write(name, plain.substr(0, 2) + jpeg_segment(kJpegApp1, exif) + plain.substr(2));
 }
 
-// What a phone's lens sees of the world.
+// The view of a phone's lens.
 ProjectionSetting phone_window() {
   ProjectionSetting window = named("perspective");
   window.fov = 63.4f, window.aspect = 4.0f / 3.0f;
@@ -367,7 +367,7 @@ std::vector<Row> all_rows() {
 
 // --- what comes out --------------------------------------------------------------------------------------------------
 
-// As players take it. No picture says how wide a window is.
+// The form by which players interpret it. Pictures do not record how wide a window is.
 StoredPicture open_result(const std::string& path, const Form& form) {
   OpenOptions options;
   if (form.projection == "perspective") options.format.projection = phone_window();

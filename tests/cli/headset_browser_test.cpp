@@ -76,7 +76,7 @@ double disparity(const Image& left, const Image& right, int x0, int y0, int x1, 
   return best + 0.5 * (before - after) / (before - 2.0 * at + after);  // of a parabola
 }
 
-// Of the upper rows.
+// The colour of the upper rows.
 double brightness(const Image& image) {
   double sum = 0.0;
   const int rows = image.height / 5;
@@ -86,8 +86,7 @@ double brightness(const Image& image) {
   return sum / (rows * image.width);
 }
 
-// Every control does what it says, by ray, look, hand and pinch; the panel is where it says, and each eye sees it
-// there.
+// Every control works by ray, look, hand and pinch; the panel is where it reports to be, and each eye sees it there.
 TEST_F(HeadsetBrowser, EveryControlOfThePanelDoesWhatItSays) {
   make_all();
   ASSERT_EQ(run_part("panel"), "ok");
@@ -115,13 +114,13 @@ TEST_F(HeadsetBrowser, ThePanelChangesTheStudiosScene) {
   ASSERT_EQ(run_part("studio", scene), "ok");
 }
 
-// Where the compositor shows the picture, the panel has a layer above it.
+// If the compositor shows the picture, the panel has a layer above it.
 TEST_F(HeadsetBrowser, ThePanelIsAboveThePicturesLayer) {
   make("first_360_TB.png");
   EXPECT_EQ(run_part("layers"), "ok");
 }
 
-// What the desk sees of the wearer, and the wearer of the desk, through the server.
+// The desk's view of the wearer, and the wearer's view of the desk, through the server.
 TEST_F(HeadsetBrowser, TheDeskAndTheWearerShareWhatTheySee) {
   make_all();
   ASSERT_EQ(run_part("sharing"), "ok");

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods inject and pictures that say something already: each form with each option, and nothing changes that was not
-// asked for, field by field.
+// ods inject and pictures that already have metadata: each form with each option, and only the requested fields change.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -20,12 +19,12 @@ using ods::StereoCamera;
 
 struct Form {
   std::string name;   // of the file
-  std::string title;  // who wrote its words
+  std::string title;  // the writer of its metadata
 };
 
 class InjectPicture : public Cli {
  protected:
-  // One eye; its name says nothing.
+  // One eye with a neutral name.
   void write(const std::string& name, ods::Extent size) const {
     ods::Picture picture;
     ods::EyeImage eye;
@@ -123,7 +122,7 @@ TEST_F(InjectPicture, TheSidecarSaysTheSame) {
   const StereoCamera now = ods::open_camera(path, warnings).camera;
   EXPECT_EQ(now.yaw, 30.0f);
   EXPECT_EQ(now.pitch, -10.0f);
-  // That of another picture of the same name stays.
+  // The sidecar of another picture of the same name stays.
   const std::string other = folder.read(beside);
   ASSERT_EQ(run("render axis --eyes mono --width 64 --samples 1 --quiet -o " + folder.path("seen_360.tif")), 0) << err;
   folder.write(beside, other);

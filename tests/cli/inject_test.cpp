@@ -1,19 +1,18 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods inject on videos that say something already, whoever wrote it: what is asked for changes, and nothing else does.
+// ods inject on videos that already have metadata, by any writer: the requested metadata change, and nothing else does.
 #include <cmath>
 #include <cstdio>
 #include <iterator>
 
+#include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "ods/lint/players.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/video/container/apple.h"
 #include "tests/support/cli_runner.h"
 #include "tests/support/tagged_videos.h"
-
-int ods_inject(int argc, char** argv);  // of the command
 
 namespace ods::inject_test {
 
@@ -41,10 +40,7 @@ class Inject : public Cli {
     const pid_t child = fork();
     if (child == 0) {
       if (!std::freopen("/dev/null", "w", stdout) || !std::freopen(log.c_str(), "w", stderr)) _exit(99);
-      std::vector<char*> argv;
-      for (std::string& argument : arguments) argv.push_back(argument.data());
-      argv.push_back(nullptr);
-      const int result = ods_inject(static_cast<int>(arguments.size()), argv.data());
+      const int result = run_command(*find_command("inject"), {arguments.begin() + 1, arguments.end()});
       std::fflush(nullptr);
       _exit(result);
     }
@@ -54,7 +50,7 @@ class Inject : public Cli {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
   }
 
-  // Tags the video and returns what it says then; nothing, and the same video, where that was refused.
+  // Tags the video and returns its metadata; returns nullopt, and leaves the video, if that was refused.
   std::optional<ods::VideoFile> inject(const Tagged& video, const std::string& options) {
     folder.write(video.name, video.video);
     std::istringstream words("inject " + folder.path(video.name) + " " + options);
@@ -68,7 +64,7 @@ class Inject : public Cli {
   int code = 0;
 };
 
-// A place says the form, as far as it can.
+// Each place records the form, as far as it can.
 void expect_says(const std::optional<SphericalMetadata>& place, const SphericalMetadata& metadata, bool has_angles) {
   if (!place) return;
   EXPECT_TRUE(same_stereo(*place, metadata)) << metadata_text(*place);
@@ -82,7 +78,7 @@ void expect_says(const std::optional<SphericalMetadata>& place, const SphericalM
 // All places, field by field.
 void expect_metadata(const ods::VideoTrack& before, const ods::VideoTrack& after, const SphericalMetadata& metadata) {
   const bool says_nothing = metadata.stereo == VideoStereo::kOneView && metadata.projection == VideoProjection::kFlat;
-  if (says_nothing && !after.v2 && !after.v1) return;  // an ordinary video needs no words
+  if (says_nothing && !after.v2 && !after.v1) return;  // an ordinary video does not need metadata
   ASSERT_TRUE(after.v2) << "V1 or vexu alone get V2, too";
   SphericalMetadata said = *said_metadata(after);
   EXPECT_EQ(said.stereo, metadata.stereo);
@@ -176,7 +172,7 @@ TEST_F(Inject, WhatIsNotAskedForStays) {
   }
 }
 
-// What our own commands write is complete: there is nothing to add.
+// The output of our own commands is complete: there is nothing to add.
 TEST_F(Inject, AVideoThatSaysAllIsTheSameBytesAfterwards) {
   for (const Tagged& each : videos_of_ours(folder)) {
     ASSERT_TRUE(inject(each, "")) << err;
@@ -304,7 +300,7 @@ TEST_F(Inject, RemovingTakesAllWordsOut) {
   }
 }
 
-// Whether options or the name tell the layout. What the video states itself, right or wrong, stays.
+// The layout is given by options or by the name. The video's own metadata, right or wrong, stay.
 TEST_F(Inject, AVideoThatCannotHaveTheLayoutIsRefused) {
   ods::made::Mp4Options options;
   options.widths = {64}, options.height = 33;
@@ -320,7 +316,7 @@ TEST_F(Inject, AVideoThatCannotHaveTheLayoutIsRefused) {
   EXPECT_TRUE(inject({"", "odd.mp4", mp4(options), {}}, "--yaw 3")) << err;
 }
 
-// Where nothing is written anew that is in doubt, it is only said.
+// If the contradiction does not affect the new metadata, there is only a note.
 TEST_F(Inject, HarmlessContradictionsAreReported) {
   Tagged video = boxes("", 256, 256, st3d(1) + sv3d("x", kWhole), v1_box("top-bottom"));
   video.name = "a_360_LR.mp4";

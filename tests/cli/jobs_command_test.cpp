@@ -73,8 +73,31 @@ TEST_F(Farm, JobsSaysRestartsNodesAndFramesInsideTasks) {
   EXPECT_EQ(job["job"], "a");
   EXPECT_EQ(job["scheduler"], "slurm");
   EXPECT_EQ(frames, json::parse(R"({"name": "frames", "made": 4, "of": 12, "done": 0, "running": 1, "waiting": 1,
-      "lost": 0, "restarts": 3, "nodes": {"one": 1},
+      "lost": 0, "restarts": 3, "nodes": {"one": 1}, "faults": [],
       "failed": [{"task": 2, "why": "exit code 3", "last_line": "", "nodes": "one, two"}]})"));
+}
+
+// A verdict is the result of a task that is done, also where Slurm's accounting calls it FAILED.
+TEST_F(Farm, AVerdictIsDoneAndSaysWhere) {
+  folder.write("x.png", "");
+  ASSERT_EQ(run("submit -q --to slurm -- lint " + folder.path("x.png") + " --layout top-bottom"), 0) << err;
+  for (const char* name : {"ended", "logs"}) std::filesystem::create_directories(folder.path("x.farm/") + name);
+  folder.write("x.farm/ended/lint.1", "5\n");
+  tools.write("queue", "7|N/A|FAILED|0:05||ods:lint:0:" + folder.path("x.farm") + "\n");
+  ASSERT_EQ(run("jobs " + folder.path("x.farm")), 0) << err;
+  EXPECT_NE(out.find("lint           1        0        0       0         0                \n"), std::string::npos)
+      << out;
+  EXPECT_NE(out.find("x lint 1: found a fault, see " + folder.path("x.farm/logs/lint.1.log\n")), std::string::npos)
+      << out;
+  ASSERT_EQ(run("jobs --json " + folder.path("x.farm")), 0) << err;
+  const json group = json::parse(out)[0]["groups"][0];
+  EXPECT_EQ(group["done"], 1);
+  EXPECT_EQ(group["faults"], json::parse("[1]"));
+  EXPECT_EQ(group["failed"], json::array());
+  EXPECT_EQ(run("jobs --follow " + folder.path("x.farm")), 5);
+  EXPECT_EQ(err, "");
+  folder.write("x.farm/ended/lint.1", "0\n");
+  EXPECT_EQ(run("jobs --follow " + folder.path("x.farm")), 0);
 }
 
 TEST_F(Farm, OfOtherSchedulersItSaysThatItCannotKnow) {

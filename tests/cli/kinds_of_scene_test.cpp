@@ -28,7 +28,7 @@ class KindsOfScene : public Cli, public ::testing::WithParamInterface<size_t> {
   }
 };
 
-// How bright a picture is as a screen shows it, 0..1: the values that only a tenth, half and nine tenths of its pixels
+// The brightness of a picture on a screen, 0..1: the values that only a tenth, half and nine tenths of its pixels
 // exceed. Rows near the poles count less, as they are smaller.
 struct Brightness {
   double high, middle, low;

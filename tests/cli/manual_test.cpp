@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Man pages and completions: they say what help says, and shells and man take them.
+// Man pages and completions: they agree with help, and shells and man accept them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,14 +45,14 @@ class Manual : public Cli {
     return names;
   }
 
-  // What a shell's command prints; empty where it fails.
+  // The output of a shell's command; empty if it fails.
   std::string shell(const std::string& words) {
     const std::string file = folder.path("shell.txt");
     if (std::system((words + " >'" + file + "'").c_str()) != 0) return "";
     return folder.read("shell.txt");
   }
 
-  // What bash offers for the last of these words.
+  // The completions that bash offers for the last of these words.
   std::set<std::string> completed(const std::string& words) {
     const std::string script = "words=(" + words +
                                "); COMP_WORDS=(\"${words[@]}\"); COMP_CWORD=$((${#words[@]} - 1)); . " +

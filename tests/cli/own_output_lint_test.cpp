@@ -13,7 +13,7 @@ namespace ods::own_output_lint_test {
 
 class OwnOutput : public Cli {
  protected:
-  // What lint says of a scene.
+  // The report of lint on a scene.
   std::string lint(const std::string& scene, const std::string& options = "") {
     const std::string picture = folder.path("picture.png");
     EXPECT_EQ(run("render " + scene + " --unlit --exposure -1 --denoise none --width 640 --samples 2 -o " + picture +
@@ -44,7 +44,7 @@ TEST_F(OwnOutput, OfSharedScenesHasNoFaultThatLintFinds) {
   EXPECT_TRUE(is_silent(report)) << report;
 }
 
-// Else the tests above would say nothing about the poles.
+// Otherwise the tests above would not cover the poles.
 TEST_F(OwnOutput, WithoutAMergeHasFaultsAtThePoles) {
   EXPECT_NE(lint("fractal", " --merge none").find("no-pole-merge"), std::string::npos) << out;
 }

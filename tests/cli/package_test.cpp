@@ -19,7 +19,7 @@ bool works(const std::string& words) {
 
 class Package : public Cli {
  protected:
-  // What a command of the shell prints.
+  // The output of a shell command.
   std::string output_of(const std::string& words) {
     EXPECT_EQ(std::system(("{ " + words + "; } >" + folder.path("output.txt") + " 2>&1").c_str()), 0)
         << words << "\n"

@@ -62,7 +62,7 @@ class PageBrowser : public ::testing::Test {
   std::string site() const { return folder_.path("site"); }
   void export_waves() { export_site({open_view_item(picture_)}, site()); }
 
-  // What the browser says at the end of a test of page-test.js.
+  // The browser's report at the end of a test of page-test.js.
   std::string run(const nlohmann::json& job, const std::vector<std::string>& more = {}) {
     export_waves();
     std::vector<std::string> words = browser_;
@@ -71,9 +71,9 @@ class PageBrowser : public ::testing::Test {
     return run_harness({words, folder_.path(""), nlohmann::json::array({job}).dump(), site, kPatience});
   }
 
-  // A page of the site from disk, with a script that says things by say(name, text) and ends by say('done', text).
-  // Returns how it ended; what else it said is in said_. The clock is the real one: a browser's virtual clock goes on
-  // while pictures are decoded, and does not wait for the GPU.
+  // A page of the site from disk, with a script that reports texts by say(name, text) and ends by say('done', text).
+  // Returns its last text; the others are in said_. The clock is the real one: a browser's virtual clock runs while
+  // pictures are decoded, and does not wait for the GPU.
   std::string run_from_disk(const std::string& page, const std::string& script, Extent window) {
     constexpr const char* kBegin = R"(<script>
 const say = (name, text) => fetch(`${location.search.slice(1)}${name}?text=${encodeURIComponent(text)}`, { mode: 'no-cors' }).catch(() => {});
@@ -176,7 +176,7 @@ TEST_F(PageBrowser, ShowsSubtitlesOfAVideo) {
   EXPECT_EQ(read_image(site() + "/item/0/poster.jpg").width, 960) << "before it plays, too, a video shows something";
 }
 
-// What is in the middle of a window that looks 90 degrees wide.
+// The middle of a window that is 90 degrees wide.
 Image middle_of(const StoredPicture& picture, int size, double window) {
   ConvertTarget target = same_format(picture);
   target.camera.projection = projection_named("perspective");
@@ -187,7 +187,7 @@ Image middle_of(const StoredPicture& picture, int size, double window) {
   return images_of(convert(picture, target).rows)[0];
 }
 
-// As exact, at rest, as what a server sends.
+// The picture at rest is as exact as from a server.
 TEST_F(PageBrowser, OpensFromDisk) {
   export_waves();
   const std::string end = run_from_disk("index.html", R"(
@@ -226,7 +226,7 @@ TEST_F(PageBrowser, ThreeExamplesOpenFromDisk) {
             "ok");
 }
 
-// What ods view sends of its page, over a real connection: at first sight, and when more is wanted.
+// The parts of the page that ods view sends over a real connection: first, and on demand.
 TEST_F(PageBrowser, TheServedPageIsSmallOnTheWire) {
   std::filesystem::remove(folder_.path("waves_360_TB.notes.json"));  // hotspots are wanted at once
   ViewSite site({open_view_item(picture_)}, {});
@@ -257,7 +257,8 @@ const timer = setInterval(async () => {
   EXPECT_NE(end.find("main.js; later 1, true"), std::string::npos) << end;
 }
 
-// As web hosts send it: an exported page with everything that it loads later, and the element; and that of ods view.
+// The page as web hosts send it: an exported page with everything that it loads later, and the element; and the page of
+// ods view.
 TEST(Page, IsSmallOnTheWire) {
   const auto size_of = [](const std::string& script, const std::vector<const char*>& files) {
     size_t size = gzip(script).size();

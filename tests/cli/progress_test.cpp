@@ -10,7 +10,7 @@
 
 namespace ods::progress_test {
 
-// What a job of 100 seconds writes when it reports twice a second.
+// The output of a job of 100 seconds that reports twice a second.
 std::string shown(ProgressMode mode, double until = 1.0) {
   std::ostringstream out;
   ProgressLines lines(mode, out);
@@ -86,7 +86,7 @@ TEST(Progress, ALongVideoIsReportedByTime) {
   }
 }
 
-// Half a minute of loading and the first tile of the first of many frames are no measure of the rest.
+// Half a minute of loading and the first tile of the first of many frames do not measure the rest.
 TEST(Progress, NothingIsToldOfTheTimeFromNothing) {
   std::ostringstream out, json;
   ProgressLines lines(ProgressMode::kPlain, out), objects(ProgressMode::kJson, json);
@@ -109,7 +109,7 @@ TEST(Progress, JsonNamesTheFrameAndTheFile) {
   EXPECT_EQ(object["kind"], "render");
   EXPECT_EQ(object["frame"], 3);
   EXPECT_EQ(object["frames"], 300);
-  EXPECT_EQ(object["file"], "a.\"\xef\xbf\xbd.exr");  // what is no UTF-8 is replaced
+  EXPECT_EQ(object["file"], "a.\"\xef\xbf\xbd.exr");  // bytes that are not UTF-8 are replaced
   EXPECT_NEAR(object["progress"].get<double>(), 300.0 / 36000.0, 1e-4);
 }
 

@@ -16,18 +16,14 @@ namespace ods::render_words_test {
 
 constexpr int kWidth = 768;
 
-// What ods render makes of the words.
+// The camera that ods render makes of the arguments.
 StereoCamera read_words(std::vector<std::string> words) {
   CameraOptions camera;
-  Options options("test", "", "");
-  const BlenderOptions blender;
-  add_camera_options(options, camera, blender);
+  Options options("test", std::move(words));
+  add_camera_options(options, camera);
   int height = 0;
   options.number("--height", height, 1, 100'000, "");
-  words.insert(words.begin(), "test");
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  EXPECT_TRUE(options.parse(static_cast<int>(arguments.size()), arguments.data()));
+  EXPECT_NO_THROW(options.parse());
   finish_camera_options(camera, kWidth, height);
   return place_camera(camera);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The options that choose what of a file is shown, and what the command says of its extensions.
+// The options that choose the shown parts of a file, and the messages about its extensions.
 #include <fstream>
 
 #include "ods/scene/builtin/shapes.h"
@@ -51,7 +51,7 @@ TEST_F(SceneOptionsOf, InfoNamesWhatEachExtensionBecame) {
   EXPECT_EQ(list[2]["required"], false);
 }
 
-// What changes no picture is not mentioned; what is missing in it is.
+// Extensions that do not change the picture are not mentioned; missing ones are.
 TEST_F(SceneOptionsOf, RenderingNamesOnlyWhatIsMissing) {
   GltfBuilder file = ods::make_triangle();
   file.json["extensionsUsed"] = {"KHR_xmp_json_ld", "MSFT_lod", "KHR_materials_variants"};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods finds out about a file by itself: where the viewer is, the unit, the exposure, the merge at the poles.
+// The settings that ods finds for a file by itself: the viewer's place, the unit, the exposure, the merge at the poles.
 #include <fstream>
 #include <iterator>
 #include <regex>

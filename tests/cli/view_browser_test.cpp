@@ -40,7 +40,8 @@ using Looks = std::array<Look, 5>;
 
 constexpr Looks kAround = {{{0, 0, 90}, {179, 20, 70}, {100, -75, 90}, {-45, 85, 60}, {30, -10, 25}}};
 
-// Within what the projection shows. Straight behind, where a texel of a mirrored ball is a streak, nobody looks.
+// Within what the projection shows. The direction straight behind, where a texel of a mirrored ball is a streak, is
+// left out.
 Looks looks_in(const ProjectionSetting& setting) {
   if (is_full_lat_long(setting) || is_cube(setting.kind)) return kAround;
   const float across = glm::degrees(static_cast<float>(0.5 / pixels_per_radian(setting, 1.0)));
@@ -267,7 +268,7 @@ TEST_F(ViewBrowser, IsExactAtRestAndQuickBefore) {
   EXPECT_EQ(run(browser), "ok");
 }
 
-// What an EXR says of its camera: a lens of its own, and eyes that converge.
+// The camera recorded in an EXR: a lens of its own, and eyes that converge.
 TEST_F(ViewBrowser, ShowsTheFilesOwnCamera) {
   const std::vector<std::string> browser = chromium(folder_.path("profile"));
   if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
@@ -357,7 +358,7 @@ TEST_F(ViewBrowser, ShowsTheFrameOfAVideo) {
   }
 }
 
-// What a headset's compositor is given: lat-long pictures of both eyes, whatever the file's projection.
+// The input of a headset's compositor: lat-long pictures of both eyes, whatever the file's projection.
 TEST_F(ViewBrowser, LaysThePictureOutForAHeadsetsCompositor) {
   const std::vector<std::string> browser = chromium(folder_.path("profile"));
   if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
@@ -386,8 +387,7 @@ TEST_F(ViewBrowser, LaysThePictureOutForAHeadsetsCompositor) {
   }
 }
 
-// Where a browser has cube layers, cubes are given as such; a GPU looks faces up by direction, and interpolates
-// linearly.
+// If a browser has cube layers, cubes are passed as such; a GPU looks faces up by direction, and interpolates linearly.
 TEST_F(ViewBrowser, LaysACubeOutAsACube) {
   const std::vector<std::string> browser = chromium(folder_.path("profile"));
   if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
@@ -421,8 +421,8 @@ TEST(Layers, KnowTheKernelsCubes) {
   EXPECT_NE(find_page_file("layers.js")->data.find("CUBES = [" + list + "]"), std::string_view::npos) << list;
 }
 
-// Its GPU, Mesa's in software, says that it filters anisotropically, but takes the level of the longer derivative:
-// frames of the fine filter have 30 dB. It is slow, so the page soon draws with the cheap one there.
+// Its GPU, Mesa's in software, claims to filter anisotropically, but takes the level of the longer derivative: frames
+// of the fine filter have 30 dB. It is slow, so the page soon draws with the cheap one there.
 TEST_F(ViewBrowser, ShowsTheSameInFirefox) {
   const std::vector<std::string> browser = firefox(folder_.path("profile"));
   if (browser.empty()) GTEST_SKIP() << "skipped: there is no firefox";
@@ -440,7 +440,7 @@ TEST_F(ViewBrowser, ShowsTheSameInFirefox) {
   }
 }
 
-// What the studio's page sends, shows and lets people undo, against a server that the page itself plays.
+// The studio's page: what it sends, shows and can undo, against a server that the page itself simulates.
 TEST_F(ViewBrowser, KeepsTheStudiosSettings) {
   const std::vector<std::string> browser = chromium(folder_.path("profile"));
   if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "ods/image/image_file.h"
+#include "tests/support/exr_files.h"
 #include "tests/support/programs.h"
 #include "tests/support/served.h"
 
@@ -49,13 +50,15 @@ TEST_F(ViewCommand, ServesThePageAndWhatItShows) {
   EXPECT_EQ(status_of(get("item/0/preview.jpg")), 404) << "the picture is small";
 }
 
-// Of a large JPEG a small one is there at once.
+// A small copy of a large JPEG is available at once.
 TEST_F(ViewCommand, ServesSmallCopies) {
   const std::string large = folder.path("large_360_TB.jpg"), light = folder.path("light.exr");
   ASSERT_EQ(run("testcard -q --width 2048 -o " + large), 0) << err;
   ASSERT_EQ(run("convert " + picture + " -q -o " + light), 0) << err;
   Served::TearDown();
+  setenv("TMPDIR", folder.path("none").c_str(), 1);  // small copies need no file
   serve({large, light, picture});
+  unsetenv("TMPDIR");
   const std::string view = get("view.json");
   EXPECT_NE(view.find("\"preview\":\"item/0/preview.jpg\""), std::string::npos);
   EXPECT_EQ(view.find("\"preview\":\"item/1/"), std::string::npos);
@@ -166,13 +169,21 @@ TEST_F(ViewCommand, DividesLightAsItIsAskedTo) {
   }
 }
 
-// What ods comfort says, by matching the eyes: the card has things from 0.4 m on.
+// The verdict of ods comfort. By matching the eyes: the card has things from 0.4 m on. By depth: the right eye alone
+// sees a wall 0.3 m away.
 TEST_F(ViewCommand, JudgesThePicturesComfort) {
   const std::string near = folder.path("near_360_TB.png"), one_eye = folder.path("one_360.png");
+  for (const auto& [eye, depth] : {std::pair{"left", 20.0f}, {"right", 0.3f}}) {
+    ods::ExrForm form;
+    form.width = 64, form.height = 32;
+    form.channels = {"B", "G", "R", "Z"};
+    form.types = {Imf::FLOAT, Imf::FLOAT, Imf::FLOAT, Imf::FLOAT};
+    write_exr_of(folder.path(std::string("pair_") + eye + ".exr"), form, std::vector<float>(64 * 32 * 4, depth));
+  }
   ASSERT_EQ(run("testcard -q --width 1024 -o " + near), 0) << err;
   ASSERT_EQ(run("convert " + near + " -q --mono -o " + one_eye), 0) << err;
   Served::TearDown();
-  serve({near, one_eye});
+  serve({near, one_eye, folder.path("pair_%V.exr")});
   const std::string said = get("item/0/comfort.json");
   EXPECT_EQ(status_of(said), 200) << said;
   EXPECT_NE(said.find("\"level\":"), std::string::npos) << said;
@@ -183,9 +194,12 @@ TEST_F(ViewCommand, JudgesThePicturesComfort) {
   const std::string none = get("item/1/comfort.json");
   EXPECT_EQ(status_of(none), 400);
   EXPECT_NE(none.find("has one eye and no depth"), std::string::npos) << none;
+  const std::string pair = get("item/2/comfort.json");
+  EXPECT_NE(pair.find("\"level\":\"error\""), std::string::npos) << pair;
+  EXPECT_NE(pair.find("\"text\":\"Most: "), std::string::npos) << pair;
 }
 
-// What was a link when ods view was started is the file behind it.
+// A path that was a link when ods view started means the link's target.
 TEST_F(ViewCommand, ServesNoFileThatBecomesALink) {
   namespace fs = std::filesystem;
   const std::string private_file = folder.path("private.png"), link = folder.path("link_360_TB.png"),
@@ -210,42 +224,6 @@ TEST_F(ViewCommand, ServesNoFileThatBecomesALink) {
   EXPECT_EQ(status_of(get("item/0/picture.png")), 200) << "a file that was made again";
 }
 
-// What a page says is for the other pages, until it has been silent for ten seconds.
-TEST_F(ViewCommand, HandsOnWhatPagesShare) {
-  EXPECT_EQ(body_of(get("alive")), R"({"pages":0})");
-  EXPECT_EQ(status_of(post("share?id=a", R"({"look": {"yaw": 1}})")), 200);
-  EXPECT_EQ(status_of(post("share?id=b", "{}")), 200);
-  EXPECT_EQ(body_of(get("share?id=b&after=0")), R"({"number":2,"messages":{"a":{"look":{"yaw":1}}}})");
-  EXPECT_EQ(body_of(get("share?id=c&after=1")), R"({"number":2,"messages":{"b":{}}})");
-  EXPECT_EQ(body_of(get("alive")), R"({"pages":2})");
-  std::string waited;
-  std::thread waiting([&] { waited = body_of(get("share?id=b&after=2")); });
-  std::this_thread::sleep_for(300ms);
-  EXPECT_EQ(status_of(post("share?id=a", R"({"look":null})")), 200);
-  waiting.join();
-  EXPECT_EQ(waited, R"({"number":3,"messages":{"a":{"look":null}}})");
-  for (int page = 0; page < 20; page++) post(fmt::format("share?id=page{}", page), "{}");
-  EXPECT_EQ(body_of(get("alive")), R"({"pages":8})");
-  std::this_thread::sleep_for(10500ms);
-  EXPECT_EQ(body_of(get("alive")), R"({"pages":0})");
-  EXPECT_EQ(body_of(get("share?id=b&after=0")), R"({"number":23,"messages":{}})") << "after five seconds";
-}
-
-TEST_F(ViewCommand, SharesNothingThatIsNoMessage) {
-  for (const char* id : {"", "A", "a b", "%22", "01234567890123456", "%C3%A4"}) {
-    EXPECT_EQ(status_of(post(fmt::format("share?id={}", id), "{}")), 400) << id;
-    EXPECT_EQ(status_of(get(fmt::format("share?id={}", id))), 400) << id;
-  }
-  const std::string deep = std::string(8000, '[') + std::string(8000, ']');
-  for (const std::string& wrong :
-       {std::string(), std::string("[]"), std::string("{"), std::string("{}{}"), std::string("1"),
-        "{\"a\":" + deep + "}", std::string("{\"a\":1e999}"), "{\"a\":\"" + std::string(20'000, 'a') + "\"}"}) {
-    EXPECT_EQ(status_of(post("share?id=a", wrong)), 400) << wrong.substr(0, 40);
-  }
-  EXPECT_EQ(status_of(post("share?id=a", std::string(1 << 20, 'a'))), 413);
-  EXPECT_EQ(body_of(get("alive")), R"({"pages":0})");
-}
-
 TEST_F(ViewCommand, LimitsTheSizeOfRequests) {
   EXPECT_EQ(status_of(ask("GET /" + std::string(1 << 20, 'a'))), 431) << "an endless first line";
   std::string many;
@@ -262,7 +240,7 @@ TEST_F(ViewCommand, LimitsTheSizeOfRequests) {
   EXPECT_EQ(status_of(get("alive")), 200);
 }
 
-// The answer comes before the body, which nobody reads then.
+// The answer comes before the body, which is then not read.
 TEST_F(ViewCommand, ReadsNothingFromWhomItRefuses) {
   struct Case {
     std::string path, fields;
@@ -393,7 +371,7 @@ TEST_F(ViewCommand, EndsWithoutWaitingForAnybodyAndKeepsItsAddress) {
 
 class View : public Served {};
 
-// Of a network that all its users can listen to, an old address is no use.
+// On a network that other users can listen to, an old address is useless.
 TEST_F(View, TheNetworksAddressIsNewEachTime) {
   const std::string picture = folder.path("small_360_TB.png");
   ASSERT_EQ(run("testcard -q --width 256 -o " + picture), 0) << err;
@@ -471,6 +449,25 @@ TEST_F(View, ExportIsAFolderOfItsOwn) {
         "item/1/right.jpg.js", "item/1/poster.jpg", "item/1/light.png", "item/1/light.png.js"}) {
     EXPECT_TRUE(std::filesystem::exists(site + "/" + file)) << file;
   }
+}
+
+// A picture that opens, and turns out to be damaged when it is decoded.
+TEST_F(View, AFailedExportChangesNothing) {
+  const std::string picture = folder.path("a_360_TB.png"), broken = folder.path("b_360_TB.exr"),
+                    site = folder.path("site");
+  ASSERT_EQ(run("testcard -q --width 128 -o " + picture), 0) << err;
+  ASSERT_EQ(run("convert " + picture + " -q -o " + broken), 0) << err;
+  std::filesystem::resize_file(broken, std::filesystem::file_size(broken) * 3 / 4);
+  const std::vector<std::string> before = folder.names();
+  EXPECT_EQ(run("view -q " + picture + " " + broken + " --export " + site), 3);
+  EXPECT_NE(err.find(broken), std::string::npos) << err;
+  EXPECT_EQ(folder.names(), before);
+  ASSERT_EQ(run("view -q " + picture + " --export " + site), 0) << err;
+  const std::string main = folder.read("site/main.js"), view = folder.read("site/view.json");
+  EXPECT_EQ(run("view -q " + picture + " " + broken + " --export " + site), 3);
+  EXPECT_EQ(folder.read("site/main.js"), main);
+  EXPECT_EQ(folder.read("site/view.json"), view);
+  EXPECT_FALSE(std::filesystem::exists(site + "/item/1"));
 }
 
 TEST_F(View, SaysWhatItCannotShow) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files whose metadata, names and options contradict each other, by the table "Which word wins" of docs/foreign.md.
+// Files whose metadata, names and options contradict each other, by the table "Which metadata win" of docs/foreign.md.
 // Each test gives all of them, then leaves out the strongest, then the next one. (Right eyes and extended XMP:
 // vr_photo_test; meshes: mesh_box_test.)
 #include <gtest/gtest.h>
@@ -100,7 +100,7 @@ TEST_F(WhichWordWins, OfAVideo) {
 
 class Circles : public Cli {};
 
-// A circle that is not in the picture is one line, whoever is asked to look through it.
+// A circle that is not in the picture is an error of one line, in every command.
 TEST_F(Circles, OutsideThePictureAreRefused) {
   Picture picture;
   for (const int eye : {kLeft, kRight}) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Verdicts of pictures whose distances are known.
+// Verdicts on one eye's picture whose distances are known.
 #include "ods/comfort/comfort.h"
 
 #include <gtest/gtest.h>
@@ -13,6 +13,7 @@
 #include "ods/camera/pixel.h"
 #include "ods/comfort/areas.h"
 #include "ods/comfort/merge_from_depth.h"
+#include "ods/comfort/verdict.h"
 #include "ods/picture/picture.h"
 
 namespace ods {
@@ -49,9 +50,9 @@ SeenDepth see(const StereoCamera& camera, int eye, const std::vector<Ball>& ball
 
 TEST(Comfort, AHallIsComfortable) {
   for (const int eye : {kLeft, kRight, kMono}) {
-    const ComfortReport report = judge_comfort(see(StereoCamera{}, eye, {}));
-    EXPECT_EQ(worst_level(report), ComfortLevel::kOk);
-    EXPECT_NEAR(report.share[0], 1.0, 1e-9);
+    const ComfortVerdict report = judge_comfort(see(StereoCamera{}, eye, {}));
+    EXPECT_EQ(report.level, ComfortLevel::kOk);
+    EXPECT_NEAR(report.share[ComfortLevel::kOk], 1.0, 1e-9);
     EXPECT_NEAR(report.nearest, 20.0, 0.01);
     EXPECT_EQ(report.largest_ipd, StereoCamera{}.ipd);
     EXPECT_TRUE(report.places.empty());
@@ -63,8 +64,8 @@ TEST(Comfort, NearThingsAreNamedWithTheirPlaces) {
   const std::vector<Ball> balls = {{vec3(0.5f, 0, 0), 0.05f}, {vec3(0, 0, -3), 0.4f}, {vec3(0, 0.8f, 0.05f), 0.1f}};
   for (const int eye : {kLeft, kRight, kMono}) {
     SeenDepth seen = see(StereoCamera{}, eye, balls);
-    const ComfortReport report = judge_comfort(seen);
-    EXPECT_EQ(worst_level(report), ComfortLevel::kError);
+    const ComfortVerdict report = judge_comfort(seen);
+    EXPECT_EQ(report.level, ComfortLevel::kError);
     ASSERT_EQ(report.places.size(), 2u);
     const StrainedPlace& above = report.places[0].name == "ball 2" ? report.places[0] : report.places[1];
     const StrainedPlace& beside = report.places[0].name == "ball 0" ? report.places[0] : report.places[1];
@@ -76,29 +77,29 @@ TEST(Comfort, NearThingsAreNamedWithTheirPlaces) {
     EXPECT_NEAR(beside.azimuth, 90.0, 6.0);
     EXPECT_NEAR(beside.distance, 0.45, 0.02);
     EXPECT_GT(beside.enough, 0.6);
-    EXPECT_GT(report.share[3], 0.0);
+    EXPECT_GT(report.share[ComfortLevel::kError], 0.0);
     // The cure by the eye distance cures.
     StereoCamera closer;
     closer.ipd = report.largest_ipd * 0.99f;
-    const ComfortReport cured = judge_comfort(see(closer, eye, balls));
-    EXPECT_LE(worst_level(cured), ComfortLevel::kCaution)
+    const ComfortVerdict cured = judge_comfort(see(closer, eye, balls));
+    EXPECT_LE(cured.level, ComfortLevel::kCaution)
         << cured.places[0].name << strain_row(cured.places[0].strain).name << cured.places[0].value << " "
         << cured.places[0].elevation << " " << closer.ipd;
     // Without names they are areas.
     seen.things.clear(), seen.names.clear();
-    const ComfortReport areas = judge_comfort(seen);
+    const ComfortVerdict areas = judge_comfort(seen);
     EXPECT_GE(areas.places.size(), 2u);
-    EXPECT_NEAR(areas.share[3], report.share[3], 1e-12);
+    EXPECT_NEAR(areas.share[ComfortLevel::kError], report.share[ComfortLevel::kError], 1e-12);
   }
 }
 
 // A merge takes the strain from above.
 TEST(Comfort, MergesCount) {
   const std::vector<Ball> balls = {{vec3(0, 1.5f, 0), 0.1f}};
-  EXPECT_EQ(worst_level(judge_comfort(see(StereoCamera{}, kLeft, balls))), ComfortLevel::kError);
+  EXPECT_EQ(judge_comfort(see(StereoCamera{}, kLeft, balls)).level, ComfortLevel::kError);
   StereoCamera merged;
   merged.top = {kMergeCosine, 0.0f, 80.0f, 1.0f};
-  EXPECT_LT(worst_level(judge_comfort(see(merged, kLeft, balls))), ComfortLevel::kError);
+  EXPECT_LT(judge_comfort(see(merged, kLeft, balls)).level, ComfortLevel::kError);
 }
 
 // With the merge that follows from depth nothing is above the limit, and what is far keeps its stereo.
@@ -109,8 +110,8 @@ TEST(Comfort, TheMergeFromDepthKeepsTheLimit) {
     StereoCamera merged;
     use_merge_map(merged, map);
     for (const int eye : {kLeft, kRight}) {
-      const ComfortReport report = judge_comfort(see(merged, eye, low));
-      const double worst = report.most[static_cast<size_t>(Strain::kVertical)];
+      const ComfortVerdict report = judge_comfort(see(merged, eye, low));
+      const double worst = report.max[Strain::kVertical];
       const StrainedPlace place = report.places.empty() ? StrainedPlace{} : report.places[0];
       EXPECT_LE(worst, double{limit}) << place.name << " " << place.azimuth << " " << place.elevation;
       EXPECT_GE(worst, 0.7 * double{limit}) << limit;
@@ -152,8 +153,8 @@ TEST(Comfort, TheMergeOfAVideoIsSteady) {
     if (i % 10 != 0) continue;
     StereoCamera merged;
     use_merge_map(merged, *map);
-    const ComfortReport report = judge_comfort(see(merged, kLeft, things_at(i), 256));
-    EXPECT_LE(report.most[static_cast<size_t>(Strain::kVertical)], double{kLimit}) << i;
+    const ComfortVerdict report = judge_comfort(see(merged, kLeft, things_at(i), 256));
+    EXPECT_LE(report.max[Strain::kVertical], double{kLimit}) << i;
   }
   EXPECT_LT(least, 0.5f);
   EXPECT_EQ(most, 1.0f);
@@ -174,9 +175,9 @@ TEST(Comfort, EvenRowsAreJudgedAsAnyOthers) {
     const SeenDepth seen = see(even, eye, balls);
     SeenDepth same = seen;
     same.camera = other;
-    const ComfortReport a = judge_comfort(seen), b = judge_comfort(same);
-    for (size_t i = 0; i < a.share.size(); i++) EXPECT_NEAR(a.share[i], b.share[i], 1e-4);
-    for (size_t i = 0; i < a.most.size(); i++) EXPECT_NEAR(a.most[i], b.most[i], 1e-3 * a.most[i]);
+    const ComfortVerdict a = judge_comfort(seen), b = judge_comfort(same);
+    for (const ComfortLevel level : kComfortLevels) EXPECT_NEAR(a.share[level], b.share[level], 1e-4);
+    for (const Strain strain : kStrains) EXPECT_NEAR(a.max[strain], b.max[strain], 1e-3 * a.max[strain]);
     EXPECT_NEAR(a.largest_ipd, b.largest_ipd, 1e-4);
     ASSERT_EQ(a.places.size(), b.places.size());
     for (size_t i = 0; i < a.places.size(); i++) {
@@ -188,7 +189,7 @@ TEST(Comfort, EvenRowsAreJudgedAsAnyOthers) {
 
 TEST(Comfort, APointIsJudgedAsInThePicture) {
   const SeenDepth seen = see(StereoCamera{}, kRight, {{vec3(0.4f, 0.4f, 0), 0.05f}});
-  const ComfortReport report = judge_comfort(seen);
+  const ComfortVerdict report = judge_comfort(seen);
   ASSERT_FALSE(report.places.empty());
   double near = 0.0, vertical = 0.0;
   ComfortLevel level = ComfortLevel::kOk;
@@ -198,8 +199,8 @@ TEST(Comfort, APointIsJudgedAsInThePicture) {
     near = std::max(near, point.near), vertical = std::max(vertical, point.vertical);
     level = std::max(level, point.level);
   }
-  EXPECT_NEAR(near, report.most[static_cast<size_t>(Strain::kNear)], 1e-3);
-  EXPECT_NEAR(vertical, report.most[static_cast<size_t>(Strain::kVertical)], 1e-2);
+  EXPECT_NEAR(near, report.max[Strain::kNear], 1e-3);
+  EXPECT_NEAR(vertical, report.max[Strain::kVertical], 1e-2);
   EXPECT_EQ(level, ComfortLevel::kError);
   EXPECT_TRUE(std::isinf(judge_point(seen.camera, kRight, vec2(0.5f), kFarDepth).distance));
 }
@@ -208,14 +209,14 @@ TEST(Comfort, RulesAreOfTheDistance) {
   const std::vector<Ball> balls = {{vec3(0.85f, 0, 0), 0.05f}, {vec3(0, 3.3f, 0), 0.1f}};
   ComfortOptions google;
   google.rules = ComfortRules::kGoogle;
-  const ComfortReport report = judge_comfort(see(StereoCamera{}, kLeft, balls), google);
+  const ComfortVerdict report = judge_comfort(see(StereoCamera{}, kLeft, balls), google);
   ASSERT_EQ(report.places.size(), 1u);
   EXPECT_EQ(report.places[0].name, "ball 1");  // 3.2 m above; 0.8 m beside is enough
   EXPECT_NEAR(report.places[0].enough, 3.5, 0.02);
   ComfortOptions sphere;
   sphere.rules = ComfortRules::kSafeSphere;
   sphere.safe_radius = 1.0f;
-  const ComfortReport other = judge_comfort(see(StereoCamera{}, kLeft, balls), sphere);
+  const ComfortVerdict other = judge_comfort(see(StereoCamera{}, kLeft, balls), sphere);
   ASSERT_EQ(other.places.size(), 1u);
   EXPECT_EQ(other.places[0].name, "ball 0");
 }
@@ -229,8 +230,8 @@ TEST(Comfort, DepthWithoutSenseIsAnErrorOrUnknown) {
   }
   std::ranges::fill(seen.depth.pixels, std::numeric_limits<float>::infinity());
   seen.depth.pixels[0] = std::numeric_limits<float>::quiet_NaN();
-  const ComfortReport report = judge_comfort(seen);
-  EXPECT_EQ(worst_level(report), ComfortLevel::kOk);
+  const ComfortVerdict report = judge_comfort(seen);
+  EXPECT_EQ(report.level, ComfortLevel::kOk);
   EXPECT_GT(report.unknown, 0.0);
 }
 

@@ -86,8 +86,9 @@ TEST_F(ComfortVideo, TurnsMovesAndCutsAreMeasured) {
   ASSERT_NE(turn, nullptr);
   EXPECT_EQ(turn->level, ComfortLevel::kWarning);
   EXPECT_EQ(turn->from, 0.0);
-  ASSERT_TRUE(video.seen);
-  EXPECT_EQ(video.report.level.width, video.grey.width);
+  EXPECT_EQ(video.level, ComfortLevel::kError);
+  ASSERT_EQ(video.worst.light.size(), 2u);
+  EXPECT_EQ(video.worst.verdict.per_eye[1].levels.width, video.worst.light[1].width);
 }
 
 TEST_F(ComfortVideo, AStillCameraCarriesNobody) {

@@ -66,9 +66,9 @@ TEST(Matched, AHallIsMeasuredToMinutesOfArc) {
     EXPECT_LT(off[off.size() * 9 / 10], 12.0);
     EXPECT_LT(off[off.size() * 99 / 100], 60.0);
   }
-  const ComfortReport exact = judge_comfort({camera, kLeft, hall_depth(camera, kLeft, kEye), {}, {}});
-  const ComfortReport found = judge_comfort(matched.seen[0]);
-  EXPECT_EQ(worst_level(found), worst_level(exact));
+  const ComfortVerdict exact = judge_comfort({camera, kLeft, hall_depth(camera, kLeft, kEye), {}, {}});
+  const ComfortVerdict found = judge_comfort(matched.seen[0]);
+  EXPECT_EQ(found.level, exact.level);
   EXPECT_NEAR(found.nearest, exact.nearest, 0.15 * exact.nearest);
 }
 

@@ -44,7 +44,7 @@ TEST(MeasuredEyes, APoleMergeIsFound) {
 TEST(MeasuredEyes, NoMergeIsFoundWhereThereIsNone) {
   StereoCamera parallel, wide, converged;
   wide.ipd = 0.1f;
-  converged.convergence = kToeIn, converged.convergence_distance = 1.95f;  // as Blender's are if nobody says otherwise
+  converged.convergence = kToeIn, converged.convergence_distance = 1.95f;  // Blender's defaults
   for (const StereoCamera& camera : {parallel, wide, converged}) {
     const std::optional<MeasuredEyes> found = measured(camera);
     ASSERT_TRUE(found);

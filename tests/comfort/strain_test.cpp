@@ -23,7 +23,8 @@ dvec3 direction(double azimuth, double elevation) {
   return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), -std::cos(elevation) * std::cos(azimuth)};
 }
 
-// How far an eye must turn up to look along a direction, about the line through both eyes, over the other one.
+// The angle by which an eye must turn up, about the line through both eyes, to look along a direction, minus the other
+// eye's angle.
 double apart(dvec3 left, dvec3 right, dvec3 ears) {
   const auto across = [&](dvec3 look) { return look - glm::dot(look, ears) * ears; };
   const dvec3 a = across(left), b = across(right);
@@ -112,7 +113,7 @@ TEST(Strain, VergenceIsThatOfTheDistance) {
   for (const double elevation : {0.0, 40.0, -70.0}) {
     for (const double metres : {0.5, 1.0, 20.0}) {
       const double across = metres * std::cos(elevation * kDegree), radius = 0.5 * double{viewer.ipd};
-      // The eyes of a head that looks at the point are as far apart as those of the circle, seen from there.
+      // Seen from the point, the eyes of a head that looks at it are as far apart as the eyes of the circle.
       const double angle = vergence(std::asin(radius / across), elevation * kDegree);
       EXPECT_NEAR(vergence_dioptres(angle, viewer), 1.0 / metres, 4e-3 / metres);
     }

@@ -92,7 +92,7 @@ TEST(Over, WarnsOfOtherEyes) {
   EXPECT_NE(said(merged).find("pole merge"), std::string::npos) << said(merged);
   EXPECT_EQ(over_warnings(front_picture(StereoCamera()).picture, back.picture).size(), 0u);
   EXPECT_EQ(over_fault(front_picture(narrow).picture, back.picture, {}), "");  // taken as it is
-  back.picture.has_ipd = false;  // footage of others does not say what eyes it was made for
+  back.picture.has_ipd = false;  // footage of others does not record its eye distance
   EXPECT_EQ(over_warnings(front_picture(narrow).picture, back.picture).size(), 0u);
   EXPECT_EQ(over_warnings(front_picture(merged).picture, back.picture).size(), 0u);
 }

@@ -171,7 +171,7 @@ TEST_F(VideoOver, FramesGoOverTheirPicturesAlone) {
   }
 }
 
-// What the video says in vexu, else what its sidecar does.
+// The metadata of the video's vexu, else of its sidecar.
 TEST_F(VideoOver, ATitleForOtherEyesIsReported) {
   const std::string video = make_video_file("video.mp4", {});
   StereoCamera camera;

@@ -65,7 +65,7 @@ Seen look_at(const Pixels& pixels) {
   return seen;
 }
 
-// Where the letters' middle is on their card, which is as large as whole pixels: metres to the right and up.
+// The place of the letters' middle on their card, which has the size of whole pixels: metres to the right and up.
 glm::dvec2 middle_of(const Lettering& lettering, double height) {
   const Image& image = lettering.coverage;
   glm::dvec2 sum(0.0);
@@ -175,7 +175,7 @@ double cpu_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// A line that goes all around covers few rows; the others cost no more than those of a word.
+// A line that goes all around covers few rows; the others do not cost more than the rows of a single word.
 TEST(Title, ALongLineCostsWhatItCovers) {
   const auto seconds = [](const std::string& text) {
     double least = std::numeric_limits<double>::max();

@@ -24,7 +24,7 @@ int glowing(Scene& scene, vec3 color) {
   return add_material(scene, material);
 }
 
-// Boxes and balls that glow, so that there is no noise but that of edges.
+// Boxes and balls that glow, so that only edges have noise.
 Scene glowing_scene() {
   Scene scene;
   scene.environment = {vec3(0.3f, 0.35f, 0.4f), 0, 0, {}};
@@ -77,7 +77,7 @@ std::vector<Image> colours_of(const std::vector<Image>& images) {
   return all;
 }
 
-// How much more a picture changes from this column to the next than around there.
+// The change of a picture from this column to the next, relative to the changes around there.
 double seam(const Image& image, int column) {
   const auto step = [&](int x) {
     double sum = 0.0;

@@ -310,7 +310,7 @@ PixelFunction ball_seen_by(const StereoCamera& stereo) {
   };
 }
 
-// Over a pole that is not merged the other eye's picture goes on (a line of sight that passed the pole is the other
+// Across a pole that is not merged the other eye's picture continues (a line of sight that passed the pole is the other
 // eye's, half a turn away).
 TEST(Convert, CrossesThePoleIntoTheOtherEye) {
   StereoCamera stereo = camera_of("lat-long");
@@ -408,7 +408,7 @@ TEST(Convert, WhereThePictureEndsIsNothing) {
   EXPECT_GT(left.at(32, 16)[0], 0.0f);
   for (int c = 0; c < 4; c++) EXPECT_EQ(left.at(2, 16)[c], 0.0f);
   EXPECT_NEAR(static_cast<double>(*conversion.empty), 64.0 * 32.0, 64.0);  // half of either eye
-  // What the target leaves empty itself is not missing.
+  // Areas that the target itself leaves empty are not missing.
   const Conversion same = convert(made.picture, target_of(made, made.picture.camera.projection, {40, 40}));
   EXPECT_EQ(same.rows.layers[0].channels.size(), 3u);
   images_of(same.rows);

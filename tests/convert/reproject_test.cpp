@@ -21,7 +21,7 @@ struct Result {
   double needless = 0.0;   // share of all: holes where a picture had something
 };
 
-// Whether the picture saw the point that the ray meets.
+// Returns whether the picture shows the point that the ray hits.
 bool was_seen(const MadePicture& made, const Ray& ray, float depth) {
   const Camera camera = make_camera(made.picture.camera);
   const vec3 point = ray.origin + ray.direction * depth;

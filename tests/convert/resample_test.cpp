@@ -60,7 +60,7 @@ TEST(Halves, LieBesideFloats) {
   }
 }
 
-// Of pixels as large as this along the picture's columns and rows, turned by an angle.
+// Filters for pixels of this size along the picture's columns and rows, turned by an angle.
 Footprint footprint_of(float across, float down, float turn) {
   const float c = std::cos(turn), s = std::sin(turn);
   return {vec2(c, -s) * across, vec2(s, c) * down};
@@ -126,7 +126,7 @@ TEST(Filter, PixelsOfARowAreWhatTheyAreAlone) {
   }
 }
 
-// Of noise, where the cubic often leaves the range of a row, and the rows beside it decide how far it may go.
+// Noise, where the cubic often leaves the range of a row, and the rows beside it decide how far it may go.
 TEST(Filter, PlacesOnARowOfTexelsAreWhatAllRowsGive) {
   const MadePicture made = noisy_picture();
   const Source source = make_source(made.picture);
@@ -146,7 +146,7 @@ TEST(Filter, PlacesOnARowOfTexelsAreWhatAllRowsGive) {
   }
 }
 
-// Each point of a pixel's filter for itself, and all at once. Of a ramp, in which nothing is cut.
+// Each point of a pixel's filter for itself, and all at once. On a ramp, in which nothing is cut.
 TEST(Filter, ColumnsAndRowsAreThePointsTogether) {
   MadePicture made = make_picture(StereoCamera(), {64, 32}, {kMono});
   add_layer<float>(made, {"R", "G", "B"}, LayerRule::kLight, SampleType::kFloat,

@@ -27,7 +27,7 @@ struct Agreement {
   int64_t all = 0, hits = 0, far_apart = 0, other_depth = 0, one_alone = 0;
 };
 
-// Row by row against ray by ray, wherever both can tell.
+// Row by row against ray by ray, wherever both are defined.
 Agreement agreement(const MadePicture& made, const ConvertTarget& target) {
   const Mapping mapping = make_mapping(made.picture, target);
   const Reprojection reprojection = make_reprojection(mapping.source);

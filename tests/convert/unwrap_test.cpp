@@ -30,7 +30,7 @@ ProjectionSetting curve_of(const FisheyeLens& lens) {
   return setting;
 }
 
-// What a lens sees at an image position: the direction, if it is within the circle.
+// The direction that a lens sees at an image position, if it is within the circle.
 bool look(const FisheyeLens& lens, Extent eye, vec2 uv, vec3& direction) {
   const vec2 at =
       (uv * vec2(static_cast<float>(eye.width), static_cast<float>(eye.height)) - lens.center) / lens.radius;
@@ -286,7 +286,7 @@ TEST(Lenses, AheadAndBackAreFoundAndAligned) {
   }
 }
 
-// Sensors that stand on their sides: the light tells which way is up.
+// Sensors turned on their sides: the light shows which way is up.
 TEST(Lenses, TurnedOnesAreSetUpright) {
   const Waves waves;
   for (const float roll : {0.0f, 90.0f, 180.0f, 270.0f}) {

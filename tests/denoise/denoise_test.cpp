@@ -260,7 +260,7 @@ TEST(Denoise, TheSilhouetteOfALampIsNotRepeated) {
   EXPECT_LT(most, 0.04f);
 }
 
-// All samples are bright: that is no firefly, however small the lamp.
+// All samples are bright: that is not a firefly, however small the lamp.
 TEST(Denoise, ALampOfOnePixelStays) {
   Picture picture = noisy_picture(0.1f, [](int x, int y) { return x == 50 && y == 30 ? 50.0f : 1.0f; });
   for (EyeImage& eye : picture.eyes) {
@@ -425,7 +425,7 @@ TEST(Denoise, FramesDrawOnThoseBesideThem) {
   EXPECT_LT(error_with(std::vector<FrameBeside>{{before, turned_left(3), {}, true}}), 0.8 * alone);
   const Picture still = speckled_frame(0, 1);
   EXPECT_EQ(error_with(std::vector<FrameBeside>{{still, {}, {}, true}}), alone);
-  // What does not fit is left out.
+  // Layers that do not fit are left out.
   EXPECT_NEAR(error_with(std::vector<FrameBeside>{{before, {}, {}}, {after, {}, {}}}), alone, 0.05 * alone);
 }
 

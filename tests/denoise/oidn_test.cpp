@@ -26,7 +26,7 @@ class Oidn : public ::testing::Test {
   void SetUp() override { fake_reset(false); }
 };
 
-// The radiance tells where a pixel is: eye, column, row.
+// The radiance encodes the place of a pixel: eye, column, row.
 Picture numbered(int width, int height, bool features) {
   Picture picture;
   for (const int eye : {kLeft, kRight}) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a file has its statistics, under our names and others', and what is saved beside the denoised colour.
+// The statistics in a file, under our names and others', and the layers saved beside the denoised colour.
 #include "ods/denoise/stored_noise.h"
 
 #include <gtest/gtest.h>

@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "ods/base/error.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/image_file.h"
 #include "ods/picture/save.h"
 #include "tests/support/stored_pictures.h"

@@ -22,7 +22,7 @@ float parallax(float theta, float phi) {
   return 0.0524f + 0.0349f * std::sin(2.0f * theta + phi);
 }
 
-// What each eye sees of the aligned pair. Many tests see the same.
+// The views of both eyes of the aligned pair. Many tests share them.
 const GrayView& view_of(int width, bool right, float covers = 1.0f) {
   static const Waves world;
   static std::map<std::tuple<int, bool, float>, GrayView> views;
@@ -53,7 +53,7 @@ Alignment found(const EyeCorrection& needed, float covers = 1.0f) {
   std::vector<std::vector<GrayView>> scales;
   for (const int width : {256, 512, 1024}) {
     const GrayView& right = view_of(width, true, covers);
-    // Of a single step, the inverse is known.
+    // The inverse of a single step is known.
     scales.push_back(
         {view_of(width, false, covers), moves_pixels(needed) ? corrected_view(right, inverse(needed)) : right});
   }

@@ -21,7 +21,7 @@ bool is_near(float theta, float phi) {
   return std::abs(theta - 0.5f) < 0.25f && std::abs(phi) < 0.2f;
 }
 
-// Grey without detail above 40 degrees. What is near hides what is behind it.
+// Grey without detail above 40 degrees. Near things hide the things behind them.
 GrayView view_of(const Waves& far, const Waves& near, float side) {
   GrayView view(512, 256, 1);
   for (int y = 0; y < 256; y++) {
@@ -43,7 +43,7 @@ TEST(DenseMatch, FindsWhatIsNearAndWhatIsFarInBothEyes) {
   for (const int eye : {0, 1}) {
     int right = 0, wrong = 0, flat = 0;
     for (int y = 40; y < 216; y++) {
-      for (int x = 0; x < 512; x++) {  // the picture goes on beyond its sides
+      for (int x = 0; x < 512; x++) {  // the picture continues beyond its sides
         const float theta = kPixel * (static_cast<float>(x) + 0.5f - 256.0f);
         const float phi = kPixel * (128.0f - static_cast<float>(y) - 0.5f), found = *match.around[eye].at(x, y);
         if (std::isnan(found)) continue;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What other renderers are told: that compilers take it, that its numbers are the camera's, that nothing is dropped
-// without a word.
+// The exports to other renderers: compilers accept them, their numbers are the camera's, and nothing is dropped
+// silently.
 #include "ods/export/camera_export.h"
 
 #include <gtest/gtest.h>
@@ -168,7 +168,7 @@ TEST(CameraExport, HlslCompiles) {
 TEST(CameraExport, OslCompiles) {
   if (!runs("oslc --version")) GTEST_SKIP() << "skipped: oslc is not installed";
   const TemporaryFolder folder;
-  // What Blender's own header adds to the language.
+  // The additions of Blender's own header to the language.
   folder.write("stdcycles.h", "#include \"stdosl.h\"\npoint camera_shader_raster_position() { return P; }\n");
   for (const Sidecar& file : many_cameras()) {
     folder.write("x.osl", export_camera(file, CameraTarget::kOsl).text);

@@ -18,7 +18,7 @@ namespace {
 
 using glm::dvec3;
 
-// Where a position in the whole picture lies: the eye, and the place in its own picture.
+// Returns the eye of a position in the whole picture, and the position in the eye's own picture.
 struct EyePlace {
   int eye;
   vec2 uv;
@@ -171,7 +171,7 @@ void for_every_camera(Dice& dice, const Check& check) {
             file.camera.bottom =
                 dice.next() < 0.5f ? file.camera.top : merge_of_mode(dice, kClosedMerges[turn % kClosedMerges.size()]);
             check(file, name_of(named, convergence, neck, pose, mode, packing));
-            if (testing::Test::HasFatalFailure()) return;  // the next ones would say the same, at length
+            if (testing::Test::HasFatalFailure()) return;  // the next ones would fail in the same way, at length
           }
         }
       }

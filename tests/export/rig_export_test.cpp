@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What other renderers are told of a rig: its views are read back out of every text, and languages whose compilers are
-// here take it. tests/peers/peers_test.cpp renders with what is told to Blender and POV-Ray.
+// The exports of a rig to other renderers: its views are read back out of every text, and the installed compilers
+// accept the texts. tests/peers/peers_test.cpp renders with the exports to Blender and POV-Ray.
 #include "ods/export/rig_export.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ glm::dvec3 three(const std::vector<double>& values, size_t from) {
   return {values.at(from), values.at(from + 1), values.at(from + 2)};
 }
 
-// Of a matrix in three rows.
+// A matrix in three rows.
 Pose of_rows(const std::vector<double>& v, size_t from) {
   const auto column = [&](size_t i) { return glm::dvec3(v.at(from + i), v.at(from + 4 + i), v.at(from + 8 + i)); };
   return {column(0), column(1), column(2), column(3)};
@@ -265,7 +265,7 @@ TEST(RigExport, JavaScriptTakesTheModule) {
   EXPECT_TRUE(runs("node " + folder.path("check.mjs")));
 }
 
-// What the script uses of Unity, with the types of its scripting reference.
+// The part of Unity that the script uses, with the types of its scripting reference.
 constexpr const char* kUnity = R"(
 using System;
 namespace UnityEngine {
@@ -359,7 +359,7 @@ TEST(RigExport, ScriptsSayWhichRigTheirViewsAreOf) {
   }
 }
 
-// As Blender would: views are files with a letter in them.
+// Renders as Blender would: views are files with a letter in them.
 constexpr const char* kPretendBlender = R"(
 import runpy, sys
 from unittest.mock import MagicMock
@@ -385,6 +385,7 @@ TEST(RigExport, BlendersScriptMarksTheFolderAndKeepsToItsRig) {
   EXPECT_TRUE(render("a.py"));
   EXPECT_EQ(folder.read("views/ods-rig.txt"), mark_file(make_rig()));
   EXPECT_EQ(folder.read("views/0002.exr"), "x");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path("views")), {}), 3) << "nothing is left";
   EXPECT_FALSE(render("b.py"));
   EXPECT_EQ(folder.read("views/ods-rig.txt"), mark_file(make_rig()));
   EXPECT_TRUE(render("a.py"));

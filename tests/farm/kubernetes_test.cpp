@@ -28,7 +28,9 @@ TEST_F(Schedulers, KubernetesIsAnIndexedJobThatStopsOnWrongCommands) {
     EXPECT_EQ(spec["backoffLimitPerIndex"], 2);
     EXPECT_EQ(spec["podFailurePolicy"]["rules"][0], json::parse(R"({"action": "FailJob",
                 "onExitCodes": {"containerName": "ods", "operator": "In", "values": [2]}})"));
-    EXPECT_EQ(spec["podFailurePolicy"]["rules"][1], json::parse(R"({"action": "Ignore",
+    EXPECT_EQ(spec["podFailurePolicy"]["rules"][1], json::parse(R"({"action": "FailIndex",
+                "onExitCodes": {"containerName": "ods", "operator": "In", "values": [5]}})"));
+    EXPECT_EQ(spec["podFailurePolicy"]["rules"][2], json::parse(R"({"action": "Ignore",
                 "onPodConditions": [{"type": "DisruptionTarget", "status": "True"}]})"));
     EXPECT_EQ(spec["template"]["spec"]["restartPolicy"], "Never");  // as podFailurePolicy wants
     const json& container = spec["template"]["spec"]["containers"][0];
@@ -40,9 +42,13 @@ TEST_F(Schedulers, KubernetesIsAnIndexedJobThatStopsOnWrongCommands) {
     EXPECT_EQ(run_line("JOB_COMPLETION_INDEX=6 sh -c " + shell_word(line)).code, 0);
     EXPECT_EQ(said(), expected(group, 7, {"--threads", "3"}));
   }
-  wishes.mount = "/elsewhere";
-  EXPECT_THROW(write_kubernetes(plan, wishes), Error);
-  wishes.mount = "/disk", plan.cpus = 0;
+  plan.paths = {{"/disk", false, true}};  // of frames in the mounted folder itself
+  EXPECT_NO_THROW(write_kubernetes(plan, wishes));
+  for (const char* path : {"/", "/disks", "/dis", "/elsewhere/disk"}) {
+    plan.paths = {{path, false, true}};
+    EXPECT_THROW(write_kubernetes(plan, wishes), Error) << path;
+  }
+  plan.paths.clear(), plan.cpus = 0;
   EXPECT_THROW(write_kubernetes(plan, wishes), Error) << "a whole machine cannot be asked for";
 }
 
@@ -67,12 +73,13 @@ try { new Job(job).validate(); console.log('valid'); } catch (error) { console.l
     json job = json::parse(
         by_python("import yaml, json\nprint(json.dumps(yaml.safe_load(text)))", std::string(group) + ".yaml"));
     EXPECT_EQ(judge(job.dump()), "valid\n");
-    job["spec"]["podFailurePolicy"]["rules"][1]["onPodConditions"][0].erase("status");
+    job["spec"]["podFailurePolicy"]["rules"][2]["onPodConditions"][0].erase("status");
     EXPECT_NE(judge(job.dump()).find("must have required property"), std::string::npos);
   }
 }
 
-// A pod's host name is that of the job and its index, at most 63 characters.
+// A pod's host name is the job's name and its index, its own name has five more random characters; both have at most 63
+// characters.
 TEST_F(Schedulers, KubernetesNamesLeaveRoomForPods) {
   plan.cpus = 1;
   plan.groups[0].tasks = 100'000;
@@ -80,12 +87,12 @@ TEST_F(Schedulers, KubernetesNamesLeaveRoomForPods) {
   for (const FarmFile& file : write(Scheduler::kKubernetes)) {
     std::smatch name;
     if (!std::regex_search(file.text, name, std::regex("metadata:\n  name: ([a-z0-9-]+)\n"))) continue;
-    EXPECT_LE((name[1].str() + "-99999").size(), 63u);
+    EXPECT_LE((name[1].str() + "-99999-abcde").size(), 63u);
     EXPECT_TRUE(name[1].str().ends_with(file.name.substr(0, file.name.find('.')))) << name[1];
   }
 }
 
-// kubectl is ours: "get" answers with the next line of a list, and says nothing behind its end.
+// kubectl is ours: "get" answers with the next line of a list, and nothing after its end.
 TEST_F(Schedulers, KubernetesWaitsForEachJobAndSaysWhatFails) {
   plan.cpus = 3;
   write(Scheduler::kKubernetes);
@@ -93,7 +100,8 @@ TEST_F(Schedulers, KubernetesWaitsForEachJobAndSaysWhatFails) {
   folder.write("kubectl", "#!/bin/sh\ncd " + shell_word(folder.path("")) + R"sh(
 echo "$1 $2 $3" >>log
 case $1 in
-  get) answer=$(head -n 1 answers); sed -i 1d answers; [ "$answer" != error ] || exit 1; echo "$answer" ;;
+  get) [ "$2" != pods ] || { cat codes; exit; }
+       answer=$(head -n 1 answers); sed -i 1d answers; [ "$answer" != error ] || exit 1; echo "$answer" ;;
   apply) [ ! -f refuse ] || { echo 'field is immutable' >&2; exit 1; } ;;
 esac
 )sh");
@@ -103,6 +111,7 @@ esac
                                          folder.path(""), in_folder("submit.sh")));
     return fmt::format("{}: {}", ran.code, ran.out.substr(0, ran.out.find(':')));
   };
+  folder.write("codes", "0 1");
   const std::string get = "get job film-1-frames\n", apply = "apply -f frames.yaml\n",
                     get_video = "get job film-1-video\n";
   EXPECT_EQ(submit("\n\nSuccessCriteriaMet\nSuccessCriteriaMet Complete\n\n\nComplete\n"),
@@ -110,7 +119,10 @@ esac
   EXPECT_EQ(folder.read("log"),
             get + apply + get + get + get + get_video + "apply -f video.yaml\n" + get_video + get_video);
   EXPECT_EQ(submit("\n\nFailureTarget\nFailureTarget Failed\n"), "1: submit.sh");
-  EXPECT_EQ(folder.read("log"), get + apply + get + get + get) << "no video behind frames that failed";
+  const std::string get_codes = "get pods --selector=job-name=film-1-frames\n";
+  EXPECT_EQ(folder.read("log"), get + apply + get + get + get + get_codes) << "no video behind frames that failed";
+  folder.write("codes", "0 5");
+  EXPECT_EQ(submit("\n\nFailureTarget Failed\n"), "5: film-1-frames has found a fault");
   EXPECT_EQ(submit("FailureTarget Failed\nerror\nerror\nComplete\nComplete\nComplete\n"),
             "0: film-1-frames is complete\nfilm-1-video is complete\n");
   EXPECT_TRUE(folder.read("log").starts_with(get + "delete job film-1-frames\n" + apply)) << folder.read("log");

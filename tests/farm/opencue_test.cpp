@@ -56,8 +56,8 @@ std::string dtd_of_opencue() {
   return dtd;
 }
 
-// What Cuebot asks for beyond the DTD when it launches a job: names of three characters, layers that a dependency finds
-// within its job, where those of type Post are not.
+// Cuebot's requirements beyond the DTD when it launches a job: names of three characters, dependencies on layers of the
+// same job, except layers of type Post.
 constexpr const char* kCuebot = R"py(import re, xml.etree.ElementTree as E
 spec = E.fromstring(text)
 def name_of(name):
@@ -95,6 +95,21 @@ TEST_F(Schedulers, OpenCueIsValidAndCuebotLaunchesIt) {
     EXPECT_EQ(valid.code, 0) << valid.out;
     EXPECT_EQ(by_python(kCuebot, "job.xml"), lone ? "points 800\n" : "points 800\npoints 800\n") << text;
   }
+}
+
+// Cuebot replaces its tokens in the text, before the shell sees it.
+TEST_F(Schedulers, OpenCueFillsInNothingOfANameOfOurs) {
+  set_names({"#IFRAME#.glb", "a #ZFRAME# b", "#LAYER#", "#JOB#", "it's#FRAME#", "##FRAME_START##"});
+  const std::string text = text_of(write(Scheduler::kOpenCue), "job.xml");
+  const size_t begin = text.find("<cmd>"), end = text.find("</cmd>");
+  const std::string command = text.substr(begin + 5, end - begin - 5);
+  static const std::regex token("#[A-Z_]+#");
+  const auto count = std::distance(std::sregex_iterator(command.begin(), command.end(), token), std::sregex_iterator());
+  EXPECT_EQ(count, 1) << command << ": the task's number";
+  std::string line = std::regex_replace(command, token, "11");
+  line = std::regex_replace(std::regex_replace(line, std::regex("&gt;"), ">"), std::regex("&quot;"), "\"");
+  EXPECT_EQ(run_line(line).code, 0) << line;
+  EXPECT_EQ(said(), expected(0, 11));
 }
 
 TEST_F(Schedulers, OpenCuesCommandsAreOurs) {

@@ -98,7 +98,7 @@ TEST_F(Schedulers, OpenJdIsAJobTemplateOfTheBaseSpecification) {
   std::map<std::string, std::string> value;
   for (const json& each : values["parameterValues"]) value["Param." + each["name"].get<std::string>()] = each["value"];
   ASSERT_EQ(job["parameterDefinitions"].size(), value.size());
-  ASSERT_EQ(flat.size(), value.size());  // the command openjd takes one dictionary of words
+  ASSERT_EQ(flat.size(), value.size());  // the command openjd takes one dictionary of strings
   for (const auto& [name, word] : flat.items()) EXPECT_EQ(word, value.at("Param." + name));
   for (const json& each : job["parameterDefinitions"]) {
     EXPECT_TRUE(value.contains("Param." + each["name"].get<std::string>()));

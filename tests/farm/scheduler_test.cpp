@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is written for a scheduler is read by the parsers of its language, and each task is run as the scheduler would,
-// with a program in the place of ods that says how it was called.
+// The files for a scheduler are read by the parsers of its language, and each task is run as the scheduler would, with
+// a program in place of ods that prints its arguments.
 #include "ods/farm/scheduler.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-// Flamenco runs the script in an engine of its own; node knows the same language.
+// Flamenco runs the script in an engine of its own; node runs the same language.
 TEST_F(Schedulers, FlamencoCompilesToTheSameTasks) {
   if (const std::string why = missing("node", "command -v node"); !why.empty()) GTEST_SKIP() << why;
   write(Scheduler::kFlamenco);
@@ -53,7 +53,14 @@ TEST_F(Schedulers, FlamencoCompilesToTheSameTasks) {
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 13u);
 }
 
-// Of a hundred thousand tasks: as long as one of ten, but for Slurm's arrays.
+TEST_F(Schedulers, FlamencoGetsNoNameWithAVariable) {
+  set_names({"{blender}.glb"});
+  EXPECT_THROW(write(Scheduler::kFlamenco), Error);
+  set_names({"}{ a {.glb"});
+  EXPECT_NO_THROW(write(Scheduler::kFlamenco));
+}
+
+// Files for a hundred thousand tasks are as long as for ten, except for Slurm's arrays.
 TEST_F(Schedulers, ManyTasksAreFewFiles) {
   plan.groups[0].tasks = 100'000;
   for (const SchedulerRow& row : kSchedulerTable) {

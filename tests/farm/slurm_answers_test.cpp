@@ -59,7 +59,7 @@ TEST(SlurmAnswers, OtherPeoplesJobsAndNonsenseAreLeftOut) {
   }
 }
 
-// The same queue by both versions.
+// The same queue, printed by both versions.
 TEST(SlurmAnswers, JsonOldAndNew) {
   const std::string old = R"({"meta": {}, "jobs": [
     {"array_job_id": 7, "array_task_id": 3, "array_task_string": "", "comment": "ods:frames:0:/f.farm", "job_id": 9,

@@ -87,6 +87,7 @@ TEST_F(SlurmStarts, WhatMayGetBetterIsTriedElsewhere) {
                                                                {2, "one 2"},
                                                                {3, "one two two 3"},
                                                                {4, "one two two 4"},
+                                                               {5, "one 5"},
                                                                {139, "one two two 139"}}) {
     program("ods", fmt::format("exit {}\n", code));
     EXPECT_EQ(run("frames-1.sbatch"), starts);
@@ -123,7 +124,7 @@ TEST_F(SlurmStarts, APartGoesOnWhileItGrows) {
   EXPECT_EQ(run("parts-1.sbatch"), "one one one one one one 0");
 }
 
-// A script that is killed with its node says nothing; its starts count all the same.
+// A script that is killed with its node does not report anything; its starts count all the same.
 TEST_F(SlurmStarts, ATaskThatTakesItsNodesDownEnds) {
   write(Scheduler::kSlurm);
   program("ods", "kill -9 $PPID\n");

@@ -52,7 +52,7 @@ clean_up() {
 trap clean_up EXIT
 trap 'exit 1' INT TERM
 
-# Ports that nobody has, as far as the kernel's lists say.
+# Ports that are free by the kernel's lists.
 ports=$(awk 'FNR > 1 { split($2, a, ":"); print a[2] }' /proc/net/tcp | while read -r hex; do echo $((0x$hex)); done)
 port=21000
 next_port() {

@@ -11,9 +11,11 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <set>
 
 #include "cli/console/interrupt.h"
 #include "ods/base/error.h"
+#include "tests/support/poor_disk.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods {
@@ -45,7 +47,43 @@ TEST(AtomicFile, WritesWhatALinkStandsFor) {
   EXPECT_EQ(folder.read("new.txt"), "new");
 }
 
-TEST(AtomicFile, ANewNameReplacesNothing) {
+TEST(AtomicFile, FollowsNoLinkOfAnotherUserInASharedFolder) {
+  if (geteuid() != 0) GTEST_SKIP() << "skipped: only root can give a link to another user";
+  const TemporaryFolder folder;
+  folder.write("precious", "PRECIOUS");
+  std::filesystem::create_directory(folder.path("shared"));
+  ASSERT_EQ(chmod(folder.path("shared").c_str(), 01777), 0);
+  std::filesystem::create_symlink("../precious", folder.path("shared/link"));
+  ASSERT_EQ(lchown(folder.path("shared/link").c_str(), 65534, 65534), 0);
+  EXPECT_THROW(AtomicFile(folder.path("shared/link")), Error);
+  EXPECT_EQ(folder.read("precious"), "PRECIOUS");
+  ASSERT_EQ(lchown(folder.path("shared/link").c_str(), geteuid(), getegid()), 0);
+  write_file(folder.path("shared/link"), "own");
+  EXPECT_EQ(folder.read("precious"), "own");
+}
+
+// A file under a name that can be guessed could be there already.
+TEST(AtomicFile, UnfinishedNamesCannotBeGuessed) {
+  const TemporaryFolder folder;
+  std::set<std::string> numbers;
+  for (int i = 0; i < 3; i++) {
+    const AtomicFile file(folder.path("a"));
+    const std::string& name = file.temporary();
+    numbers.insert(name.substr(name.rfind('.') + 1));
+    EXPECT_EQ(numbers.rbegin()->size(), 16u);
+  }
+  EXPECT_EQ(numbers.size(), 3u);
+}
+
+class NewNames : public ::testing::TestWithParam<bool> {
+ protected:
+  NewNames() { poor_disk = GetParam(); }
+  ~NewNames() override { poor_disk = false; }
+};
+INSTANTIATE_TEST_SUITE_P(OnDisks, NewNames, ::testing::Bool(),
+                         [](const auto& each) { return each.param ? "WithoutLinks" : "WithLinks"; });
+
+TEST_P(NewNames, ReplaceNothing) {
   const TemporaryFolder folder;
   folder.write("a.txt", "a");
   folder.write("old.txt", "old");
@@ -58,6 +96,8 @@ TEST(AtomicFile, ANewNameReplacesNothing) {
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"dangling.txt", "folder", "new.txt", "old.txt"}));
   EXPECT_EQ(folder.read("new.txt") + folder.read("old.txt"), "aold");
   EXPECT_THROW(rename_as_new(folder.path("none.txt"), folder.path("b.txt")), Error);
+  EXPECT_TRUE(rename_as_new(folder.path("folder"), folder.path("other")));
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"dangling.txt", "new.txt", "old.txt", "other"}));
 }
 
 TEST(AtomicFile, LeavesNothingWithoutCommit) {
@@ -83,7 +123,7 @@ TEST(AtomicFile, SeveralAppearTogether) {
   EXPECT_EQ(folder.read("right"), "right");
 }
 
-// What a signal handler does before it ends the process.
+// The work of a signal handler before it ends the process.
 TEST(AtomicFile, UnfinishedFilesCanBeRemovedAtOnce) {
   const TemporaryFolder folder;
   folder.write("a.txt", "old");
@@ -132,7 +172,7 @@ TEST(AtomicFile, WhatAKilledProcessLeftGoesWithTheNextOne) {
   ASSERT_EQ(folder.names().size(), 1u);
   const std::string left = folder.names()[0];
   const std::string others = ".b" + left.substr(2);  // of another file
-  // Of a process that lives.
+  // The file of a living process.
   const std::string alive = left.substr(0, left.rfind("." + std::to_string(child) + ".")) + ".1.0";
   for (const std::string& name : {others, alive}) folder.write(name, "");
   const int held = open(folder.path(left).c_str(), O_RDONLY | O_CLOEXEC);

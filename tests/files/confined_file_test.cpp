@@ -55,6 +55,16 @@ TEST_F(Confined, WhatWasCheckedIsRead) {
   EXPECT_NE(error_of(folder.path("in/link")).find("it lies outside"), std::string::npos);
 }
 
+TEST_F(Confined, DirectlyIsNeitherBelowNorALink) {
+  fs::create_directory(folder.path("in/below"));
+  folder.write("in/below/a", "below");
+  link("in/a");
+  EXPECT_EQ(ConfinedFile(folder.path("in/a"), within, Reach::kDirectly).read(text), "inside");
+  for (const char* name : {"in/below/a", "in/link", "out/a", "in/none"}) {
+    EXPECT_THROW(ConfinedFile(folder.path(name), within, Reach::kDirectly), Error) << name;
+  }
+}
+
 TEST_F(Confined, WithoutAFolderAnyFileIsRead) {
   EXPECT_EQ(ConfinedFile(folder.path("out/a"), "").read(text), "outside");
 }

@@ -59,14 +59,28 @@ TEST_F(PartsFiles, FinishedPartsAreReadAndOthersFollow) {
 // Wherever a process was killed, whole parts are read and nothing else.
 TEST_F(PartsFiles, EveryTruncationGivesWholeParts) {
   const std::string bytes = bytes_of_two_parts();
-  const size_t head = std::string("omnistereo parts, 1\n").size() + 4 + settings_text(kSet).size();
+  const size_t head = std::string("omnistereo parts, 2\n").size() + 4 + settings_text(kSet).size();
   const size_t first = head + 4 + 3 + 12, second = first + 4 + 3 + 4 + 12;
-  for (size_t size = head; size <= bytes.size(); size++) {
+  for (size_t size = 0; size <= bytes.size(); size++) {
     folder.write("film.mp4.unfinished", bytes.substr(0, size));
     PartsFile parts(path, kSet);
     EXPECT_EQ(parts.count(), size < first ? 0 : size < second ? 1 : 2) << size;
     EXPECT_EQ(records_of(parts).size(), size < first ? 0u : size < second ? 1u : 3u) << size;
   }
+}
+
+TEST_F(PartsFiles, ChangedSettingsAreDamage) {
+  std::string bytes = bytes_of_two_parts();
+  bytes[bytes.find("as set")] = 'A';
+  folder.write("film.mp4.unfinished", bytes);
+  try {
+    const PartsFile parts(path, kSet);
+    ADD_FAILURE() << "parts of unknown settings are continued";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInput);
+    EXPECT_NE(std::string(error.what()).find(".unfinished' is damaged"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(PartsFile(path, kSet, true).count(), 0);
 }
 
 TEST_F(PartsFiles, OfOtherSettingsTheyStayUnlessItStartsOver) {

@@ -47,8 +47,47 @@ TEST(PrivateFolder, FollowsNoLink) {
     fs::create_directory_symlink(parent.path("else"), folder.path() + "/link");
   }
   fs::create_directory_symlink(parent.path("else"), parent.path("link"));
-  remove_folder_of_files(parent.path("link").c_str());
+  remove_folder(parent.path("link").c_str());
   EXPECT_EQ(parent.read("else/kept"), "kept");
+}
+
+TEST(PrivateFolder, GoesWithTheFoldersInIt) {
+  const TemporaryFolder parent;
+  fs::create_directory(parent.path("else"));
+  parent.write("else/kept", "kept");
+  {
+    const PrivateFolder folder(parent.path("ods-"));
+    for (const char* inner : {"/blender_a", "/blender_a/deep", "/b"}) {
+      fs::create_directory(folder.path() + inner);
+      fill(folder.path() + inner, 40);
+    }
+    fs::create_directory_symlink(parent.path("else"), folder.path() + "/b/link");
+  }
+  EXPECT_EQ(parent.names(), std::vector<std::string>{"else"});
+  EXPECT_EQ(parent.read("else/kept"), "kept");
+}
+
+// Its name has the number of a dead process, as any user could choose it.
+TEST(PrivateFolder, LeavesAnotherUsersFolderAlone) {
+  if (geteuid() != 0) GTEST_SKIP() << "skipped: only root can give a folder to another user";
+  const TemporaryFolder parent;
+  std::string name;
+  {
+    const PrivateFolder folder(parent.path("ods-"));
+    name = fs::path(folder.path()).filename().native();
+  }
+  const size_t end = name.rfind('.'), begin = name.rfind('.', end - 1) + 1;
+  const std::string planted = name.substr(0, begin) + "999999999" + name.substr(end);
+  fs::create_directory(parent.path(planted));
+  parent.write(planted + "/file", "theirs");
+  ASSERT_EQ(chown(parent.path(planted).c_str(), 65534, 65534), 0);
+  { const PrivateFolder folder(parent.path("ods-")); }
+  EXPECT_EQ(parent.read(planted + "/file"), "theirs");
+}
+
+TEST(PrivateFolder, LiesInTheTemporaryFolder) {
+  const PrivateFolder folder;
+  EXPECT_EQ(fs::path(folder.path()).parent_path(), fs::canonical(temporary_folder()));
 }
 
 TEST(PrivateFolder, GoesWhenASignalEndsTheProcess) {

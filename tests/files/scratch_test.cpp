@@ -15,7 +15,7 @@
 namespace ods {
 namespace {
 
-// Of this process, in bytes.
+// The resident memory of this process, in bytes.
 size_t resident() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures that say nothing of themselves are recognised by their pixels; bench/identify_bench.cpp measures how often.
+// Pictures without metadata are recognised by their pixels; bench/identify_bench.cpp measures how often.
 #include "ods/identify/identify.h"
 
 #include <gtest/gtest.h>
@@ -178,7 +178,7 @@ TEST_F(Unknown, ARoomOfTilesIsNotReadWrongly) {
   }
 }
 
-// What pixels do not tell is not said surely.
+// A reading that pixels do not show is not sure.
 TEST_F(Unknown, ALensIsNotSure) {
   const Identity identity = identity_of(World::kCave, {std::nullopt, named("fisheye-equisolid")});
   ASSERT_GE(identity.readings.size(), 2u);

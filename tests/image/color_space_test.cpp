@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures of other programs' colour spaces, made here byte by byte: they mean the light that they say.
+// Pictures of other programs' colour spaces, made here byte by byte: they mean the light of their metadata.
 #include "ods/image/color_space.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@
 
 #include "ods/base/bytes.h"
 #include "ods/base/error.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/format/jpeg_segments.h"
 #include "ods/image/format/png_chunks.h"
 #include "ods/image/image_file.h"
@@ -192,7 +193,7 @@ TEST(ColorSpace, ThePngSpecificationRanksTheChunks) {
   expect_light(write(folder, "cicp.png", png_with(linear + intent + iccp(adobe_rgb()) + cicp(12, 13))), srgb,
                kP3ToRec709);
   expect_light(write(folder, "cicp_linear.png", png_with(intent + cicp(1, 8))), power(1.0), same);
-  // What cannot be used leaves its place to the next.
+  // Unusable metadata are skipped for the next.
   expect_light(write(folder, "pq.png", png_with(linear + cicp(9, 16))), power(1.0), same);
   expect_light(write(folder, "bad_icc.png", png_with(linear + iccp("no profile"))), power(1.0), same);
 }
@@ -330,7 +331,7 @@ TEST(ColorSpace, ExrPrimariesAreHonouredInColoursAndNothingElse) {
   for (int c = 0; c < 3; c++) EXPECT_NEAR(static_cast<double>(image.at(0, 0)[c]), expected[c], 1e-4);
 }
 
-// One eye of another colour space, the other of none: both are what they say.
+// One eye of another colour space, the other of none: both are read as recorded.
 TEST(ColorSpace, EyesOfTwoColourSpacesAreAPair) {
   const TemporaryFolder folder;
   write(folder, "left.png", png_with(gama(1.0)));

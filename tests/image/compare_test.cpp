@@ -114,11 +114,13 @@ TEST(Compare, PicturesOfDifferentFormAreRefused) {
                       a[0].channels == b[0].channels;
     if (same) continue;
     try {
-      compare_eyes(a, b);
+      compare_eyes(a, b, {"'a.png'", "'b.png'"});
       FAIL() << "compared";
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::kInput);
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+      const std::string what = error.what();
+      EXPECT_EQ(what.find('\n'), std::string::npos);
+      EXPECT_TRUE(what.starts_with("'a.png' has ") && what.find(", 'b.png' has ") != std::string::npos) << what;
     }
   }
 }

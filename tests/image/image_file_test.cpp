@@ -11,6 +11,7 @@
 
 #include "ods/base/error.h"
 #include "ods/base/text.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/tone.h"
 #include "tests/support/temporary_folder.h"
 
@@ -65,7 +66,7 @@ std::string small_file(FileFormat format) {
                    [](int x, int y, int c) { return static_cast<float>((x * 7 + y * 11 + c * 50) % 256) / 255.0f; });
 }
 
-// What decode_image() or read_image() says of a file; empty when it takes it.
+// The error of decode_image() or read_image(); empty if it accepts the file.
 std::string refusal(const std::string& file) {
   std::string decoded;
   try {
@@ -78,6 +79,26 @@ std::string refusal(const std::string& file) {
     EXPECT_NE(decoded.find("'a file'"), std::string::npos) << decoded;
   }
   return decoded;
+}
+
+TEST(ImageBytes, AreThoseOfTheFile) {
+  for (const FileFormat format : kFileFormats) {
+    FileHeader header;
+    header.format = format;
+    header.width = 70, header.height = 130;  // several bands and strips
+    const SampleType sample = is_scene_referred(format) ? SampleType::kFloat : SampleType::kUint8;
+    for (const char* name : {"R", "G", "B"}) header.channels.push_back({name, sample});
+    const RowSource rows = [](int y, std::span<float> row) {
+      for (size_t i = 0; i < row.size(); i++)
+        row[i] = static_cast<float>((i * i + static_cast<size_t>(y)) % 97) / 97.0f;
+    };
+    const TemporaryFolder folder;
+    AtomicFile file(folder.path("file"));
+    write_image(file, header, rows);
+    file.commit();
+    EXPECT_EQ(image_bytes("a name", header, rows), folder.read("file")) << static_cast<int>(format);
+    EXPECT_EQ(folder.names().size(), 1u);
+  }
 }
 
 TEST(DecodeImage, GivesTheCodesOfEveryChannelCount) {

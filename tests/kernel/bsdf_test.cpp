@@ -36,7 +36,7 @@ vec3 viewer(float cosine) {
 const float kRoughness[] = {0.0f, 0.02f, 0.05f, 0.1f, 0.2f, 0.3f, 0.4f, 0.55f, 0.7f, 0.85f, 1.0f};
 const float kCosines[] = {1.0f, 0.95f, 0.85f, 0.7f, 0.55f, 0.4f, 0.25f, 0.15f, 0.08f};
 
-// What a surface returns of light that comes from everywhere.
+// The share of uniform light that a surface reflects.
 double whiteness(BsdfEvaluator& kernel, const Surface& surface, float cosine, float eta, int samples = 1 << 14) {
   const Bsdf bsdf = kernel.make_bsdf(surface, -viewer(cosine), eta);
   double sum = 0.0;
@@ -66,7 +66,7 @@ double worst_loss(float metallic, float transmission, bool volume, float eta) {
   return std::abs(worst);
 }
 
-// What is lost or gained in the tables' interpolation, and in the noise of this test: 0.2 %.
+// The error of the tables' interpolation, and of this test's noise: 0.2 %.
 TEST(WhiteFurnace, Reflection) {
   EXPECT_LT(worst_loss(0, 0, false, 1.5f), 4e-3);
   EXPECT_LT(worst_loss(1, 0, false, 1.5f), 4e-3);
@@ -175,8 +175,8 @@ vec3 random_direction(Dice& dice, float lowest, float highest) {
   return vec3(r * std::cos(turn), r * std::sin(turn), z);
 }
 
-// Swapping light and viewer changes nothing, but for the energy compensation, which looks at the viewer only: a black
-// metal's is 1, and so is that of a rough dielectric in Fresnel's part.
+// Swapping light and viewer changes nothing, but for the energy compensation, which depends on the viewer only: it is 1
+// for a black metal, and for the Fresnel part of a rough dielectric.
 TEST(Reciprocity, Gloss) {
   BsdfEvaluator kernel = make_kernel();
   Dice dice(1);

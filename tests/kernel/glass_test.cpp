@@ -17,7 +17,7 @@ struct Layer {
   double ior, thickness, absorption;  // per metre
 };
 
-// What a stack lets through and reflects, both ways alike but for the side that light comes from.
+// The transmission and reflection of a stack, equal both ways except for the side that light comes from.
 struct Stack {
   double through, top, bottom;
 };
@@ -114,7 +114,7 @@ TEST(Slab, AbsorbingGlass) {
   expect_layers(scene, {{1.5, 0.2, 3.0}}, "absorbing");
 }
 
-// Whether the liquid reaches a little or far into the wall of its glass, the wall stays glass.
+// The wall of a glass stays glass, whether the liquid reaches a little or far into it.
 TEST(Slab, LiquidModelledIntoItsGlass) {
   for (float overlap : {0.001f, 0.05f, 0.1f}) {
     Scene scene = two_skies();
@@ -140,8 +140,8 @@ TEST(Slab, AirInsideGlassDoesNotCount) {
   expect_layers(scene, {{1.5, 1.0, 1.0}}, "bubble");
 }
 
-// KHR_materials_dispersion: each colour has its own index, (index - 1) * dispersion / 40 from that of green. A path has
-// one colour once it is in the glass, three times as bright, so it varies more.
+// KHR_materials_dispersion: each colour has its own index, (index - 1) * dispersion / 40 from the index of green. A
+// path has one colour once it is in the glass, three times as bright, so it varies more.
 TEST(Slab, GlassThatSplitsColours) {
   Scene scene = two_skies();
   add_slab(scene, -1.0f, -1.2f, 1.5f, 8.0f, 20.0f);

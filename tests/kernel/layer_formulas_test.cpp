@@ -229,7 +229,7 @@ TEST(LayerFormulas, Specular) {
   });
 }
 
-// What KHR_materials_pbrSpecularGlossiness becomes.
+// The conversion of KHR_materials_pbrSpecularGlossiness.
 TEST(LayerFormulas, SpecularWithoutAnIndex) {
   Material material = base_material(0.4f, 0.0f);
   material.ior = 1e8f;

@@ -112,7 +112,7 @@ std::vector<NamedMaterial> white_materials(float roughness) {
 // Multiples of it fill the cube evenly: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018.
 const glm::dvec3 kR3(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
 
-// What a surface returns of light that comes from everywhere.
+// The share of uniform light that a surface reflects.
 glm::dvec3 whiteness(BsdfEvaluator& kernel, const Layered& material, vec3 wo, int samples = 1 << 13) {
   const Bsdf bsdf = make(kernel, material, wo);
   glm::dvec3 sum(0.0);
@@ -254,7 +254,7 @@ TEST(LayersReciprocity, DiffuseTransmission) {
   }
 }
 
-// Directions are sampled as often as the pdf says. Cells of the sphere: by height and turn.
+// Directions are sampled as often as by the pdf. Cells of the sphere: by height and turn.
 const int kHeights = 24, kTurns = 24;
 
 size_t cell_of(vec3 w) {
@@ -283,7 +283,7 @@ double sampling_p(BsdfEvaluator& kernel, const Layered& material, vec3 wo, uint 
   }
   expected.back() = kCount;
   for (size_t i = 0; i + 1 < expected.size(); i++) expected.back() -= expected[i];
-  // What is lost into the surface, and mirrors: what is left.
+  // The share that the surface absorbs, and for mirrors the rest.
   EXPECT_GT(expected.back(), -0.002 * kCount);
   expected.back() = std::max(expected.back(), 0.0);
   return chi_square_p(counts, expected);
@@ -356,7 +356,7 @@ TEST(Layers, NeverBreak) {
   }
 }
 
-// What the denoiser takes for the surface's colour: with specular and glossiness it is not the base colour alone.
+// The denoiser's albedo of the surface: with specular and glossiness it is not the base colour alone.
 TEST(Layers, AlbedoHasTheReflectionsColour) {
   BsdfEvaluator kernel = make_kernel();
   Layered metal;

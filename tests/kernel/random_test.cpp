@@ -36,7 +36,7 @@ TEST(RandomPair, EveryPowerOfTwoOfSamplesFillsEveryElementaryInterval) {
   }
 }
 
-// How often values of two numbers fall into each of 8 x 8 boxes.
+// The counts of pairs of two numbers in each of 8 x 8 boxes.
 double independence_p(int n, const std::function<vec2(uint)>& both) {
   std::vector<double> counts(64), expected(64, n / 64.0);
   for (int i = 0; i < n; i++) {
@@ -267,7 +267,7 @@ LightSampler reader_of(const Scene& scene, const LightTable& table) {
   return kernel;
 }
 
-// Where a ray from the origin meets the lamp, if it does; straight from the definition.
+// The point where a ray from the origin hits the lamp, if it does; straight from the definition.
 Hit meet_lamp(const LightSampler& kernel, vec3 w) {
   Hit hit{-1.0f, 0.0f, 0.0f, 0, 0};
   for (int i = 0; i < 2; i++) {
@@ -320,7 +320,7 @@ TEST(Density, SkyThroughPortals) {
   EXPECT_GT(density_p(32, density, draw), significance(1));
 }
 
-// Each sample says what a ray in its direction would see, and with which density.
+// Each sample has the radiance and the density of a ray in its direction.
 TEST(Density, LightSamplesAgreeWithWhatRaysMeet) {
   const Scene scene = lit_scene();
   const LightTable table = make_lights(scene);

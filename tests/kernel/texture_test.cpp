@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a material reads through a slot, against the same in double precision on a plane of texels without end.
+// The value that a material reads through a slot, compared with double precision on an infinite plane of texels.
 #include "ods/kernel/texture.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What differs between the eyes but parallax: the right eye of a correct pair is misaligned, tinted, blurred. What lint
-// says is needed is what was done to it, backwards, and its cure makes a picture without that fault.
+// Differences between the eyes other than parallax: the right eye of a correct pair is misaligned, tinted, blurred. The
+// correction that lint suggests is the inverse of the change, and its cure makes a picture without that fault.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -127,7 +127,7 @@ TEST_F(LintEyes, ThatDifferInSizeAreFound) {
   EXPECT_NEAR(number_after(cure_of(report, Fault::kEyeMagnified), "`right-zoom`"), 1.0f / 1.03f, 0.003f);
 }
 
-// What is far in this scene has hardly any parallax.
+// Far things in this scene have hardly any parallax.
 TEST_F(LintEyes, ThatMustDivergeAreFoundAndCured) {
   for (const float amount : {-0.6f, -3.0f}) {
     EyeCorrection made;

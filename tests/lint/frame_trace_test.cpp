@@ -16,7 +16,7 @@ namespace {
 constexpr Extent kFrame{128, 128};
 constexpr double kRate = 25.0;
 
-// Where the thing of a time is: it walks unevenly, and begins again.
+// The place of the thing at a time: it moves unevenly, and starts over.
 int place(int time) {
   std::mt19937 engine(3);
   int at = 20;

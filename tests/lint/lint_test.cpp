@@ -16,6 +16,7 @@
 #include <set>
 
 #include "ods/base/error.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/image_file.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/save.h"
@@ -27,7 +28,7 @@
 namespace ods::lint_test {
 
 constexpr int kWidth = 512;
-constexpr double kSure = 0.5;  // what the command tells
+constexpr double kSure = 0.5;  // the command's limit
 
 // --- pictures ------------------------------------------------------------------------------------------------------
 
@@ -198,7 +199,7 @@ const auto kSceneName = [](const auto& scene) { return std::string(scene.param);
 class LintScene : public Lint, public ::testing::WithParamInterface<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Three, LintScene, ::testing::ValuesIn(kScenes), kSceneName);
 
-// What depends less on what there is to see: with the most planes, and with the most noise.
+// Checks that depend less on the scene: with the most planes, and with the most noise.
 class LintForm : public LintScene {};
 INSTANTIATE_TEST_SUITE_P(Two, LintForm, ::testing::Values("mirrors", "fractal"), kSceneName);
 
@@ -265,7 +266,7 @@ TEST_F(Lint, FindsWordsThatDoNotFit) {
   const Studio studio("mirrors");
   const Pair& pair = plain_pair(studio);
   expect_only(Fault::kMetadata, save_as(pair, Layout::kTopBottom, "named_LR.png"));
-  // The eyes lie beside each other in a file that says top-bottom.
+  // The eyes are side by side in a file marked top-bottom.
   const Image beside = read_image(save_as(pair, Layout::kSideBySide, "beside.exr"));
   const std::vector<Image> halves = unpack(Layout::kTopBottom, beside);
   expect_only(Fault::kMetadata, save(Pair{halves[0], halves[1]}, "says_stacked.exr"));
@@ -340,7 +341,7 @@ TEST_P(LintScene, IsSilentAboutOtherCameras) {
   const Picture toed_in = studio.render();
   SaveOptions options;
   save_picture(toed_in, studio.camera, options, folder.path("unsaid.png"));
-  // Where much is farther than that metre, headsets show what eyes must diverge for.
+  // If much is farther than that metre, headsets show things for which eyes must diverge.
   for (const Finding& finding : lint(folder.path("unsaid.png")).findings) {
     const bool is_told = finding.certainty >= kSure && severity_of(finding.fault) == Severity::kFault;
     EXPECT_TRUE(!is_told || finding.fault == Fault::kEyesDiverge) << fault_name(finding.fault);
@@ -351,7 +352,7 @@ TEST_P(LintScene, IsSilentAboutOtherCameras) {
 }
 
 TEST_P(LintScene, FindsStereoAtThePoles) {
-  // Where there is something to see: so few samples leave noise of the fractals overhead.
+  // Pictures with something to see: so few samples leave noise of the fractals overhead.
   const std::string name = GetParam();
   Studio studio(name == "fractal" ? "wineglass" : name.c_str());
   if (name == "mirrors") studio.camera.position = vec3(1.5f, 1.2f, 1.0f);
@@ -376,7 +377,7 @@ TEST(LintFaults, EveryFaultHasNames) {
   EXPECT_EQ(names.size(), std::size(kFaults));
 }
 
-// Every check is made, or the report says why it is not.
+// Every check is made, or the report has the reason why it is not.
 void expect_every_check_once(const LintReport& report) {
   std::multiset<Check> checks(report.judged.begin(), report.judged.end());
   for (const NotJudged& each : report.not_judged) {
@@ -396,7 +397,8 @@ TEST_F(Lint, ListsWhatItJudgedAndWhatNot) {
   for (const Check check : kChecks) names.insert(check_name(check));
   EXPECT_EQ(names.size(), std::size(kChecks));
 
-  // It is too small to say whether one eye was rendered twice, its poles are smooth, and few of its lines are vertical.
+  // It is too small to judge whether one eye was rendered twice, its poles are smooth, and few of its lines are
+  // vertical.
   const std::set<Check> words{Check::kShape, Check::kMetadata, Check::kVideoLevels, Check::kHeadsets, Check::kBlack};
   const auto with = [](std::set<Check> checks, const std::set<Check>& more) {
     checks.insert(more.begin(), more.end());

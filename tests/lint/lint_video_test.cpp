@@ -19,7 +19,7 @@ namespace ods::lint_video_test {
 
 constexpr Extent kEye{512, 256};
 
-// What an eye sees: 3 degrees of parallax everywhere, after so many degrees of turning.
+// The view of an eye: 3 degrees of parallax everywhere, after so many degrees of turning.
 Image view(const Waves& world, int eye, float turned, const EyeCorrection& stored) {
   Image image(kEye.width, kEye.height, 3);
   const Projection sphere = make_projection({});

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What one eye shows alone: posts under a sky, tilted, with holes at the poles, too bright, with too few code values.
+// Faults that one eye shows alone: posts under a sky, tilted, with holes at the poles, too bright, with too few code
+// values.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -116,7 +117,7 @@ TEST_F(LintOneEye, HasBandsOrNot) {
   EXPECT_TRUE(judged(report, Check::kBanding));
 }
 
-// Noise cuts slopes into runs that are no stairs: none of them is level.
+// Noise cuts slopes into runs that are not stairs: none of them is level.
 TEST_F(LintOneEye, ANoisyGlowHasNoBands) {
   std::mt19937 engine(5);
   std::uniform_real_distribution<float> noise(-0.004f, 0.004f);

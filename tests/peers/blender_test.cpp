@@ -96,7 +96,7 @@ TEST(Blender, SeesWhatTheCameraSees) {
   EXPECT_LT(overlap(file, kRight, left), 0.90);
 }
 
-// The same boxes by the camera alone: were the eyes crossed, the test above would see it.
+// The boxes by the camera alone: were the eyes crossed, the test above would see it.
 TEST(Blender, CrossedEyesWouldBeSeen) {
   Sidecar file;
   const Camera camera = make_camera(file.camera);

@@ -260,7 +260,7 @@ EyeImage ours(const Binary& bytes, const Case& each) {
   return render_cpu(scene, make_view().camera, options).eyes[0];
 }
 
-// Whether all of the pixel shows the scene.
+// Returns whether all of the pixel shows the scene.
 bool is_inside(const Image& depth, int x, int y) {
   for (int dy = -1; dy <= 1; dy++) {
     for (int dx = -1; dx <= 1; dx++) {

@@ -250,8 +250,8 @@ std::vector<float> depths(const std::string& path) {
   return values;
 }
 
-// Of a quarter of the slits, with Blender's depth: what comes out is the depth of our rays. Silhouettes are where one
-// thing hides another, which depth alone does not put right; without it they agree by 0.981.
+// A quarter of the slits, with Blender's depth: the stitched depth is the depth of our rays. At silhouettes one thing
+// hides another, which depth alone does not correct; without depth they agree by 0.981.
 TEST_F(Peers, DISABLED_BlendersDepthIsAlongTheAxis) {
   ASSERT_TRUE(is_there("blender"));
   direct_picture();

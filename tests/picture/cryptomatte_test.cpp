@@ -74,7 +74,28 @@ TEST(Cryptomatte, HeadersOfOthersAndDamagedOnes) {
   }
 }
 
-// As the specification's `manif_file`, which must be in the picture's folder.
+// A number that is not one has no place in an ordered list.
+TEST(Cryptomatte, NamesOfNoNumberAreLeftOut) {
+  FileInfo info;
+  info.text["cryptomatte/89abcde/name"] = "CryptoObject";
+  info.text["cryptomatte/89abcde/manifest"] = "{\"a\":\"7fc00000\",\"b\":\"40000000\",\"c\":\"ffffffff\"}";
+  EXPECT_EQ(find_cryptomatte(info, "x.exr")->names, (std::map<float, std::string>{{2.0f, "b"}}));
+}
+
+// Nothing else of the file gets into a copy.
+TEST(Cryptomatte, OnlyNamesAndNumbersOfAFileAreCopied) {
+  const TemporaryFolder folder;
+  folder.write("x.exr", "");
+  folder.write("names.json", "{\"Cube\": \"40000000\", \"token\": \"secret\", \"deep\": {\"a\": \"secret\"}}");
+  FileInfo info;
+  info.text["cryptomatte/89abcde/manif_file"] = "names.json";
+  const std::vector<Attribute> copied = matte_attributes(info, folder.path("x.exr"));
+  ASSERT_EQ(copied.size(), 1u);
+  EXPECT_EQ(copied[0].name, "cryptomatte/89abcde/manifest");
+  EXPECT_EQ(std::get<std::string>(copied[0].value), "{\"Cube\":\"40000000\"}");
+}
+
+// The specification's `manif_file`, which must be in the picture's folder.
 TEST(Cryptomatte, NamesMayBeInAFileBeside) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.path("shots"));
@@ -90,8 +111,19 @@ TEST(Cryptomatte, NamesMayBeInAFileBeside) {
   for (const Attribute& each : matte_attributes(info, path)) copy.text[each.name] = std::get<std::string>(each.value);
   EXPECT_EQ(copy.text.size(), 2u);
   EXPECT_EQ(find_cryptomatte(copy, "gone.exr")->names, (std::map<float, std::string>{{2.0f, "Cube"}}));
+  std::filesystem::create_directory(folder.path("shots/below"));
+  for (const char* name : {"shots/below/secret.json", "shots/secret.txt", "shots/.secret.json"}) {
+    folder.write(name, "{\"Secret\":\"40000000\"}");
+  }
+  folder.write("shots/key.json", "-----BEGIN PRIVATE KEY-----");
+  std::filesystem::create_symlink("../secret.json", folder.path("shots/out.json"));
+  std::filesystem::create_symlink(".secret.json", folder.path("shots/link.json"));
+  std::filesystem::create_symlink("..", folder.path("shots/up"));
   for (const std::string& other :
-       {std::string("../secret.json"), folder.path("secret.json"), std::string("none"), std::string()}) {
+       {std::string("../secret.json"), folder.path("secret.json"), std::string("none"), std::string(),
+        std::string("below/secret.json"), std::string("secret.txt"), std::string(".secret.json"),
+        std::string("key.json"), std::string("out.json"), std::string("link.json"), std::string("up/secret.json"),
+        std::string("./names.json")}) {
     info.text["cryptomatte/89abcde/manif_file"] = other;
     EXPECT_TRUE(find_cryptomatte(info, path)->names.empty()) << other;
     EXPECT_EQ(std::get<std::string>(matte_attributes(info, path)[0].value), other);

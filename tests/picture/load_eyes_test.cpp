@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ods/base/error.h"
+#include "ods/files/atomic_file.h"
 #include "ods/picture/anaglyph.h"
 #include "ods/picture/save.h"
 #include "tests/support/saved_pictures.h"

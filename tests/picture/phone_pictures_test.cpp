@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ods/base/error.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/heif_items.h"
 #include "ods/image/image_file.h"
 #include "ods/image/orientation.h"
@@ -154,7 +155,7 @@ TEST_F(Heif, DamagedOnesAreOneLine) {
   }
 }
 
-// Found by fuzzing: of a grid whose tiles are overlays libheif knows no number of bits.
+// Found by fuzzing: libheif does not report the number of bits of a grid whose tiles are overlays.
 TEST_F(Heif, AGridOfOverlaysIsRefused) {
   write_png("a.png", {64, 32});
   if (encode("-q 90", "a.png", "a.heic").code != 0) GTEST_SKIP() << "skipped: no encoder";
@@ -219,7 +220,7 @@ TEST(HeifNames, OtherFilesThatBeginAlikeAreCalledByTheirNames) {
 
 // --- odd sides -------------------------------------------------------------------------------------------------------
 
-// Somebody has cut off a column or a row, at either end: the eyes are halves all the same, and as far apart.
+// A column or a row was cut off, at either end: the eyes are halves all the same, and as far apart.
 TEST(OddSides, EyesAreHalvesWithoutTheMiddle) {
   const TemporaryFolder folder;
   for (const bool stacked : {false, true}) {
@@ -274,7 +275,7 @@ TEST(Orientation, PicturesAreReadAsProgramsShowThem) {
     });
     file.commit();
   }
-  // Where red (the right of the stored picture) and green (its bottom) come to be: right 0, bottom 1, left 2, top 3.
+  // The final places of red (the right of the stored picture) and green (its bottom): right 0, bottom 1, left 2, top 3.
   const int red[] = {0, 2, 2, 0, 1, 1, 3, 3}, green[] = {1, 1, 3, 3, 0, 2, 2, 0};
   for (int orientation = 1; orientation <= 8; orientation++) {
     const std::string path = folder.path("turned.jpg");

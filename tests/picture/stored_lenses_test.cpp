@@ -11,7 +11,7 @@
 
 namespace ods::stored_lenses_test {
 
-// Where the whole eyes would have a direction, less the bars around both together.
+// The place of a direction in the whole eyes, less the bars around both together.
 TEST(StoredPicture, BlackBarsMoveEachEye) {
   const TemporaryFolder folder;
   const std::string path = folder.path("film.png");

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "ods/base/error.h"
+#include "ods/files/atomic_file.h"
 #include "ods/files/scratch.h"
 #include "ods/image/tone.h"
 #include "ods/picture/save.h"
@@ -444,7 +445,7 @@ TEST(OpenPicture, OneRowAndNoNumbersAreNoTrouble) {
   EXPECT_TRUE(std::isnan(value_at(open_picture(folder.path("nan.exr")).eyes[0].layers[0], 3, 1, 2)));
 }
 
-// The most that this process ever held, in bytes, from now on; nothing where the system does not tell.
+// The peak memory of this process from now on, in bytes; nullopt if the system does not report it.
 bool forget_peak() {
   std::ofstream file("/proc/self/clear_refs");
   file << "5" << std::flush;

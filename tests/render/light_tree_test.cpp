@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The tree by which lights are picked: its probabilities are those of its picks, and it prefers what brings light.
+// The tree by which lights are picked: its probabilities match its picks, and it prefers lights that contribute.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -48,7 +48,7 @@ TEST(PictureSamples, ABrightSampleOfTheOtherEyeCountsAmongEqualOnes) {
   EXPECT_NEAR(variance_of_mean(samples.eyes[0], 0).x, 9.0, 1e-3);
 }
 
-// An eye lacks the light that it has given away: that is no noise.
+// An eye lacks the light that it has given away: that is not noise.
 TEST(PictureSamples, InTheMiddleOfAPassEachEyeIsAlone) {
   PictureSamples samples = one_pixel(-8.0);
   samples.blocks_done = 1;

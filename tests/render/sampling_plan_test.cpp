@@ -69,7 +69,7 @@ TEST(SamplingPlan, CanBeUniform) {
   for (const float share : make_plan(StereoCamera{}, options).share) EXPECT_EQ(share, 1.0f);
 }
 
-// A block of 64 grey pixels of which one class has noise: the other class goes on, its own stops.
+// A block of 64 grey pixels of which one class has noise: the other class continues, its own stops.
 TEST(SamplingPlan, EachClassIsJudgedByTheOther) {
   RenderOptions options = options_of(StereoCamera{}, 16, 64);
   options.noise = 0.01f;
@@ -99,7 +99,7 @@ TEST(SamplingPlan, EachClassIsJudgedByTheOther) {
   EXPECT_NEAR(more, std::min(0.5 * excess, 3.0) / 2.0, 1e-3);
 }
 
-// What is judged is what is seen: a sixteenth of the light, shown with four stops, is as noisy as all of it.
+// Noise is judged as it is seen: a sixteenth of the light, shown with four stops, is as noisy as all of it.
 TEST(SamplingPlan, NoiseIsJudgedAtTheExposure) {
   RenderOptions options = options_of(StereoCamera{}, 8, 64);
   options.height = 8;
@@ -152,6 +152,43 @@ TEST(SamplingPlan, AStoppedClassIsJudgedAsIfItHadGoneOn) {
     judge_noise(make_plan(StereoCamera{}, options), options, samples);
     EXPECT_EQ(samples.noisy[0], noisy) << wanted;
   }
+}
+
+// Blocks of 16 samples have stopped in the dark, while others went on to 256. Shown with six stops they are noisy, and
+// would be clean with 256 samples: until they have as many, they are sampled.
+TEST(SamplingPlan, AStoppedBlockIsJudgedAgainAtAnotherExposure) {
+  RenderOptions options = options_of(StereoCamera{}, 8, 1024);
+  options.height = 8;
+  options.even_noise = false;
+  options.eyes = Eyes::kMonoEye;
+  options.noise = 0.02f;
+  const SamplingPlan plan = make_plan(StereoCamera{}, options);
+  PictureSamples samples = no_samples(options);
+  const auto take = [&](uint32_t count) {
+    EyeSamples& eye = samples.eyes[0];
+    for (size_t pixel = 0; pixel < 64; pixel++) {
+      eye.count[pixel] = count;
+      for (size_t c = 0; c < 3; c++) {
+        // Half of them are 0 and half are 1/64.
+        eye.light[3 * pixel + c] = static_cast<int64_t>(count / 2 * kLightUnit / 64.0);
+        eye.squares[3 * pixel + c] = count / 2 / 4096.0;
+      }
+    }
+    judge_noise(plan, options, samples);
+  };
+  samples.done = 16;
+  take(16);
+  EXPECT_EQ(samples.noisy[0], 0);
+  samples.done = 256;
+  take(16);
+  EXPECT_EQ(samples.noisy[0], 0) << "at the same exposure it stays";
+  options.noise_exposure = 6.0f;
+  take(16);
+  EXPECT_EQ(samples.noisy[0], kBothClasses);
+  take(32);
+  EXPECT_EQ(samples.noisy[0], kBothClasses) << "by the samples that it has, not by those of the picture";
+  take(256);
+  EXPECT_EQ(samples.noisy[0], 0);
 }
 
 }  // namespace

@@ -163,7 +163,7 @@ TEST(Motion, CamerasAndLightsRideOnNodes) {
   expect_near(dvec3(end.lights[0].position), {0, 3, 0});
 }
 
-// Whether the first view point moves; the camera is a child of node 1.
+// Returns whether the first view point moves; the camera is a child of node 1.
 bool moves_camera(const GltfJson& target, const std::vector<float>& values, const std::string& type) {
   GltfBuilder file = make_triangle();
   file.json["cameras"] = GltfJson::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])");

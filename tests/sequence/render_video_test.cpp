@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "ods/base/error.h"
-#include "ods/camera/camera_move.h"
 #include "ods/scene/load/load.h"
+#include "ods/sequence/identity.h"
 #include "ods/video/container/video_file.h"
 #include "tests/support/temporary_folder.h"
 
@@ -22,24 +22,32 @@ struct Film {
   VideoOptions video;
 
   Film() {
-    options.camera = [](const Scene& scene, double seconds) {
-      StereoCamera camera;
-      camera.position = default_view(scene).position;
-      CameraMove move;
-      move.turns = 0.1;
-      return moved(camera, move, seconds);
-    };
+    options.scene = scene_settings("toys");
+    options.camera.move.turns = 0.1;
     options.shutter = 90.0;
-    options.render.width = 32, options.render.samples = 4;
+    options.render.width = 32;
+    options.render.samples = 4;
     video.frames = {0, 1, 2, 3};
     video.encode.rate = {10, 1};
-    video.settings = {{"samples", "4", ""}};
   }
 
   void make(const std::string& name, const Progress& progress = {}) {
     Scene scene = load_scene("toys");
     play(scene.animation, "");
     render_video(scene, options, video, folder.path(name), progress);
+  }
+  // The message with which the library refuses to.
+  std::string refusal(const std::string& name) {
+    try {
+      make(name);
+    } catch (const Error& error) {
+      EXPECT_TRUE(error.kind() == ErrorKind::kUsage);
+      return error.what();
+    }
+    return "";
+  }
+  std::string frame(const std::string& name, int number) const {
+    return folder.read(name + ".frames/frame.00000" + std::to_string(number) + ".exr");
   }
   bool has_frames(const std::string& name) const { return std::filesystem::exists(folder.path(name) + ".frames"); }
 };
@@ -81,22 +89,88 @@ TEST(RenderVideo, FramesOfOtherSettingsAreNotMixedIn) {
   Film film;
   film.video.keep_frames = true;
   film.make("a.mp4");
-  film.video.settings = {{"samples", "8", ""}};
-  try {
-    film.make("a.mp4");
-    FAIL() << "was not refused";
-  } catch (const Error& error) {
-    EXPECT_TRUE(error.kind() == ErrorKind::kUsage);
-    EXPECT_NE(std::string(error.what()).find("samples was 4, now 8; `restart` discards it and starts over"),
-              std::string::npos)
-        << error.what();
-  }
-  film.video.restart = true, film.video.keep_frames = false;
+  film.options.render.samples = 8;
+  const std::string why = film.refusal("a.mp4");
+  EXPECT_NE(why.find("`samples` was 4, now 8; `restart` discards it and starts over"), std::string::npos) << why;
+  film.video.restart = true;
+  film.video.keep_frames = false;
   film.make("a.mp4");
   EXPECT_FALSE(film.has_frames("a.mp4"));
 }
 
-// Noise, shutter and the neighbours of a frame are the same whoever asks for it.
+// Toys whose noise is judged: with more light shown, pixels stop later.
+struct JudgedFilm : Film {
+  JudgedFilm() {
+    options.render.samples = 512;
+    options.render.noise = 0.03f;
+    options.finish.denoiser = Denoiser::kNone;
+    video.frames = {1};
+    video.keep_frames = true;
+  }
+};
+
+TEST(RenderVideo, FramesForTwoExposuresAreNotMixed) {
+  JudgedFilm film;
+  film.options.exposure = -6.0f;
+  film.make("a.mp4");
+  film.make("same.mp4");
+  EXPECT_EQ(film.frame("a.mp4", 1), film.frame("same.mp4", 1));
+  film.options.exposure = 4.0f;
+  film.make("b.mp4");
+  EXPECT_NE(film.frame("a.mp4", 1), film.frame("b.mp4", 1)) << "the exposure makes another frame";
+  const std::string why = film.refusal("a.mp4");
+  EXPECT_NE(why.find("`exposure` was -6, now 4; "), std::string::npos) << why;
+  // If noise is not judged by it, the exposure belongs to the video alone.
+  film.options.render.noise = 0.0f;
+  film.options.render.samples = 4;
+  film.make("c.mp4");
+  const std::string frame = film.frame("c.mp4", 1), video = film.folder.read("c.mp4");
+  film.options.exposure = -6.0f;
+  film.make("c.mp4");
+  EXPECT_EQ(film.frame("c.mp4", 1), frame);
+  EXPECT_NE(film.folder.read("c.mp4"), video);
+}
+
+// The camera comes down from the sky: what suits all frames is not what suits the first.
+TEST(RenderVideo, AddedFramesAreMadeWithWhatTheFirstLookHasFound) {
+  JudgedFilm film;
+  film.options.render.width = 16;
+  film.options.render.samples = 4;
+  film.options.fps = 10.0;
+  film.options.merge_limit = 20.0f;
+  film.options.camera.position = vec3(0.0f, 40.0f, 0.0f);
+  film.options.camera.move = {1.0, 0.0, {}, {vec3(0.0f, 0.3f, 0.0f)}};
+  struct Found {
+    float exposure = 0.0f;
+    std::vector<float> merge;
+    ExposureReason reason = ExposureReason::kGiven;
+    bool operator==(const Found&) const = default;
+  };
+  const auto make = [&] {
+    Found found;
+    VideoProgress progress;
+    progress.start = [&](const VideoStart& start) {
+      const SequenceOptions& options = start.renderer.options();
+      found = {options.render.noise_exposure, options.camera.stereo.merge_map->pixels, start.look.reason};
+    };
+    Scene scene = load_scene("toys");
+    VideoJournal journal(film.folder.path("a.mp4"), frame_identity(film.options), film.video.restart);
+    render_video(journal, scene, film.options, film.video, progress);
+    return found;
+  };
+  film.video.frames = {0};
+  Found first = make();
+  EXPECT_EQ(first.reason, ExposureReason::kLight);
+  film.video.frames = {0, 10};
+  first.reason = ExposureReason::kFrames;
+  EXPECT_EQ(make(), first);
+  film.video.restart = true;
+  const Found both = make();
+  EXPECT_NE(both.exposure, first.exposure) << "else this test shows nothing";
+  EXPECT_NE(both.merge, first.merge) << "else this test shows nothing";
+}
+
+// Noise, shutter and the neighbours of a frame are the same for the library and the command.
 TEST(RenderVideo, AFrameAloneIsThatOfTheWholeSequence) {
   Film film;
   const auto render = [&](const std::string& name, const std::vector<size_t>& missing) {
@@ -105,7 +179,7 @@ TEST(RenderVideo, AFrameAloneIsThatOfTheWholeSequence) {
     FrameRenderer renderer(film.options, scene);
     const std::vector<SequenceFrame> all =
         make_frames(film.options, film.video.frames, film.folder.path(name + ".####.exr"));
-    EXPECT_EQ(render_sequence(renderer, all, missing, true), missing.size());
+    EXPECT_EQ(render_sequence(renderer, all, missing, Sink::kShared), missing.size());
     return film.folder.read(name + ".0002.exr");
   };
   EXPECT_EQ(render("all", {0, 1, 2, 3}), render("one", {2}));
@@ -114,7 +188,7 @@ TEST(RenderVideo, AFrameAloneIsThatOfTheWholeSequence) {
 }
 
 TEST(RenderVideo, APatternNeedsAPlaceForNumbers) {
-  const SequenceOptions options;
+  const SequenceOptions options{};
   EXPECT_THROW(make_frames(options, {1}, "frame.exr"), Error);
 }
 

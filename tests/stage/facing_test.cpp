@@ -15,7 +15,7 @@
 namespace ods {
 namespace {
 
-// Of a kind of scene as settle() places the viewer.
+// The view point that settle() chooses in a kind of scene.
 ViewPoint viewer_of(std::string_view name) {
   for (const KindOfScene& kind : kinds_of_scene()) {
     if (name != kind.name) continue;
@@ -27,7 +27,7 @@ ViewPoint viewer_of(std::string_view name) {
   return {};
 }
 
-// How far the view has to turn to face a point, degrees.
+// The angle by which the view has to turn to face a point, degrees.
 float off_middle(const ViewPoint& view, vec3 point) {
   const vec3 way = point - view.position;
   return std::abs(std::remainder(glm::degrees(std::atan2(way.x, -way.z)) - view.yaw, 360.0f));

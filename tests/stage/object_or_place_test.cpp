@@ -19,7 +19,7 @@ PlaceSigns signs_of(const Scene& scene) {
   return place_signs(rays, survey(rays, 1.0f, TakenFor::kPlace), 1.0f);
 }
 
-// A bed, 2 m long, with head and foot, in centimetres: somebody 1.6 cm high would stand on it.
+// A bed, 2 m long, with head and foot, in centimetres: a viewer 1.6 cm high would stand on it.
 Scene make_bed() {
   Scene scene = with_materials();
   add_block(scene, vec3(-80, 20, -100), vec3(80, 50, 100));

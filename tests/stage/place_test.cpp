@@ -180,14 +180,15 @@ TEST(ViewFault, NamesSolidsClosedBoxesAndCeilings) {
   EXPECT_NE(view_fault(rays, vec3(0.5f, 2.57f, 0)).find("3 cm from the nearest"), std::string::npos)
       << view_fault(rays, vec3(0.5f, 2.57f, 0));
   EXPECT_EQ(view_fault(rays, vec3(0.5f, 50.0f, 0)), "") << "outside, all is free";
-  const Scene ball = make_ball(3.0f);
+  Scene ball = make_ball(3.0f);
+  for (Material& material : ball.materials) material.double_sided = 0;
   EXPECT_NE(view_fault(SceneRays(ball), vec3(0, 3, 0)).find("inside a solid model"), std::string::npos);
   Scene box = with_materials();
   add(box, inside_out(make_box(vec3(0.2f))), 0);
   EXPECT_NE(view_fault(SceneRays(box), vec3(0)).find("closed space"), std::string::npos);
 }
 
-// Whether the unit is that of the file, is guessed, or is given: what looks around sees the scene in metres, once.
+// The unit is the file's, guessed, or given: in each case the look-around sees the scene in metres, once.
 TEST(Settle, LetsOthersLookAroundInTheSettledScene) {
   for (const float size : {1.0f, 100.0f}) {
     Scene scene = resized(make_simple_room(), size);

@@ -12,7 +12,7 @@
 namespace ods {
 namespace {
 
-// How many instances each ray is tested against, at most.
+// The maximum number of instances that a ray is tested against.
 ptrdiff_t met_instances(const Scene& scene) {
   const SceneRays rays(scene);
   ptrdiff_t count = 0;

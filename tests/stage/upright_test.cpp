@@ -21,7 +21,7 @@ Scene make_exhibition() {
   return scene;
 }
 
-// As a program with z up writes it: y becomes z, and z becomes -y.
+// Rotates a scene as a program with z up writes it: y becomes z, and z becomes -y.
 Scene laid_down(Scene scene) {
   for (Instance& instance : scene.instances) {
     const vec4 y = instance.row1;
@@ -63,7 +63,7 @@ TEST(Upright, TheReaderTurnsTheFile) {
   EXPECT_NEAR(bounds.high.z, -2.0f, 1e-6f);
 }
 
-// Of a moving node too.
+// A moving node is rotated, too.
 TEST(Upright, TheReaderTurnsWhatMoves) {
   GltfBuilder file = make_triangle();
   const int times = file.add<float>({0, 1}, kFloat, "SCALAR");

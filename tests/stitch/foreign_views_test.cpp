@@ -112,7 +112,7 @@ TEST(ForeignViews, UnrealsDebugSheets) {
   EXPECT_LT(quality(0.0f), right - 10.0);  // its first column is straight behind, not half a step beside
 }
 
-// What it captures by default, and the numbers that docs/slits.md says for that.
+// The plug-in's default capture, and the numbers for it in docs/slits.md.
 TEST(ForeignViews, UnrealsDefaultsAreTheDocumentedRig) {
   const UnrealCapture unreal{360, 2048, 0.064f};
   EXPECT_EQ(unreal.strip().width, 18);

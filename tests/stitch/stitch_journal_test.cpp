@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a stitch leaves on the disk when it is killed, and what the next one makes of it.
+// The files that a killed stitch leaves on the disk, and their use by the next one.
 #include <gtest/gtest.h>
 
 #include <atomic>

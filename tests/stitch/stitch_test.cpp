@@ -35,7 +35,7 @@ double angle_between(vec3 a, vec3 b) {
   return std::atan2(glm::length(glm::cross(x, y)), glm::dot(x, y));
 }
 
-// How far the views that show a direction of the picture put a point off, at most.
+// The maximum displacement of a point by the views that show a direction of the picture.
 struct Off {
   double angle = 0.0;
   float latitude = 0.0f;
@@ -148,7 +148,8 @@ TEST(ViewDetail, IsTheClosedForm) {
 
 // --- pictures -------------------------------------------------------------------------------------------------------
 
-// What a ray meets on a ball of 2 m around the centre, its colours smooth; before it, if wished, a smaller grey ball.
+// The colour that a ray hits on a ball of 2 m around the centre, with smooth colours; in front of it, optionally, a
+// smaller grey ball.
 struct Met {
   vec3 colour;
   float distance;

@@ -12,7 +12,7 @@
 
 namespace ods {
 
-inline const vec3 kBox(3.0f, 2.0f, 3.0f);  // half of it
+inline const vec3 kBox(3.0f, 2.0f, 3.0f);  // half sizes
 inline const vec3 kBall(0.4f, -0.1f, -1.2f);
 inline const float kRadius = 0.35f;
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs the command on files that it converts with Blender, into a cache of the test's own.
+// Runs the command on files that it converts with Blender, with the test's own cache.
 #pragma once
 #include "tests/support/cli_runner.h"
 #include "tests/support/programs.h"

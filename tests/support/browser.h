@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Browsers without a screen, as far as this machine has them.
+// Browsers without a screen, if this machine has them.
 #pragma once
 #include <fcntl.h>
 #include <signal.h>
@@ -31,7 +31,7 @@ inline std::string find_program(const std::vector<std::string>& names) {
   return "";
 }
 
-// The words that start it, with a GPU that is software; none where it is missing.
+// The command line that starts it, with a software GPU. Empty if it is missing.
 inline std::vector<std::string> chromium(const std::string& profile) {
   const std::string program =
       find_program({"chromium", "chromium-browser", "google-chrome", "chromium-headless-shell"});
@@ -51,15 +51,15 @@ inline std::vector<std::string> firefox(const std::string& profile) {
   const std::string program = find_program({"firefox-esr", "firefox"});
   if (program.empty()) return {};
   std::filesystem::create_directories(profile);
-  write_file(profile + "/user.js", "user_pref(\"webgl.force-enabled\", true);\n");  // in software
+  write_file(profile + "/user.js", "user_pref(\"webgl.force-enabled\", true);\n");  // on a software GPU
   std::vector<std::string> words = {program, "--headless", "--no-remote", "--profile", profile};
-  // It finds the GPU, also one in software, through a display.
+  // It finds a GPU, even a software one, only through a display.
   const std::string display = std::getenv("DISPLAY") ? "" : find_program({"xvfb-run"});
   if (!display.empty()) words.insert(words.begin(), {display, "-a"});
   return words;
 }
 
-// A browser and its children, until the end of its life.
+// A browser and its children, until the end of its lifetime.
 class Browser {
  public:
   Browser(std::vector<std::string> words, const std::string& home, const std::string& address) {
@@ -77,7 +77,7 @@ class Browser {
     execv(arguments[0], arguments.data());
     _exit(127);
   }
-  // Waits for its end.
+  // Waits until it exits.
   void finish() { waitpid(pid_, nullptr, 0), pid_ = -1; }
   Browser(const Browser&) = delete;
   Browser& operator=(const Browser&) = delete;
@@ -93,7 +93,7 @@ class Browser {
   pid_t pid_ = -1;
 };
 
-// A process and all that it has started, with the CPU seconds that each has taken so far.
+// A process and all its descendants, with the CPU seconds that each has used so far.
 inline std::map<pid_t, double> processes_of(pid_t root) {
   struct Process {
     pid_t parent;
@@ -130,7 +130,7 @@ inline double cpu_seconds_of(pid_t root) {
   return sum;
 }
 
-// Their memory, where what several share counts once.
+// Their memory, with shared memory counted once.
 inline double megabytes_of(pid_t root) {
   double kilobytes = 0.0;
   for (const auto& [pid, seconds] : processes_of(root)) {

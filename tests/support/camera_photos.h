@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// VR photos (.vr.jpg) as VR180 cameras write them, which is not as we do.
+// VR photos (.vr.jpg) as written by VR180 cameras, which differ from ours.
 #pragma once
 #include <string>
 
@@ -12,7 +12,7 @@
 
 namespace ods {
 
-// How an XMP of elements, with one quote and one description for each namespace, describes a photo of square eyes.
+// The XMP of a photo of square eyes with elements, single quotes and one description for each namespace.
 inline std::string elements(const std::string& gpano, const std::string& id) {
   const auto description = [](const std::string& name, const std::string& space, const std::string& inside) {
     return "<rdf:Description rdf:about='' xmlns:" + name + "='" + space + "'>\n" + inside + "\n</rdf:Description>\n";
@@ -38,7 +38,7 @@ inline std::string crop(const std::string& image, const std::string& whole, cons
   return text;
 }
 
-// A photo with this in its standard and in its extended XMP.
+// A photo with these contents in its standard and in its extended XMP.
 inline std::string photo_of(const std::string& left, const std::string& gpano, const std::string& data) {
   const auto number = [](size_t value) {
     std::string bytes;
@@ -56,7 +56,7 @@ inline std::string photo_of(const std::string& left, const std::string& gpano, c
   return photo + left.substr(2);
 }
 
-// The right eye's JPEG as cameras write it down, in lines.
+// The right eye's JPEG as written by cameras, in lines.
 inline std::string in_lines(const std::string& right) {
   std::string letters = encode_base64(right);
   for (size_t at = 76; at < letters.size(); at += 77) letters.insert(at, "\n");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Runs the command as its user does, for tests of it as a black box.
+// Runs the command like a user, for black-box tests.
 #pragma once
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -21,14 +21,14 @@
 #include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
-// Sanitizers take all the address space.
+// Sanitizers reserve the whole address space.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kSanitized = true;
 #else
 inline constexpr bool kSanitized = false;
 #endif
 
-// For the processes that tests start: GCC 12's search for leaks crashes now and then beside TBB's threads.
+// For the processes that tests start: GCC 12's leak detection sometimes crashes with TBB's threads.
 inline const int kNoSearchForLeaks = setenv("ASAN_OPTIONS", "detect_leaks=0", 0);
 
 // A running ods, its stdout and stderr in pipes.
@@ -49,7 +49,8 @@ class Ods {
       const rlimit file_limit{largest_file, largest_file}, memory_limit{address_space, address_space};
       setrlimit(RLIMIT_FSIZE, &file_limit);
       setrlimit(RLIMIT_AS, &memory_limit);
-      // Tests that run as a shell's background job hand down that Ctrl-C is ignored: nothing would end what they start.
+      // If the tests run as a shell's background job, SIGINT is ignored, and children inherit that; then nothing would
+      // end them.
       for (const int number : {SIGHUP, SIGINT, SIGTERM}) signal(number, SIG_DFL);
       execv(argv[0], argv.data());
       _exit(127);
@@ -60,7 +61,7 @@ class Ods {
   Ods(const Ods&) = delete;
   Ods& operator=(const Ods&) = delete;
 
-  // Reads until stderr says it or ends, then what stdout has said by then.
+  // Reads until stderr contains the text or ends, then the stdout so far.
   void wait_for(const std::string& text) {
     while (err.find(text) == std::string::npos && read_some()) {
     }
@@ -71,7 +72,7 @@ class Ods {
 
   pid_t process() const { return pid_; }
 
-  // Of its process, now.
+  // The present number of threads of its process.
   size_t threads() const {
     const auto tasks = std::filesystem::directory_iterator("/proc/" + std::to_string(pid_) + "/task");
     return static_cast<size_t>(std::distance(begin(tasks), end(tasks)));
@@ -118,7 +119,7 @@ class Ods {
 
 class Cli : public ::testing::Test {
  protected:
-  // ods with these words, to its end.
+  // Runs ods with these arguments until it exits.
   int run(const std::string& words, rlim_t largest_file = RLIM_INFINITY, rlim_t address_space = RLIM_INFINITY) {
     std::istringstream stream(words);
     std::vector<std::string> arguments;
@@ -130,14 +131,14 @@ class Cli : public ::testing::Test {
     return code;
   }
 
-  // A command that renders a picture of next to nothing into the folder.
+  // A command that renders a tiny picture into the folder.
   std::string render(const std::string& words = "") const {
     return "render furnace --width 16 --samples 1 -o " + folder.path("picture.png") + " " + words;
   }
 
   size_t files() const { return folder.names().size(); }
 
-  // Nothing but one line, which starts as every error does.
+  // Expects a single line, which starts like every error.
   void expect_one_error() const {
     EXPECT_EQ(out, "");
     EXPECT_TRUE(err.starts_with("ods: error: ")) << err;

@@ -141,7 +141,7 @@ void compress_meshopt(GltfBuilder& file, int index, const std::string& mode, siz
   Binary plain(first, first + old["byteLength"].get<ptrdiff_t>());
   plain.resize((plain.size() + stride - 1) / stride * stride);
   const size_t count = plain.size() / stride;
-  Binary packed(1024 + 2 * plain.size() + 16 * count);  // more than any codec needs
+  Binary packed(1024 + 2 * plain.size() + 16 * count);  // sufficient for every codec
   if (mode == "ATTRIBUTES") {
     packed.resize(meshopt_encodeVertexBuffer(packed.data(), packed.size(), plain.data(), count, stride));
   } else {
@@ -152,7 +152,7 @@ void compress_meshopt(GltfBuilder& file, int index, const std::string& mode, siz
                       : meshopt_encodeIndexSequence(packed.data(), packed.size(), corners.data(), count));
   }
   EXPECT_GT(packed.size(), 0u);
-  std::fill(first, first + old["byteLength"].get<ptrdiff_t>(), 0xcd);  // whoever reads the plain data sees it
+  std::fill(first, first + old["byteLength"].get<ptrdiff_t>(), 0xcd);  // exposes code that reads the plain data
   const GltfJson source = file.json["bufferViews"][size_t(file.add_view(packed))];
   GltfJson& view = file.json["bufferViews"][size_t(index)];
   view["buffer"] = 1;  // without data

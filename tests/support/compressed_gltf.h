@@ -15,19 +15,19 @@ namespace ods {
 GltfBuilder make_grid(int size);
 
 struct DracoChoice {
-  bool edgebreaker = false;  // reorders vertices and triangles; else they stay as they are
-  int bits = 0;              // of quantized floats; 0: exact
-  int speed = 5;             // 0: every predictor that Draco has, 10: none
+  bool edgebreaker = false;  // reorders vertices and triangles; else their order is kept
+  int bits = 0;              // per quantized float; 0 for exact floats
+  int speed = 5;             // 0 for all of Draco's predictors, 10 for none
 };
 
-// The Draco stream of a primitive; ids: of its attributes, numbered as they come.
+// The Draco stream of a primitive. ids: of its attributes, numbered in order.
 Binary draco_stream(const GltfBuilder& file, const GltfJson& primitive, const DracoChoice& choice, GltfJson* ids);
 
-// Compresses a primitive. keep: its accessors keep their plain data beside it (the extension is optional).
+// Compresses a primitive. keep: its accessors also keep their plain data (the extension is optional).
 void compress_draco(GltfBuilder& file, GltfJson& primitive, const DracoChoice& choice = {}, bool keep = false);
 
-// Replaces the buffer view of an accessor by a compressed one. filter: of attributes, whose bytes are encoded as they
-// are: already filtered.
+// Replaces the buffer view of an accessor by a compressed one. filter: of attributes, whose bytes are encoded
+// unchanged, because they are already filtered.
 void compress_meshopt(GltfBuilder& file, int view, const std::string& mode, size_t stride,
                       const std::string& filter = "NONE", const std::string& name = "EXT_meshopt_compression");
 

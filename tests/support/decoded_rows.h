@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a decoder returns, as a whole and in bands.
+// The output of a decoder, as a whole and in bands.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ inline Bytes read_all(Decoder& decoder) {
   return read_rows(decoder, 0, decoder.info.height, 0, decoder.info.channels.size());
 }
 
-// The same rows again, from the middle, and again from the top.
+// Reads the same rows again, from the middle, and again from the top.
 inline void expect_bands(Decoder& decoder) {
   const Bytes all = read_all(decoder);
   const int height = decoder.info.height;
@@ -43,7 +43,7 @@ inline void expect_bands(Decoder& decoder) {
   }
 }
 
-// Why a file is refused; empty: it is not.
+// The reason why a file is rejected. Empty if it is not.
 inline std::string refusal_of(std::unique_ptr<Decoder> (*open)(const PictureBytes&), const std::string& bytes) {
   try {
     read_all(*open(picture_in_memory(std::as_bytes(std::span(bytes)), "a file")));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Videos as the ffmpeg program decodes them, sample by sample.
+// Videos decoded by the ffmpeg program, sample by sample.
 #pragma once
 #include <array>
 #include <cmath>
@@ -33,7 +33,7 @@ struct DecodedVideo {
   std::string format;  // yuv420p10le
   std::string bytes;
   int bits = 8;
-  Extent block{1, 1};  // that shares a colour
+  Extent block{1, 1};  // pixels that share chroma
 
   size_t plane_size(size_t plane) const {
     const size_t samples = static_cast<size_t>(size.width / (plane ? block.width : 1)) *
@@ -43,7 +43,7 @@ struct DecodedVideo {
   size_t frame_size() const { return plane_size(0) + 2 * plane_size(1); }
   size_t frames() const { return bytes.size() / frame_size(); }
 
-  // As of 8 bits.
+  // Scaled to 8 bits.
   double sample(size_t frame, size_t plane, int x, int y) const {
     const size_t row = static_cast<size_t>(size.width / (plane ? block.width : 1));
     size_t at =
@@ -56,7 +56,7 @@ struct DecodedVideo {
     return value / std::exp2(bits - 8);
   }
 
-  // What a display shows of it, 0..255, by BT.709 of limited range.
+  // The displayed colour, 0..255, by BT.709 of limited range.
   std::array<double, 3> codes(size_t frame, int x, int y) const {
     const double luma = (sample(frame, 0, x, y) - 16.0) / 219.0 * 255.0;
     const double cb = (sample(frame, 1, x, y) - 128.0) / 224.0 * 255.0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the camera's twins in double precision share.
+// Shared by the reference cameras in double precision.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -50,7 +50,7 @@ inline double angle_between(glm::dvec3 a, glm::dvec3 b) {
   return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
-// A lat-long map between the centres of its texels, in a direction of the camera's frame.
+// The interpolated value of a lat-long map, in a direction of the camera's frame.
 inline double exact_map_at(const Image& map, glm::dvec3 d) {
   const double x = (std::atan2(d.x, -d.z) / kExactPi + 1.0) / 2.0 * map.width - 0.5;
   const double y = (0.5 - std::atan2(d.y, std::hypot(d.x, d.z)) / kExactPi) * map.height - 0.5;

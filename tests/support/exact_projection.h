@@ -44,7 +44,8 @@ inline dvec3 exact_polynomial(const ProjectionSetting& setting, dvec2 uv) {
   return {std::sin(theta) * std::cos(roll), std::sin(theta) * std::sin(roll), -std::cos(theta)};
 }
 
-// The faces as the VR camera for Arnold's source lists them, s to the right and t up; kEac as players unfold it.
+// The faces in the order of the source of the VR camera for Arnold, s to the right and t up; kEac as unfolded by
+// players.
 inline dvec3 exact_face(int kind, int cell, double s, double t) {
   if (kind == kCube3x2) {
     const dvec3 faces[] = {{s, t, -1}, {-s, 1, -t}, {-s, -1, t}, {1, t, s}, {-s, t, 1}, {-1, t, -s}};
@@ -105,7 +106,7 @@ inline dvec3 exact_direction(const ProjectionSetting& setting, dvec2 uv) {
   }
 }
 
-// Each named one as it stands, and with numbers of its own.
+// Each named projection unchanged, and with other numbers.
 inline std::vector<ProjectionSetting> many_settings(Dice& dice) {
   std::vector<ProjectionSetting> settings;
   for (const NamedProjection& named : named_projections()) {
@@ -128,8 +129,8 @@ inline std::vector<ProjectionSetting> many_settings(Dice& dice) {
   return settings;
 }
 
-// What the kernel's floats leave of a direction: its radius is rounded, and an equisolid lens makes that the more of an
-// angle the nearer it looks to straight behind.
+// The rounding error of a direction in the kernel's floats: its radius is rounded, and an equisolid lens turns that
+// into a larger angle the closer it is to straight behind.
 inline double rounding(const ProjectionSetting& setting, dvec2 uv) {
   if (setting.kind == kFisheyePolynomial) return 5e-7;  // five terms, a root
   if (setting.kind == kFisheyeStereographic) return 2.4e-7 * std::tan(glm::radians(double{setting.fov}) / 4.0);
@@ -146,7 +147,7 @@ inline bool in_circle(const ProjectionSetting& setting, dvec2 uv) {
 
 // --- the camera through them -----------------------------------------------------------------------------------------
 
-// Everything that a camera with this projection and convergence can be asked for but a lens, a map and an eye distance.
+// A camera with this projection and convergence, and with every feature except a lens, a map and an eye distance.
 inline StereoCamera odd_rig(Dice& dice, const ProjectionSetting& setting, int convergence) {
   StereoCamera stereo;
   stereo.position = vec3(dice.between(-2, 2), dice.between(-2, 2), dice.between(-2, 2));
@@ -164,7 +165,7 @@ inline StereoCamera odd_rig(Dice& dice, const ProjectionSetting& setting, int co
   return stereo;
 }
 
-// As ods/kernel/camera/camera.h says it, in world coordinates.
+// The ray as defined by ods/kernel/camera/camera.h, in world coordinates.
 inline ExactRay exact_ray(const StereoCamera& stereo, const Camera& camera, double side, dvec2 uv) {
   const dvec3 d = normalize(exact_direction(stereo.projection, uv));
   const dvec3 right(camera.right), up(camera.up), back(camera.back);
@@ -183,7 +184,7 @@ inline ExactRay exact_ray(const StereoCamera& stereo, const Camera& camera, doub
   dvec3 sideways = cross(heading, a) * (side * half * left);
   if (stereo.head_tilt_map) {
     const double tilt = (exact_map_at(*stereo.head_tilt_map, look) - 0.5) * kExactPi;
-    sideways = sideways * std::cos(tilt) + cross(look, sideways) * std::sin(tilt);  // look is square to it
+    sideways = sideways * std::cos(tilt) + cross(look, sideways) * std::sin(tilt);  // look is perpendicular to it
   }
   const dvec3 origin = sideways + heading * (double{stereo.neck} * left);
   if (stereo.convergence == kToeIn) look = normalize(look * double{stereo.convergence_distance} - sideways);
@@ -191,7 +192,7 @@ inline ExactRay exact_ray(const StereoCamera& stereo, const Camera& camera, doub
   return {dvec3(stereo.position) + right * origin.x + up * origin.y + back * origin.z, direction};
 }
 
-// Rays of all eyes through random places of the picture; origins within `origin_tolerance` metres.
+// Compares rays of all eyes through random positions of the picture; origins within `origin_tolerance` metres.
 inline void expect_exact_rays(const StereoCamera& stereo, int count, double origin_tolerance, Dice& dice) {
   const ProjectionSetting& setting = stereo.projection;
   const Camera camera = make_camera(stereo);
@@ -203,7 +204,7 @@ inline void expect_exact_rays(const StereoCamera& stereo, int count, double orig
     const ExactRay exact = exact_ray(stereo, camera, double{eye_side(eye)}, uv);
     ASSERT_LT(angle_between(ray.direction, exact.direction), 1.5e-6 + rounding(setting, uv))
         << projection_name(setting);
-    // The heading of a ray that all but points at the pole is as uncertain as its direction is small there.
+    // The heading of a ray close to the pole is as uncertain as its horizontal direction is small.
     const dvec3 a = stereo.axis ? dvec3(0, 1, 0) : dvec3(camera.up);
     const double level = std::max(length(cross(exact.direction, a)), 1e-6);
     ASSERT_LT(length(dvec3(ray.origin) - exact.origin), origin_tolerance + 1e-7 / level) << projection_name(setting);

@@ -61,7 +61,7 @@ static Imf::Header header_of(const ExrForm& form, size_t part) {
 static Imf::FrameBuffer buffer_of(const ExrForm& form, const std::byte* pixels) {
   Imf::FrameBuffer buffer;
   const size_t pixel = bytes_of_pixel(form), row = pixel * static_cast<size_t>(form.width);
-  // OpenEXR only reads what it writes to a file.
+  // OpenEXR only reads the pixels that it writes.
   char* at = reinterpret_cast<char*>(const_cast<std::byte*>(pixels)) - static_cast<ptrdiff_t>(pixel) * form.left -
              static_cast<ptrdiff_t>(row) * form.top;
   for (size_t c = 0; c < form.channels.size(); c++) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// EXR files of every form, written and read by OpenEXR itself.
+// EXR files in all variants, written and read by OpenEXR itself.
 #pragma once
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfHeader.h>
@@ -18,11 +18,11 @@ struct ExrForm {
   int width = 53;
   int height = 67;
   std::vector<std::string> channels = {"R", "G", "B"};
-  std::vector<Imf::PixelType> types;  // of the channels; empty: halves
-  std::string packing = "zip";        // as names_of_packings() has it
+  std::vector<Imf::PixelType> types;  // types of the channels; empty for halves
+  std::string packing = "zip";        // a name in names_of_packings()
   Imf::LineOrder order = Imf::INCREASING_Y;
-  int tile = 0;  // the side of its tiles; 0: none
-  int left = 0;  // of the data window
+  int tile = 0;  // the side of its tiles; 0 for none
+  int left = 0;  // left edge of the data window
   int top = 0;
   std::function<void(Imf::Header&)> prepare;
 };
@@ -39,7 +39,7 @@ inline void write_exr(const std::string& path, const ExrForm& form, const std::v
   write_exr(path, std::vector<ExrForm>{form}, std::vector<std::vector<std::byte>>{pixels});
 }
 
-// Of floats, which become halves where the form says so.
+// Writes floats, which become halves if the form requires it.
 void write_exr_of(const std::string& path, const ExrForm& form, const std::vector<float>& values);
 
 Imf::Header exr_header(const std::string& path);

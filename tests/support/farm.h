@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// ods submit and ods jobs, with programs in the places of Slurm's; tests/farm/slurm_test.sh has the real ones.
+// ods submit and ods jobs, with programs that replace Slurm's; tests/farm/slurm_test.sh uses the real ones.
 #pragma once
 #include <fmt/format.h>
 
@@ -30,14 +30,14 @@ class Farm : public Cli {
     ods::run_line("chmod +x " + tools.path(name));
   }
 
-  // A small command whose output lies in the folder.
+  // A small command whose output is in the folder.
   std::string video(const std::string& name = "a.mp4") const {
     return "video toys --width 32 --samples 4 --fps 10 -o " + folder.path(name);
   }
 
   json plan(const std::string& name) const { return json::parse(folder.read(name + ".farm/plan.json")); }
 
-  // Runs a task of the plan, as anybody may.
+  // Runs a task of the plan.
   int run_task(const json& group, int number) {
     std::vector<std::string> words = group["command"];
     if (group.contains("option")) {

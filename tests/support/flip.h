@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// FLIP: how different people find two pictures that they see in alternation (P. Andersson, J. Nilsson, T.
+// FLIP: the difference that people perceive between two alternating pictures (P. Andersson, J. Nilsson, T.
 // Akenine-Moller, M. Oskarsson, K. Astrom, M. Fairchild, "FLIP: A Difference Evaluator for Alternating Images", 2020).
 #pragma once
 #include <algorithm>
@@ -19,7 +19,7 @@ inline constexpr float kFlipPixelsPerDegree = 67.0f;  // a monitor of 3840 pixel
 
 namespace flip {
 
-using Weight = std::function<float(float away)>;  // of a place so many pixels off
+using Weight = std::function<float(float away)>;  // weight of a pixel at this distance
 
 // 2 radius + 1 weights. Those above 0 add up to 1, those below to -1.
 inline std::vector<float> kernel_of(int radius, const Weight& weight) {
@@ -34,7 +34,7 @@ inline std::vector<float> kernel_of(int radius, const Weight& weight) {
   return kernel;
 }
 
-// Beyond its edges a picture goes on with its last pixels.
+// Beyond its edges, the picture is continued by its last pixels.
 inline std::vector<float> blurred(const std::vector<float>& plane, int width, const std::vector<float>& kernel,
                                   bool down) {
   const int height = static_cast<int>(plane.size()) / width, radius = static_cast<int>(kernel.size() / 2);
@@ -54,7 +54,7 @@ inline std::vector<float> blurred(const std::vector<float>& plane, int width, co
 
 inline constexpr std::array<float, 3> kWhite = {0.950428545f, 1.0f, 1.088900371f};
 
-inline vec3 xyz_of(vec3 c) {  // of linear sRGB, white is 1
+inline vec3 xyz_of(vec3 c) {  // from linear sRGB, white is 1
   return vec3((0.4124564f * c.x + 0.3575761f * c.y + 0.1804375f * c.z) / kWhite[0],
               (0.2126729f * c.x + 0.7151522f * c.y + 0.0721750f * c.z) / kWhite[1],
               (0.0193339f * c.x + 0.1191920f * c.y + 0.9503041f * c.z) / kWhite[2]);
@@ -76,7 +76,7 @@ inline vec3 rgb_of_opponents(vec3 v) {
   return rgb_of(vec3(y + v.y / 500.0f, y, y - v.z / 200.0f));
 }
 
-// L*a*b*, colours paler where it is dark (Hunt's effect).
+// L*a*b*, with paler colours in dark areas (Hunt's effect).
 inline vec3 perceived(vec3 rgb) {
   const auto root = [](float t) {
     constexpr float kDelta = 6.0f / 29.0f;
@@ -92,7 +92,7 @@ inline float distance_of(vec3 a, vec3 b) {  // HyAB
   return std::abs(d.x) + std::sqrt(d.y * d.y + d.z * d.z);
 }
 
-// From a distance of colours to 0..1.
+// Converts a distance of colours to 0..1.
 inline float colour_error(float distance) {
   constexpr float kPower = 0.7f, kLow = 0.4f, kLowShare = 0.95f;
   const float most =
@@ -103,7 +103,7 @@ inline float colour_error(float distance) {
 }
 
 struct Seen {
-  std::vector<vec3> colours;  // without the detail that nobody sees
+  std::vector<vec3> colours;  // without imperceptible detail
   std::vector<float> edges, points;
 };
 
@@ -125,7 +125,7 @@ inline Seen seen(const Image& linear, float pixels_per_degree) {
   Seen result;
   result.colours.resize(count);
   for (size_t c = 0; c < 3; c++) {
-    // A sum of two Gaussian curves is not a product of one across and one down; each of the two is.
+    // A sum of two Gaussian curves is not a product of a horizontal and a vertical curve, but each of the two is.
     const auto [a1, b1, a2, b2] = kContrast[c];
     const auto part = [&](float b) {
       const auto kernel = kernel_of(reach, [&](float away) {

@@ -12,7 +12,7 @@
 namespace ods {
 
 struct TextNode {
-  std::string word;  // an operator, a function, a name; empty: a number
+  std::string word;  // an operator, a function, a name; empty for a number
   double number = 0.0;
   std::vector<std::shared_ptr<const TextNode>> operands;
 };
@@ -25,7 +25,7 @@ Node node(const std::string& word, std::vector<Node> operands = {}) {
   return std::make_shared<TextNode>(TextNode{word, 0.0, std::move(operands)});
 }
 
-// Words, numbers and single signs.
+// Words, numbers and single characters.
 std::vector<std::string> tokens_of(const std::string& text) {
   const std::string bare = std::regex_replace(text, std::regex("//[^\n]*"), "");
   static const std::regex token(R"([A-Za-z_#]\w*|(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|\S)");
@@ -53,7 +53,7 @@ class Parser {
     if (!take(token)) throw std::runtime_error("'" + token + "' expected, not '" + peek() + "'");
   }
 
-  // CONDITION < 0 ? A : B, where the language has it.
+  // CONDITION < 0 ? A : B, if the language has it.
   Node expression() {
     Node left = sum();
     if (!take("<")) return left;
@@ -202,7 +202,7 @@ int TextCamera::operations(double x, double y) const {
   return operations_;
 }
 
-// With values of its own.
+// Evaluates a function with its own values.
 double TextCamera::call(const TextNode& n, double x, double y, Values& known) const {
   const Function& function = functions_.at(n.word);
   if (n.operands.size() != 2 + function.parameters.size()) throw std::runtime_error("other arguments: " + n.word);
@@ -214,7 +214,7 @@ double TextCamera::call(const TextNode& n, double x, double y, Values& known) co
   return value(*function.body, own_x, own_y, given);
 }
 
-// POV-Ray knows what was declared before.
+// In POV-Ray, functions must be declared before they are called.
 void TextCamera::check_calls(const TextNode& n) const {
   static const std::set<std::string> kOwn = {"sin", "cos", "tan",   "asin",   "atan2", "sqrt", "exp", "pow", "abs",
                                              "min", "max", "floor", "select", "+",     "-",    "*",   "/"};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reads the text of an exported camera and computes what it says. Knows nothing of how the text came about.
+// Reads the text of an exported camera and evaluates it. It is independent of the code that writes the text.
 #pragma once
 #include <array>
 #include <map>
@@ -17,23 +17,23 @@ struct TextNode;
 class TextCamera {
  public:
   // POV-Ray: #declare NAME = NUMBER; #declare NAME = function(x, y, ...) { ... } camera { user_defined location {
-  // function { ... } x 3 } direction { ... } }. Throws std::runtime_error where the text is anything else.
+  // function { ... } x 3 } direction { ... } }. Throws std::runtime_error for any other text.
   static TextCamera from_povray(const std::string& text);
 
-  // Lines of a shading language: float NAME = ...; location = TYPE(..., ..., ...); what else there is, is passed over.
+  // Lines of a shading language: float NAME = ...; location = TYPE(..., ..., ...); other lines are ignored.
   static TextCamera from_shader(const std::string& text);
 
   std::array<double, 3> location(double x, double y) const { return vector(location_, x, y); }
   std::array<double, 3> direction(double x, double y) const { return vector(direction_, x, y); }
-  // What POV-Ray does for a ray: operators and functions of mathematics, of all six parts. It remembers nothing from
-  // one call to the next, and computes the condition of select() and the value that it chooses.
+  // The number of operations of POV-Ray for a ray: operators and mathematical functions, over all six components.
+  // POV-Ray does not cache values between calls, and computes the condition of select() and the selected value.
   int operations(double x, double y) const;
-  void set(const std::string& name, double value);  // of a number that the text declares
+  void set(const std::string& name, double value);  // sets a number that the text declares
 
  private:
   using Node = std::shared_ptr<const TextNode>;
   using Values = std::map<std::string, double>;
-  // A function that is called, of x, y and whatever else it is given.
+  // A function of x, y and other arguments.
   struct Function {
     std::vector<std::string> parameters;
     Node body;

@@ -40,7 +40,7 @@ struct GltfBuilder {
   GltfJson& node(size_t i) { return json["nodes"][i]; }
 
   Binary glb() const;
-  Scene load(const SceneOptions& options = {}) const;  // fails the test when the Scene breaks a promise
+  Scene load(const SceneOptions& options = {}) const;  // fails the test if the Scene violates a guarantee
 };
 
 // One mesh on node 0 of scene 0: the triangle (0,0,0) (1,0,0) (0,1,0), accessor 0, and nothing else.
@@ -52,10 +52,10 @@ Binary make_glb(const std::string& text, const Binary& binary);
 // A 2x2 PNG: (255,128,0,255) everywhere.
 Binary small_png();
 
-// The same bytes with `flips` of their bits flipped.
+// The bytes with `flips` random bits flipped.
 Binary flip_bits(Binary bytes, int flips, std::mt19937& random);
 
-// What load_gltf_bytes() says about these bytes; empty when it takes them.
+// The error of load_gltf_bytes() for these bytes. Empty if it accepts them.
 std::string error_of(const Binary& bytes);
 
 }  // namespace ods

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How far the walls of World::kHall are.
+// The distance of the walls of World::kHall.
 #pragma once
 #include <algorithm>
 

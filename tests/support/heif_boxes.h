@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Boxes in HEIF files, as phones write them and heif-enc does not.
+// Boxes in HEIF files that phones write, but heif-enc does not.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 
 namespace ods {
 
-// Adds boxes to `meta`, and moves what follows: the places of the pixels are absolute (iloc).
+// Adds boxes to `meta`, and updates the positions of the pixels, which are absolute (iloc).
 inline std::string with_meta(const std::string& file, const std::string& added, const std::string& property = "") {
   std::string tail, result = file;
   size_t at = 0;
@@ -28,7 +28,7 @@ inline std::string with_meta(const std::string& file, const std::string& added, 
     all.children.push_back(parse_boxes(property, tail)[0]);
     const size_t index = all.children.size();
     Box& associations = *find_child(properties, box_type("ipma"));
-    std::string& body = associations.body;  // of version 0 and small numbers, as heif-enc writes it
+    std::string& body = associations.body;  // version 0 and small numbers, as written by heif-enc
     size_t entry = 8;
     for (uint64_t i = 0; i < get_number(body, 4, 4); i++) {
       const uint64_t count = get_number(body, entry + 2, 1);

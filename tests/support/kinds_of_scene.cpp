@@ -59,7 +59,7 @@ Scene make_lighthouse() {
   return scene;
 }
 
-// A still life of several things on the ground.
+// A still life of several objects on the ground.
 Scene make_still_life() {
   Scene scene;
   const Finishes f = add_finishes(scene);
@@ -198,7 +198,7 @@ Scene make_huge_room() {
   return resized(std::move(scene), 1000.0f);
 }
 
-// Light as a baking program would have painted it: from a lamp in the middle, darker in corners.
+// Lighting as painted by a baking program: from a lamp in the middle, darker in corners.
 vec3 baked(vec3 color, vec3 p, vec3 normal, vec3 half) {
   const vec3 lamp(0.0f, half.y - 0.1f, 0.0f), way = lamp - p;
   const float direct = std::max(dot(normal, normalize(way)), 0.0f) / (0.6f + 0.35f * dot(way, way));
@@ -209,7 +209,7 @@ vec3 baked(vec3 color, vec3 p, vec3 normal, vec3 half) {
   return color * (vec3(1.0f, 0.9f, 0.75f) * (1.1f * direct) + vec3(0.2f, 0.22f, 0.26f)) * corner;
 }
 
-// A room of 6 x 2.8 x 5 m that holds its light in textures of its six sides and of its boxes.
+// A room of 6 x 2.8 x 5 m with its lighting in the textures of its six sides and of its boxes.
 Scene make_baked_room() {
   Scene scene;
   const vec3 half(3.0f, 1.4f, 2.5f);
@@ -310,7 +310,7 @@ Scene make_hills() {
   return scene;
 }
 
-// Rocks and a planet; nothing to stand on.
+// Rocks and a planet, without ground.
 Scene make_asteroids() {
   Scene scene;
   const int dust = add_texture(scene, 256, 256, [](vec2 p) {

@@ -10,8 +10,8 @@
 
 namespace ods {
 
-// Lambert's formula: half the sum of the angles that the lamp's edges span, each times the cosine of its plane's
-// normal to the surface's.
+// Lambert's formula: half the sum of the angles of the lamp's edges, each times the cosine between the normal of its
+// plane and the surface's.
 inline double polygon_irradiance(glm::dvec3 p, const std::vector<glm::dvec3>& corners, double radiance,
                                  glm::dvec3 normal = {0.0, 1.0, 0.0}) {
   double sum = 0.0;

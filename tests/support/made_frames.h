@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Frames for tests of videos: the left eye red, the right eye blue, every frame a little brighter; and sound.
+// Frames for tests of videos: the left eye red, the right eye blue, every frame slightly brighter; and sound.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -45,7 +45,8 @@ inline void write_frames(const std::string& pattern, const std::vector<int>& fra
   for (int frame : frames) save_picture(red_and_blue(eye, frame), options, frame_names(pattern)->path(frame));
 }
 
-// Left a sine, right silence, or so on: 16 bits, of any number of channels.
+// A wav file with different signals per channel, such as a sine on the left and silence on the right: 16 bits, any
+// number of channels.
 inline std::string wav(int channels, double seconds) {
   const int rate = 48000, count = static_cast<int>(seconds * rate);
   const auto little = [](uint32_t value, int bytes) {

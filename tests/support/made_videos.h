@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Videos of next to nothing for tests: a header that is right, and samples that are words, so that whoever follows the
-// header's offsets can see whether they lead to the right place. Written and read without the library's own code.
+// Tiny videos for tests: a correct header, and samples that are words, so that tests that follow the header's offsets
+// can check their targets. Written and read without the library's own code.
 #pragma once
 #include <cstdint>
 #include <cstdlib>
@@ -31,7 +31,7 @@ inline std::string box(const std::string& type, const std::string& body, bool la
 
 // --- mp4 -------------------------------------------------------------------------------------------------------------
 
-constexpr size_t kWord = 16;  // bytes of a chunk
+constexpr size_t kWord = 16;  // bytes of a chunk's word
 
 inline std::string word(int track, int chunk) {
   std::string text = "track " + std::to_string(track) + " no " + std::to_string(chunk);
@@ -43,17 +43,17 @@ struct Mp4Options {
   bool header_first = true;
   bool wide_offsets = false;  // co64
   bool large_data = false;    // mdat has a 64 bit size
-  bool endless_data = false;  // mdat's size is 0: to the end
-  size_t free = 0;            // bytes of a box behind the header
+  bool endless_data = false;  // mdat's size is 0: it extends to the end
+  size_t free = 0;            // bytes of a box after the header
   std::string brand = "isom";
-  std::string entry_boxes;          // in the sample entry, behind avcC
+  std::string entry_boxes;          // in the sample entry, after avcC
   std::string track_boxes;          // at the end of the first track
   std::string table_boxes;          // at the end of its tables
-  std::vector<int> widths = {256};  // of the video tracks
-  int height = 0;                   // of theirs; 0: they are square
-  std::string sound_boxes;          // in the sample entry of a last track, of four channels; empty: there is none
+  std::vector<int> widths = {256};  // widths of the video tracks
+  int height = 0;                   // height of the tracks; 0 for square ones
+  std::string sound_boxes;          // in the sample entry of a last track, of four channels; empty for no such track
   int chunks = 3;
-  size_t padding = 0;  // bytes of each chunk behind its word
+  size_t padding = 0;  // bytes of each chunk after its word
 };
 
 inline std::string sample_entry(int width, int height, const std::string& boxes) {
@@ -86,7 +86,7 @@ inline std::string track(const Mp4Options& options, int id, const std::vector<ui
                  box("mdia", media) + (id == 1 ? options.track_boxes : ""));
 }
 
-// Of four channels and no samples.
+// A track of four channels without samples.
 inline std::string sound_track(int id, const std::string& boxes) {
   const std::string none(4, '\0');
   const std::string entry = std::string(6, '\0') + number(1, 2) + none + none + number(4, 2) + number(16, 2) + none +
@@ -127,13 +127,13 @@ inline std::string mp4(const Mp4Options& options) {
   return type + header(type.size() + header(0).size() + free.size() + data_header) + free + video_data;
 }
 
-// Two fragments behind an index, and a table for seeking behind them. Offsets count from the file's first byte
-// (absolute) or from the fragment.
+// Two fragments after an index, and a table for seeking after them. Offsets count from the file's first byte (absolute)
+// or from the fragment.
 inline std::string fragmented_mp4(bool absolute) {
   Mp4Options options;
   options.chunks = 0;
   std::string video = mp4(options);
-  video.resize(video.size() - 8);  // no mdat
+  video.resize(video.size() - 8);  // without mdat
   const auto fragment = [&](int chunk, uint64_t at) {
     const auto moof = [&](uint64_t data) {
       const std::string head =
@@ -157,9 +157,9 @@ inline std::string fragmented_mp4(bool absolute) {
   return video + box("mfra", box("tfra", table) + box("mfro", number(0, 8)));
 }
 
-// Where the bodies of all boxes lie that are reached by a path of types.
+// The positions of the bodies of all boxes on a path of types.
 struct Found {
-  size_t begin, end;  // of the body
+  size_t begin, end;  // range of the body
   size_t box;         // its first byte
 };
 
@@ -186,7 +186,7 @@ inline std::vector<Found> find(const std::string& video, const std::vector<std::
   return find(video, path, 0, video.size());
 }
 
-// The words that all offsets of the video lead to, in their order.
+// The words at the targets of all offsets of the video, in order.
 inline std::vector<std::string> words(const std::string& video) {
   std::vector<std::string> all;
   for (const std::string type : {"stco", "co64"}) {
@@ -215,16 +215,16 @@ inline std::string element(uint64_t id, const std::string& body, int width = 1) 
 }
 
 struct MatroskaOptions {
-  size_t room = 0;            // bytes of a Void behind the tracks
+  size_t room = 0;            // bytes of a Void after the tracks
   bool cues_first = false;    // before the clusters
-  bool says_position = true;  // every cluster does
-  bool endless = false;       // the segment says no size
+  bool says_position = true;  // every cluster contains its position
+  bool endless = false;       // the segment has an unknown size
   std::string video;          // in the Video element
   std::string tags;
   int width = 256, height = 256;
 };
 
-// SeekHead, Tracks, two clusters, Cues: each at the place that the others say.
+// SeekHead, Tracks, two clusters, Cues, with consistent positions.
 inline std::string matroska(const MatroskaOptions& options) {
   const std::string head = element(0x1a45dfa3, element(0x4287, number(2, 1)) + element(0x4282, "matroska"));
   const std::string video = element(0xb0, number(static_cast<uint64_t>(options.width), 2)) +
@@ -286,7 +286,7 @@ inline Piece piece_at(const std::string& video, size_t at, size_t end) {
   return {value(video, at, length), at, begin, size == mask ? end : begin + size};
 }
 
-// All that are reached by a path of ids.
+// All elements on a path of ids.
 inline std::vector<Piece> pieces(const std::string& video, const std::vector<uint64_t>& path, size_t begin,
                                  size_t end) {
   std::vector<Piece> all;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A writer of Google's mesh projection: of the specification, not of ours.
+// A writer of Google's mesh projection, based on the specification, not on our reader.
 #pragma once
 #include <libdeflate.h>
 
@@ -50,7 +50,7 @@ struct List {
   std::vector<uint32_t> indices;
 };
 
-// u and v as OpenGL has them, from the lower left corner.
+// u and v as in OpenGL, from the lower left corner.
 struct GlVertex {
   float x, y, z, u, v;
 };
@@ -108,8 +108,8 @@ inline std::string box_body(const std::vector<std::string>& meshes, bool packs) 
   return made::number(0, 4) + made::number(crc32(rest), 4) + rest;
 }
 
-// A grid over a fisheye of 180 degrees that fills the eye's picture, as "VR180 Video Format" makes one; `u0`, `u1`:
-// where in the frame.
+// A grid over a fisheye of 180 degrees that fills the eye's picture, as in "VR180 Video Format". `u0`, `u1`: its range
+// in the frame.
 inline std::string fisheye_mesh(int grid, float u0 = 0.0f, float u1 = 1.0f, float v0 = 0.0f, float v1 = 1.0f) {
   std::vector<GlVertex> vertices;
   for (int row = 0; row < grid; row++) {

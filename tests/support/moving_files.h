@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// glTF files that move, made in memory.
+// Animated glTF files, made in memory.
 #pragma once
 #include <cmath>
 
@@ -9,7 +9,7 @@
 
 namespace ods {
 
-// One channel more in animation 0.
+// Adds a channel to animation 0.
 inline void animate(GltfBuilder& file, const GltfJson& target, const std::vector<float>& times,
                     const std::vector<float>& values, const std::string& type,
                     const std::string& interpolation = "LINEAR") {
@@ -29,7 +29,7 @@ inline GltfJson pointer(const std::string& path) {
   return {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", path}}}}}};
 }
 
-// A strip of which the far end hangs on a joint that turns, the middle on both.
+// A strip whose far end is attached to a turning joint, and whose middle to both joints.
 inline GltfBuilder make_skinned(bool second_set) {
   GltfBuilder file = make_triangle();
   file.json["nodes"] = GltfJson::parse(R"([{"mesh": 0, "skin": 0, "translation": [9, 9, 9]}, {"children": [2]},

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A picture with layers that a test saves, and looks up pixel by pixel once it is open again.
+// A picture with layers that a test saves, and examines pixel by pixel after opening it again.
 #pragma once
 #include <optional>
 #include <span>
@@ -20,7 +20,7 @@ inline float light(int eye, int x, int y, int c) {
   return side + 0.006f * static_cast<float>(x) + 0.004f * static_cast<float>(y) + 0.01f * static_cast<float>(c);
 }
 
-// Colour (with alpha: 1 but in the first column), depth, normals.
+// Colour (with alpha, which is 1 except in the first column), depth, normals.
 inline PictureRows picture_rows(const std::vector<int>& eyes, bool alpha, bool layers) {
   PictureRows rows;
   rows.eye = {kWidth, kHeight};

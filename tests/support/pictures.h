@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rendering small pictures in tests, and asking what is in them.
+// Renders small pictures in tests, and examines them.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -64,7 +64,8 @@ inline uint64_t digest(const Picture& picture) {
   return hash;
 }
 
-// A little of everything the kernel does: every kind of light and lobe, alpha, a volume, textures, mirrored instances.
+// A scene with every feature of the kernel: every kind of light and lobe, alpha, a volume, textures, mirrored
+// instances.
 inline Scene feature_scene() {
   Scene scene;
   Dice dice(1);

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where things lie on the machine that builds. As functions: a path in every file's flags would have each clone of the
-// repository compile all tests anew.
+// Folders on the build machine. They are functions, because with a path in every file's flags, each clone of the
+// repository would compile all tests again.
 #pragma once
 #include <string>
 
 namespace ods {
 
-std::string source_folder();  // of the repository
-std::string shared_scenes();  // a folder that need not exist
+std::string source_folder();  // root of the repository
+std::string shared_scenes();  // a folder that may be missing
 std::string ods_command();
 std::string glslang();
 

@@ -5,6 +5,7 @@
 #pragma once
 #include <string>
 
+#include "ods/files/atomic_file.h"
 #include "ods/image/image_file.h"
 #include "tests/support/gltf_builder.h"
 #include "tests/support/temporary_folder.h"
@@ -30,7 +31,7 @@ inline Binary make_png(int width, int height, const std::string& channels, Sampl
   return {bytes.begin(), bytes.end()};
 }
 
-// Adds a picture to a file and returns the index of a texture that shows it.
+// Adds a picture to a file and returns the index of a texture with it.
 inline int add_texture(GltfBuilder& file, const Binary& png) {
   const int view = file.add_view(png);
   file.json["images"].push_back({{"bufferView", view}, {"mimeType", "image/png"}});

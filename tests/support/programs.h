@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Other programs as judges.
+// Runs other programs for verification.
 #pragma once
 #include <sys/wait.h>
 
@@ -17,7 +17,7 @@ struct Ran {
   std::string out;  // stdout and stderr
 };
 
-// A line for the shell.
+// Runs a shell command.
 inline Ran run_line(const std::string& line) {
   Ran ran;
   std::FILE* const pipe = popen(("{ " + line + "\n} 2>&1").c_str(), "r");
@@ -29,7 +29,8 @@ inline Ran run_line(const std::string& line) {
   return ran;
 }
 
-// Why a test that needs this cannot run here; empty: it can. try_it: a line for the shell that succeeds if it can.
+// The reason why a test that needs this cannot run here. Empty if it can. try_it: a shell command that succeeds if it
+// can.
 inline std::string missing(const std::string& what, const std::string& try_it) {
   return run_line(try_it).code == 0 ? "" : "skipped: " + what + " is not installed";
 }

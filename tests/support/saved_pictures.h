@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Saving pictures in tests that read them back.
+// Saves pictures in tests that read them back.
 #pragma once
 #include <string>
 #include <vector>
@@ -19,7 +19,7 @@ inline SaveOptions options_for(Layout layout) {
   return options;
 }
 
-// How far codecs may be off, in linear light.
+// Maximum error of codecs, in linear light.
 inline float tolerance(FileFormat format) {
   switch (format) {
     case FileFormat::kPng:
@@ -39,7 +39,7 @@ inline float tolerance(FileFormat format) {
   return 0.0f;
 }
 
-// A file from which both eyes come back as they were saved, codecs aside.
+// A format from which both eyes can be read back, up to the codec's error.
 struct SavedForm {
   Layout layout;
   FileFormat format;
@@ -47,8 +47,8 @@ struct SavedForm {
   std::string text() const { return name + " " + std::string(layout_name(layout)); }
 };
 
-// Every layout in every format, but anaglyphs and checkerboards, which keep only part of each eye, and interleaved eyes
-// in lossy formats, which mix them.
+// Every layout in every format, except anaglyphs and checkerboards, which keep only part of each eye, and interleaved
+// eyes in lossy formats, which mix them.
 inline std::vector<SavedForm> every_saved_form() {
   std::vector<SavedForm> forms;
   for (const std::string extension : {"png", "jpg", "tif", "webp", "hdr", "exr"}) {

@@ -34,7 +34,7 @@ static std::string check_vertex(const Vertex& v) {
   return "";
 }
 
-// A mesh that is bent may lose its triangles' areas on the way.
+// Triangles of a deformed mesh may temporarily have no area.
 static bool is_bent(const Scene& scene, size_t mesh) {
   for (const Deformation& deformation : scene.animation.deformations) {
     if (static_cast<size_t>(deformation.mesh) == mesh) return true;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The promises of ods/scene/gltf/gltf.h, checked: for the tests and the fuzzer.
+// Checks the guarantees of ods/scene/gltf/gltf.h, for the tests and the fuzzer.
 #pragma once
 #include <string>
 
@@ -9,7 +9,7 @@
 
 namespace ods {
 
-// The first promise that a loaded Scene breaks; empty when it keeps them all.
+// The first guarantee that a loaded Scene violates. Empty if there is none.
 std::string broken_promise(const Scene& scene);
 
 }  // namespace ods

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A scene made in code, written as a user's program would write it.
+// A scene made in code, written in the way of a user's program.
 #pragma once
 #include "tests/support/gltf_builder.h"
 
@@ -9,7 +9,7 @@ namespace ods {
 
 // The scene as a .glb: meshes, instances, lamps, and materials of metallic-roughness with emission, transmission and
 // volume. Each mesh has the texture coordinates of its base colour. Its environment and its view points are left out,
-// as most programs do.
+// as by most programs.
 Binary glb_of(const Scene& scene);
 
 }  // namespace ods

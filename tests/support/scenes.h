@@ -7,7 +7,7 @@
 
 namespace ods {
 
-// A rectangle: origin, origin + a, origin + b, origin + a + b; its front is where cross(a, b) points.
+// A rectangle: origin, origin + a, origin + b, origin + a + b; its front is in the direction of cross(a, b).
 inline int add_rectangle(Scene& scene, vec3 origin, vec3 a, vec3 b, int material) {
   return add(scene, make_quad(origin, a, b), material);
 }
@@ -19,7 +19,7 @@ inline int add_layered(Scene& scene, Material material, const MaterialLayers& la
   return add_material(scene, material);
 }
 
-// A closed box between two corners with its faces' fronts outside; six meshes, so that each face can be told apart.
+// A closed box between two corners, with its fronts outside; six meshes, so that the faces can be distinguished.
 inline void add_box(Scene& scene, vec3 low, vec3 high, int material) {
   const vec3 x(high.x - low.x, 0, 0), y(0, high.y - low.y, 0), z(0, 0, high.z - low.z);
   add_rectangle(scene, low, y, x, material);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A plan whose words break what is quoted badly, written for a scheduler, and a program in the place of ods that says
-// how it was called.
+// A plan whose arguments break incorrect quoting, written for a scheduler, and a program that replaces ods and reports
+// its arguments.
 #pragma once
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ class Schedulers : public ::testing::Test {
 
   std::string in_folder(const std::string& name) const { return shell_word(plan.folder + "/" + name); }
 
-  // How a task has to be called, a word per line; more: what the scheduler's own words are, behind the command.
+  // The expected arguments of a task, one per line; more: the scheduler's own arguments, after the command.
   std::string expected(size_t group, int number, const std::vector<std::string>& more = {}) const {
     const TaskGroup& tasks = plan.groups[group];
     std::string lines;
@@ -70,7 +70,7 @@ class Schedulers : public ::testing::Test {
 
   std::string said() const { return folder.read("said"); }
 
-  // What a script of Python makes of a file of the folder.
+  // The output of a Python script for a file of the folder.
   std::string by_python(const std::string& script, const std::string& file) const {
     folder.write("script.py", "import sys\ntext = open(sys.argv[1], encoding='utf-8').read()\n" + script);
     return run_line("PYTHONIOENCODING=utf-8 python3 " + folder.path("script.py") + " " + in_folder(file)).out;

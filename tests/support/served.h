@@ -45,20 +45,20 @@ class Connection {
     return send(socket_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
   }
 
-  // The server has neither answered nor closed.
+  // Returns whether the server has neither answered nor closed.
   bool is_open() const {
     char byte;
     return recv(socket_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) < 0 && errno == EAGAIN;
   }
 
-  // To the end of its first line.
+  // Reads to the end of the first line.
   std::string read_line() const {
     std::string text;
     for (char c = 0; c != '\n' && recv(socket_, &c, 1, 0) == 1;) text += c;
     return text;
   }
 
-  // Until the server closes.
+  // Reads until the server closes.
   std::string read_all() const {
     std::string text;
     char piece[65536];
@@ -117,7 +117,7 @@ class Served : public Cli {
                body);
   }
 
-  // Kilobytes of the server's that are in memory, and the most that ever were.
+  // Present and peak resident memory of the server, kilobytes.
   long resident() const { return memory("VmRSS:"); }
   long peak() const { return memory("VmHWM:"); }
   long memory(const std::string& name) const {
@@ -128,8 +128,8 @@ class Served : public Cli {
     return 0;
   }
 
-  // Kilobytes that work() leaves in memory each time: the least growth of several rounds. A leak grows in every round;
-  // what the allocator keeps for a new thread, or a frame that is just being made, does not.
+  // Kilobytes that work() leaves in memory each time: the minimum growth of several rounds. A leak grows in every
+  // round; memory that the allocator keeps for a new thread, or a frame in progress, does not.
   template <class Work>
   long leaked_by(const Work& work) const {
     constexpr int rounds = 4, times = 20;

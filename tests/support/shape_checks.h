@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What every triangle mesh of ours must be.
+// Checks that all of our triangle meshes must pass.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 
 namespace ods {
 
-// Finite vertices, unit normals, corners in range, no flat triangles, normals on the side the winding says.
+// Finite vertices, unit normals, corners in range, no flat triangles, normals on the side defined by the winding.
 inline void expect_sound(std::span<const Vertex> vertices, std::span<const uvec3> triangles) {
   ASSERT_FALSE(triangles.empty());
   for (const Vertex& v : vertices) {
@@ -32,8 +32,8 @@ inline void expect_sound(std::span<const Vertex> vertices, std::span<const uvec3
   }
 }
 
-// How many directed edges have no partner in the other direction; corners on the same hundredth of a millimetre are
-// one.
+// The number of directed edges without a partner in the other direction. Corners within a hundredth of a millimetre
+// count as one.
 inline int open_edges(std::span<const Vertex> vertices, std::span<const uvec3> triangles) {
   using Place = std::array<long, 3>;
   const auto place = [&](uint i) {

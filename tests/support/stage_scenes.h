@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scenes of different kinds, as files have them: objects, rooms, places, in right and wrong units.
+// Scenes of different kinds, as in files: objects, rooms, places, in right and wrong units.
 #pragma once
 #include <cmath>
 #include <functional>
@@ -24,7 +24,7 @@ inline void add_block(Scene& scene, vec3 low, vec3 high, int material = 1) {
   add(scene, make_box(high - low), material, placed(0.5f * (low + high)));
 }
 
-// The whole scene in another size.
+// The whole scene, scaled.
 inline Scene resized(Scene scene, float factor) {
   for (Instance& instance : scene.instances) {
     instance.row0 *= factor, instance.row1 *= factor, instance.row2 *= factor;
@@ -39,7 +39,7 @@ inline Scene moved(Scene scene, vec3 way) {
   return scene;
 }
 
-// A chair, 1 m high, that stands at the origin.
+// A chair, 1 m high, at the origin.
 inline Scene make_chair() {
   Scene scene = with_materials();
   for (const float x : {-0.22f, 0.18f}) {
@@ -95,7 +95,7 @@ inline Scene make_simple_room() {
   return scene;
 }
 
-// The same with walls 20 cm thick, and a window if wished.
+// The same room with walls 20 cm thick, and optionally a window.
 inline Scene make_walled_room(bool window = false) {
   Scene scene = with_materials();
   add_block(scene, vec3(-3.2f, -0.2f, -2.7f), vec3(3.2f, 0, 2.7f), 0);
@@ -169,7 +169,7 @@ inline Scene make_cave() {
   return scene;
 }
 
-// Rocks that float around in a cube of 60 m, the nearest to its middle 8 m away.
+// Rocks floating in a cube of 60 m, the nearest to its middle 8 m away.
 inline Scene make_space() {
   Scene scene = with_materials();
   for (int i = 0; i < 300; i++) {

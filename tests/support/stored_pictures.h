@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Stored pictures made in memory, and conversions of them into images.
+// Stored pictures made in memory, and their conversion to images.
 #pragma once
 #include <cstring>
 #include <functional>
@@ -15,7 +15,7 @@ namespace ods {
 
 struct MadePicture {
   StoredPicture picture;
-  std::vector<std::vector<std::byte>> memory;  // of each eye's layers
+  std::vector<std::vector<std::byte>> memory;  // memory of each eye's layers
 };
 
 // The values of a pixel, of every eye by its home.
@@ -35,7 +35,7 @@ inline MadePicture make_picture(const StereoCamera& camera, Extent size, const s
   return made;
 }
 
-// A layer of floats, or of codes: then the function returns what a code stands for as it is, 0..255.
+// A layer of floats, or of codes; for codes the function returns the code's value, 0..255.
 template <class T>
 void add_layer(MadePicture& made, const std::vector<std::string>& channels, LayerRule rule, SampleType sample,
                const PixelFunction& value) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Videos that say of themselves what they are, as others write them and as we do, for tests of what becomes of that.
+// Videos with format metadata, as written by other programs and by us, for tests of how the metadata is handled.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -22,15 +22,15 @@ extern "C" {
 
 namespace ods::made {
 
-// A video and the bytes that stay in it, unless it is asked to be of another form.
+// A video and the bytes that are kept unless another format is requested.
 struct Tagged {
   std::string title;
-  std::string name;  // of its file
+  std::string name;  // name of its file
   std::string video;
   std::vector<std::string> kept;
 };
 
-// --- boxes, as others write them -------------------------------------------------------------------------------------
+// --- boxes, as written by other programs -----------------------------------------------------------------------------
 
 inline std::string st3d(int mode) {
   return box("st3d", number(0, 4) + number(static_cast<uint64_t>(mode), 1));
@@ -52,7 +52,7 @@ inline const std::string kWhole = equi(0, 0, 0, 0), kHalf = equi(0, 0, kQuarter,
 inline const std::string kCube = box("cbmp", number(0, 4) + number(0, 4) + number(16, 4));  // with padding
 inline const std::string kMesh = box("mshp", number(0, 4) + number(0x12345678, 4) + "raw meshes of a camera");
 
-// As google/spatial-media writes it: with a head, over several lines, and more than we write.
+// Metadata as written by google/spatial-media: with a head, over several lines, and more than we write.
 inline std::string v1(const std::string& stereo, const std::string& more = "") {
   std::string xml =
       "<?xml version=\"1.0\"?><rdf:SphericalVideo\nxmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\"\n"
@@ -215,7 +215,7 @@ inline void add_side_data(AVStream* stream, AVPacketSideDataType type, uint8_t* 
 #endif
 }
 
-// A video that libavformat wrote, of one packet that nobody decodes.
+// A video written by libavformat, with one packet that is not decoded.
 inline std::string muxed(const std::string& path, int width, int height, AVStereo3DType eyes, bool has_sphere,
                          AVSphericalProjection sphere, bool has_stereo = true) {
   AVFormatContext* video = nullptr;
@@ -277,14 +277,13 @@ inline std::vector<Tagged> videos_of_ffmpeg(const TemporaryFolder& folder) {
   return cases;
 }
 
-// --- videos that others' programs have tagged
-// --------------------------------------------------------------------------
+// --- videos tagged by other programs -------------------------------------------------------------------------------
 
 inline bool runs(const std::string& words) {
   return std::system((words + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-// As exiftool and mkvpropedit leave them; none of a program that is not installed.
+// Videos as written by exiftool and mkvpropedit; none for a program that is not installed.
 inline std::vector<Tagged> videos_of_tools(const TemporaryFolder& folder) {
   std::vector<Tagged> cases;
   const auto add = [&](const std::string& title, const std::string& name, int width, int height,

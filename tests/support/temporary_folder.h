@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Places on the disk for one test.
+// Folders for one test.
 #pragma once
 #include <sys/mount.h>
 
@@ -15,7 +15,7 @@
 
 namespace ods {
 
-// An empty folder that goes with the object.
+// An empty folder that is removed with the object.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -41,7 +41,7 @@ class TemporaryFolder {
     return {std::istreambuf_iterator<char>(stream), {}};
   }
 
-  // Everything in it, sorted.
+  // All names in it, sorted.
   std::vector<std::string> names() const {
     std::vector<std::string> result;
     for (const auto& entry : std::filesystem::directory_iterator(root_)) {
@@ -55,7 +55,7 @@ class TemporaryFolder {
   std::string root_;
 };
 
-// A disk of 256 KiB, where the machine lets us mount one.
+// A disk of 256 KiB, if the machine allows mounting one.
 class TinyDisk {
  public:
   TinyDisk() { mounted_ = mount("ods", folder_.path("").c_str(), "tmpfs", 0, "size=256k") == 0; }

@@ -36,7 +36,7 @@ static void set_fields(TIFF* tiff, const TiffForm& form) {
   if (form.prepare) form.prepare(tiff);
 }
 
-// Of whole bytes, as libtiff wants one plane.
+// Rows of whole bytes, as libtiff requires for one plane.
 static std::vector<std::byte> plane_of(const TiffForm& form, const std::byte* row, size_t plane) {
   const size_t size = form.bits / 8u;
   std::vector<std::byte> samples(form.width * size);
@@ -62,7 +62,7 @@ static void write_tiles(TIFF* tiff, const TiffForm& form, const std::vector<std:
 }
 
 void write_tiff(const std::string& path, const TiffForm& form, const std::vector<std::byte>& pixels) {
-  TIFFSetWarningHandler(nullptr);  // of packings that it finds old
+  TIFFSetWarningHandler(nullptr);  // warns about old compressions
   TIFF* const tiff = TIFFOpen(path.c_str(), form.mode.c_str());
   ASSERT_NE(tiff, nullptr);
   set_fields(tiff, form);

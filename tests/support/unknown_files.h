@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files of every layout and projection that say nothing of themselves, and what became of recognising them.
+// Files of every layout and projection without metadata, and the result of identifying them.
 #pragma once
 #include <functional>
 #include <string>
@@ -13,10 +13,10 @@
 
 namespace ods {
 
-// What a file is. Without words nobody can tell fisheye-polynomial, whose numbers are those of one lens, from another
-// lens; so it is not asked for.
+// The actual format of a file. Without metadata, fisheye-polynomial, whose numbers are those of one lens, cannot be
+// distinguished from another lens, so it is not tested.
 struct Truth {
-  std::optional<Layout> layout;  // none: one eye
+  std::optional<Layout> layout;  // not set for one eye
   ProjectionSetting projection;
 };
 
@@ -38,7 +38,7 @@ inline std::vector<Truth> all_truths() {
   return truths;
 }
 
-// About `pixels` by half as many in one eye, in numbers that divide by halves and faces.
+// A size of about `pixels` by half as many for one eye, divisible into halves and faces.
 inline Extent unknown_eye(const ProjectionSetting& projection, int pixels) {
   const double aspect = 1000.0 / natural_height(projection, 1000);
   const int width = static_cast<int>(std::sqrt(0.5 * pixels * pixels * aspect)) / 24 * 24;
@@ -47,12 +47,12 @@ inline Extent unknown_eye(const ProjectionSetting& projection, int pixels) {
 
 using TwoEyes = std::function<Image(int eye, const ProjectionSetting& projection, Extent size)>;
 
-// JPEG mixes eyes whose pixels alternate: such files are PNG.
+// JPEG mixes eyes whose pixels alternate, so such files are PNG.
 inline std::string unknown_name(const Truth& truth) {
   return truth.layout && arrangement_of(*truth.layout).is_interleaved() ? "file.png" : "file.jpg";
 }
 
-// The left eye is that of a picture of one eye.
+// A picture of one eye uses the left eye.
 inline void write_unknown(const std::string& path, const Truth& truth, const TwoEyes& eyes, Extent size,
                           int quality = 90) {
   Picture picture;
@@ -86,7 +86,7 @@ inline bool is_right(const Reading& reading, const Truth& truth) {
 enum class Verdict {
   kSureAndRight,
   kRightUnsure,  // but not sure
-  kNamed,        // not sure, and right is what it names beside another reading
+  kNamed,        // not sure, but the actual format is among the named ones
   kWrong,        // not sure
   kSureAndWrong,
 };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A world that can be seen in any direction, without repetition and without a place that stands out.
+// A world that is visible in all directions, without repetition and without special places.
 #pragma once
 #include <cmath>
 #include <random>

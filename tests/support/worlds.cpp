@@ -33,7 +33,7 @@ float noise_at(vec3 p, float size, uint32_t seed) {
 
 namespace {
 
-// Where a ray from within a box meets it, and the axis across the wall.
+// The point where a ray from within a box meets it, and the axis across the wall.
 struct WallHit {
   vec3 point;
   int axis;
@@ -92,7 +92,7 @@ vec3 field_at(vec3 origin, vec3 direction) {
   return color;
 }
 
-// Rock all around, nowhere farther than 4 m, lit from one side.
+// Rock all around, at most 4 m away, lit from one side.
 vec3 cave_at(vec3 origin, vec3 direction) {
   const vec3 middle(0.4f, 0.3f, -0.5f);
   const vec3 o = origin - middle;
@@ -102,7 +102,7 @@ vec3 cave_at(vec3 origin, vec3 direction) {
   return light * vec3(0.2f + noise_at(p, 0.9f, 71), 0.2f + noise_at(p, 0.8f, 72), 0.2f + noise_at(p, 1.0f, 73));
 }
 
-// A test room: checks of half a metre on all six sides, and its four walls are alike.
+// A test room: checks of half a metre on all six sides, with four equal walls.
 vec3 tiles_at(vec3 origin, vec3 direction) {
   const auto [point, wall] = wall_of_box(vec3(-2.5f, -1.5f, -2.5f), vec3(2.5f, 1.5f, 2.5f), origin, direction);
   const vec3 p = point * 2.0f;

@@ -28,7 +28,7 @@ vec3 pixel_at(const Image& image, vec2 uv) {
   return {image.at(x, y)[0], image.at(x, y)[1], image.at(x, y)[2]};
 }
 
-// Whether a colour is that of a plate, its letters or its border, and not the sky's or the earth's.
+// Returns whether a colour belongs to a plate, its letters or its border, and not to the sky or the earth.
 bool is_plate(vec3 color) {
   const float most = std::max({color.x, color.y, color.z}), least = std::min({color.x, color.y, color.z});
   return most < 0.02f || most > 0.3f || most - least > 0.1f;

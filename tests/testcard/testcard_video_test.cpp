@@ -30,7 +30,7 @@ int luma(const Planes& planes, int x, int y) {
   return static_cast<int>(planes.first[0][static_cast<size_t>(y) * planes.stride[0] + static_cast<size_t>(x)]);
 }
 
-// How many numbers of an eye's half of the frame differ.
+// The number of differing values in an eye's half of the frame.
 int differences(const VideoFrame& a, const VideoFrame& b, Extent from, Extent size) {
   int count = 0;
   for (int y = from.height; y < from.height + size.height; y++) {
@@ -40,7 +40,7 @@ int differences(const VideoFrame& a, const VideoFrame& b, Extent from, Extent si
   return count;
 }
 
-// What is drawn over the still card is what all of the card would be, drawn at once.
+// Marks drawn over the still card give the same pixels as a card drawn at once.
 TEST(TestcardVideo, AFrameIsTheWholeCardOfItsMoment) {
   const std::pair<const char*, Layout> kForms[] = {{"lat-long", Layout::kTopBottom},
                                                    {"vr180", Layout::kSideBySide},

@@ -33,7 +33,7 @@ Packing usual(VideoCodec codec) {
   return {codec, 8, Chroma::k420, {}};
 }
 
-// Of 255.
+// A channel of a pixel, 0 to 255.
 double code_at(const StoredPicture& picture, size_t eye, int x, int y, size_t channel) {
   const LayerPixels& layer = picture.eyes[eye].layers[0];
   const std::byte* at = layer.first + y * layer.row_stride + x * layer.pixel_stride;
@@ -50,7 +50,7 @@ class Decode : public ::testing::Test {
     return folder.path(name);
   }
 
-  // What opening and reading it says; empty: all is well.
+  // The error of opening and reading it; empty if there is none.
   std::string error_of(const std::string& path) const {
     try {
       Footage video(path, {});
@@ -264,8 +264,8 @@ TEST_F(Decode, PicturesStoredUpsideDownAreTurned) {
 
 // --- eyes that are layers --------------------------------------------------------------------------------------------
 
-// What two flat lenses see, 63.4 degrees across, three pictures of 256x192: encoded by x265 4.1 (built with multiview),
-// in a mov with lhvC, vexu and hfov, as phones write them.
+// The views of two flat lenses, 63.4 degrees across, three pictures of 256x192: encoded by x265 4.1 (built with
+// multiview), in a mov with lhvC, vexu and hfov, as phones write them.
 const std::string kLayers = source_folder() + "/tests/video/layers.mov";
 
 std::string bytes_of_layers() {
@@ -325,8 +325,8 @@ TEST_F(Decode, LayersBecomeSideBySide) {
   EXPECT_EQ(both.next()->time.start, 2);
 }
 
-// The stream itself says which view is whose: three-dimensional reference displays (ITU-T H.265, G.14.2.3), message
-// 176. vexu says it where the stream does not.
+// The stream itself assigns the views to the eyes: three-dimensional reference displays (ITU-T H.265, G.14.2.3),
+// message 176. If it does not, vexu does.
 TEST_F(Decode, TheStreamSaysWhichLayerIsTheLeftEye) {
   if (!can_decode_both_views()) GTEST_SKIP() << "skipped: this FFmpeg is older than 7.1";
   const auto changed = [&](const std::string& name, size_t at, std::string_view to) {

@@ -135,7 +135,7 @@ TEST_F(MadeVideo, TwoRunsAreTheSameBytes) {
   EXPECT_EQ(folder.read("one.mkv"), folder.read("two.mkv"));
 }
 
-// Of every encoder, and of a video so small that few threads find work.
+// Every encoder, and a video so small that few threads find work.
 TEST_F(MadeVideo, TheNumberOfThreadsChangesNoByte) {
   made::write_frames(folder.path("small.#.png"), {1, 2, 3}, Layout::kTopBottom, {64, 32});
   const FrameFiles small = find_frames(folder.path("small.#.png"));

@@ -92,7 +92,7 @@ TEST(Ycbcr, ColoursFollowTheStandard) {
   }
 }
 
-// The reference is worked out pixel by pixel from what the header says.
+// The reference is computed pixel by pixel from the header's description.
 TEST(Ycbcr, SharedColoursLieOnTheLeftPixels) {
   std::mt19937 random(5);
   std::uniform_real_distribution<float> unit(0.0f, 1.0f);
@@ -135,7 +135,7 @@ StoredPicture picture_of(std::vector<float>& memory, Extent size, size_t channel
   return picture;
 }
 
-// A frame that nobody holds is taken again, with its pixels; one that somebody holds is nobody else's.
+// A frame that is not held is reused, with its pixels; a held one is not.
 TEST(FramePool, FramesAreUsedAgain) {
   std::shared_ptr<VideoFrame> kept;
   {

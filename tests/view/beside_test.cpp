@@ -14,7 +14,7 @@ namespace {
 
 class Beside : public ::testing::Test {
  protected:
-  // What is wrong with these notes; empty: nothing.
+  // The error in these notes; empty if there is none.
   std::string fault(const std::string& json) const {
     folder_.write("a_360_TB.notes.json", json);
     try {

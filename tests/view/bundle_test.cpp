@@ -55,7 +55,7 @@ TEST(Bundle, WhatIsWantedLaterIsInAScriptOfItsOwn) {
   }
 }
 
-// What a module imports is made before it.
+// The imports of a module are made before it.
 TEST(Bundle, ModulesComeBehindWhatTheyImport) {
   const std::string script = bundle("main.js", {});
   const std::regex use(R"(\$modules\['([\w.-]+)'\];)");

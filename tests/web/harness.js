@@ -62,7 +62,7 @@ async function reach(picture, frame, step) {
   await new Promise((done) => setTimeout(done, 500));
 }
 
-// What a compositor shows of a cube map in each direction.
+// The picture of a cube map that a compositor shows in each direction.
 const CUBE = `#version 300 es
 precision highp float;
 uniform samplerCube cube;
@@ -146,7 +146,7 @@ async function layOut(view, shader, { item, layers: name, cube }) {
   await sendCanvas(flat, name);
 }
 
-// As the device's orientation: a turn to the right by yaw, after one up by pitch.
+// The device's orientation: a turn to the right by yaw, after a turn up by pitch.
 function orient(quaternion, { yaw = 0, pitch = 0 }) {
   const [y, p] = [-yaw, pitch].map((angle) => (angle * Math.PI) / 360);
   const [sy, cy, sp, cp] = [Math.sin(y), Math.cos(y), Math.sin(p), Math.cos(p)];

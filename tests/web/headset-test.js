@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The headset's panel in an emulated headset, against the server of ods view: everything that a hand, a pinch or a look can
-// do to it, and what the desk sees and does. testHeadset(name) runs a part, and throws what is wrong. What the wearer sees
-// is sent to result/NAME, both eyes side by side.
+// The headset's panel in an emulated headset, against the server of ods view: every action of a hand, a pinch or a
+// look, and the desk's view and actions. testHeadset(name) runs a part, and throws an error if it fails. The wearer's
+// view is sent to result/NAME, both eyes side by side.
 import { Headset } from './headset.js';
 import { TEXT } from './headset-controls.js';
 import { DISTANCE } from './headset-panel.js';
@@ -40,7 +40,7 @@ async function makeViewer(size) {
   return viewer;
 }
 
-// Somebody who wears the headset: a head and two hands.
+// The wearer of the headset: a head and two hands.
 class Wearer {
   static async create(size = SMALL) {
     Object.defineProperties(window, { innerWidth: { value: size[0] }, innerHeight: { value: size[1] } }); // of the canvas
@@ -89,7 +89,7 @@ class Wearer {
     return plus(plus([x, y, z], at), this.panel.head.at, -1);
   }
 
-  // Of the panel or the handle: x and y in half axes.
+  // A point of the panel or the handle: x and y in half axes.
   spot(x, y) {
     const { at, u, v } = this.panel.sheet;
     return this.place(plus(plus(at, u, x), v, y));
@@ -140,7 +140,7 @@ class Wearer {
     await this.press(0, hand, button);
   }
 
-  // What both eyes see, in more pixels than it is tested with.
+  // The view of both eyes, in more pixels than the test uses.
   async send(name, size = MEDIUM) {
     const { canvas } = this.viewer;
     [canvas.width, canvas.height] = size;
@@ -325,7 +325,7 @@ async function testPinches(wearer) {
   expect(state.swap, 'a pinch does not swap the eyes');
   await wearer.click('swap', device.hands.left);
   expect(!state.swap, 'a pinch of the left hand does not swap them back');
-  // As visionOS has it: a source while somebody pinches, whose ray begins where they look.
+  // An input source as in visionOS: it exists during a pinch, and its ray begins in the direction of the look.
   const { right, left } = device.hands;
   Object.defineProperty(right.inputSource, 'targetRayMode', { value: 'transient-pointer' });
   right.connected = left.connected = false;
@@ -484,6 +484,31 @@ async function testSharedSettings({ viewer, headset }, session) {
   await until(() => session.settings.exposure === 2 && session.side.sent === session.settings, 'takes the settings of the desk');
   expect(session.settings.sidecar.ipd === 0.07, 'loses what the wearer has set');
   for (const share of shares) share.end();
+  testLies(viewer, headset);
+}
+
+// A message of another page may be anything: it neither throws nor outlasts the next change.
+function testLies(viewer, headset) {
+  const share = new Share({ viewer, headset });
+  const { swap } = viewer.state;
+  const say = (clock, value = !swap, by = 'zz') => share.take('liar', { fields: { swap: { value, clock, by } } });
+  for (const clock of [1e300, -1, 0.5, 2 ** 32, NaN, null, '9', [], {}]) say(clock);
+  for (const value of [null, 1, 'true', {}]) say(9, value);
+  say(9, !swap, null);
+  const numbers = [null, 1, 'x', [], { yaw: null }, { yaw: 1e300, pitch: 0, roll: 0 }];
+  for (const part of numbers) share.take('liar', { fields: part, look: part, point: part, time: part });
+  for (const part of numbers) share.take('liar', { fields: Object.fromEntries(['shown', 'film', 'settings', 'worn', 'constructor', '__proto__'].map((name) => [name, { value: part, clock: 9, by: 'zz' }])) });
+  expect(viewer.state.swap === swap, 'takes what has not the form of a change');
+  for (const clock of [2 ** 31 - 1, 2 ** 32 - 2, 2 ** 32 - 1]) {
+    say(clock);
+    viewer.set({ swap });
+    share.tick();
+    const { clock: next } = share.known.swap;
+    expect(next !== clock && share.known.swap.by === share.id, `counts no further than ${clock}`);
+    say(clock);
+    expect(viewer.state.swap === swap, `an old change comes back after ${clock}`);
+  }
+  share.end();
 }
 
 // --- two pages of one server ---
@@ -636,7 +661,7 @@ async function testPanel() {
   return film;
 }
 
-// What it returns says whether films could be tested.
+// Runs one of the tests; each returns whether videos could be tested.
 export async function testHeadset(name) {
   const tests = { panel: testPanel, studio: testStudio, layers: testLayers, sharing: async () => testSharing((await (await fetch('view.json')).json()).items.length) };
   const film = await tests[name]();

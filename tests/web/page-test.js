@@ -77,7 +77,7 @@ function testTips(player) {
     expect(button.dataset.tip && (button.ariaLabel || button.textContent.trim()), `${button.outerHTML.slice(0, 60)} says nothing`);
   }
   const swap = player.element.querySelector('[data-action="swap"]');
-  press('Tab'); // somebody uses the keyboard
+  press('Tab'); // a user of the keyboard
   swap.focus({ focusVisible: true });
   return until(() => find('tip').matches(':popover-open') && find('tip').textContent === 'Swap the eyesS', 'shows a tooltip with its key').then(() => {
     press('Escape', swap);
@@ -94,7 +94,7 @@ async function testDegrees(player) {
   expect(!player.viewer.state.grid, 'the grid stays');
 }
 
-// What stays the same there: what is straight down is the middle of the planet; a drag of the edge goes around it.
+// Little planet: straight down is the middle of the planet; a drag of the edge turns around it.
 async function testPlanet(player) {
   const { viewer } = player;
   const before = viewer.state.fov;
@@ -318,7 +318,7 @@ function testTouch(player) {
   document.documentElement.style.removeProperty('--side');
 }
 
-// Where there is no room above or below the bar, the settings cover it, all of it.
+// If there is no room above or below the bar, the settings cover all of it.
 async function testLowWindow(player) {
   find('player').style.bottom = '46vh';
   await frame();
@@ -602,7 +602,8 @@ async function testThree() {
 
 // --- sound ----------------------------------------------------------------------------------------------------------
 
-// How loud a wave from a direction (unit, AmbiX axes: ahead, left, up) is in each ear of a head that looks along `ahead`.
+// The loudness of a wave from a direction (unit, AmbiX axes: ahead, left, up) in each ear of a head that looks along
+// `ahead`.
 async function ears([x, y, z], ahead) {
   const context = new OfflineAudioContext(2, 24000, 48000);
   const sound = context.createBuffer(4, 24000, 48000);

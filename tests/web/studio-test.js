@@ -19,7 +19,7 @@ export const SETTINGS = {
 
 const camera = { projection: { center: [0, 0], span: [6.28, 3.14], angle: 3.14, lens_back: [0, 0, 1] } };
 export const PROJECTIONS = [{ name: 'lat-long', camera }, { name: 'mirror-ball', camera }];
-// What view.json says of the studio.
+// The studio's part of view.json.
 export const STUDIO = {
   scene: 'a.glb', settings: SETTINGS, ranges: { ipd: [0, 10] }, merges: ['none', 'cosine'], kernel_merges: { none: 0, cosine: 2 }, convergences: ['parallel', 'toe-in'],
   projections: ['lat-long', 'mirror-ball', 'fisheye-polynomial'], polynomial_lens: { sensor: [36, 24], polynomial: [0, 1, 2, 3, 4] },
@@ -142,7 +142,8 @@ async function testFrames(server, session, live) {
   expect(live.least === 2, 'shows coarser frames');
 }
 
-// Another tab has set something else: this one says so, and what is rendered, saved or picked here is this one's again.
+// Another tab has set something else: this one shows it, and anything rendered, saved or picked here has this tab's
+// settings again.
 async function testOtherTabs(server, session) {
   await until(() => session.side.sent === session.settings && !session.sending, 'agrees with the server');
   let told = false;

@@ -2,100 +2,21 @@
 # SPDX-License-Identifier: Apache-2.0
 """Exports a scene for Omnistereo: scene.glb, world.exr if the world is a picture, and bridge.json with all else.
 
-Started by the command as `blender --background ... --python run.py -- SCENE FOLDER [--bake N]`, and by the add-on
-through export_scene(). Changes the open scene in memory and saves nothing.
+Started by the command as `blender --background ... --python run.py -- SCENE FOLDER [--bake N] [--scene NAME]`.
+Changes the open scene in memory and saves nothing.
 """
 import json
 import os
 
 import bpy
 
-from . import bake, camera, lights, materials, means, motion, prepare, world
+from . import bake, camera, library, lights, materials, means, motion, opening, pictures, prepare, unroll, world
 from .glb import FLOAT, Glb
+from .ledger import Ledger, some
 from .places import local_place, parts
-from .report import Failure, Report, say
+from .report import Failure, say, step
 
-VERSION = 1  # of bridge.json and of what it goes with
-
-
-def _repair_numpy():
-    """Some versions of Blender call names that newer versions of NumPy lack."""
-    import numpy
-
-    for name, kind in (("bool", bool), ("int", int), ("float", float), ("object", object)):
-        if name not in numpy.__dict__:
-            setattr(numpy, name, kind)
-
-
-# --- opening
-
-
-def _version_of(path):
-    """Of the Blender that saved a file, by its first bytes; (0, 0) if it is packed."""
-    with open(path, "rb") as file:
-        start = file.read(17)
-    # BLENDER-v304, and from 5.0 on BLENDER17-01v0500.
-    digits = start[13:17] if start[7:9].isdigit() else start[9:12]
-    return divmod(int(digits), 100) if start.startswith(b"BLENDER") and digits.isdigit() else (0, 0)
-
-
-def _refuse_newer(made):
-    own = bpy.app.version
-    if tuple(made[:2]) > tuple(own[:2]):
-        raise Failure(f"it was saved by Blender {made[0]}.{made[1]}, and this is {own[0]}.{own[1]}: "
-                      "give a newer one with --blender PATH")
-
-
-def _open_blend(path):
-    try:
-        _refuse_newer(_version_of(path))  # Blender 3.4 crashes when it opens a file of 4.3
-        bpy.ops.wm.open_mainfile(filepath=path, load_ui=False, use_scripts=False)
-    except (OSError, RuntimeError) as error:
-        raise Failure(f"Blender cannot open it: {_one_line(error)}") from None
-    _refuse_newer(bpy.data.version)
-
-
-def _one_line(error):
-    """The first line, or of an add-on's traceback the error at its end."""
-    lines = [line for line in str(error).splitlines() if line.strip() and not line.startswith("Location:")]
-    if not lines:
-        return type(error).__name__
-    return lines[-1 if "Traceback" in lines[0] else 0].removeprefix("Error: ").strip()
-
-
-def _importers(kind):
-    """In the order in which they are tried: their names and options."""
-    return {
-        ".fbx": [("import_scene.fbx", {})],
-        ".obj": [("wm.obj_import", {}), ("import_scene.obj", {})],
-        ".dae": [("wm.collada_import", {})],
-        ".ply": [("wm.ply_import", {}), ("import_mesh.ply", {})],
-        ".stl": [("wm.stl_import", {}), ("import_mesh.stl", {})],
-        ".abc": [("wm.alembic_import", {"as_background_job": False})],
-    }.get(kind, [("wm.usd_import", {})])
-
-
-def _import(path):
-    kind = os.path.splitext(path)[1].lower()
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    for name, options in _importers(kind):
-        group, operator = name.split(".")
-        call = getattr(getattr(bpy.ops, group), operator)
-        try:
-            call.get_rna_type()
-        except (KeyError, AttributeError):
-            continue
-        try:
-            result = call(filepath=path, **options)
-        except Exception as error:  # an add-on's own errors are of any kind
-            raise Failure(f"Blender cannot read it: {_one_line(error)}") from None
-        if "FINISHED" not in result or not bpy.data.objects:
-            raise Failure("Blender finds nothing in it")
-        return
-    raise Failure(f"this Blender does not read {kind} files")
-
-
-# --- exporting
+VERSION = 1  # of bridge.json and the files beside it
 
 
 def _deforms(scene):
@@ -107,9 +28,10 @@ def _options(scene):
     """Of the exporter, those that this version has."""
     wanted = {
         "export_format": "GLB", "use_renderable": True, "use_visible": False, "use_active_scene": True,
-        "export_apply": True, "export_yup": True, "export_extras": True, "export_lights": False,
-        "export_cameras": False, "export_animations": _deforms(scene), "export_nla_strips": False,
-        "export_animation_mode": "ACTIVE_ACTIONS", "export_frame_range": True, "export_force_sampling": True,
+        "export_apply": True, "export_yup": True, "export_extras": True, "export_current_frame": True,
+        "export_lights": False, "export_cameras": False, "export_animations": _deforms(scene),
+        "export_nla_strips": False, "export_animation_mode": "ACTIVE_ACTIONS", "export_frame_range": True,
+        "export_force_sampling": True,
         "export_colors": True, "export_texcoords": True, "export_normals": True, "export_tangents": False,
         "export_materials": "EXPORT", "export_image_format": "AUTO", "export_gn_mesh": False,
         "export_hierarchy_flatten_objs": False, "export_shared_accessors": False,
@@ -122,7 +44,7 @@ def _run_exporter(path, scene):
     try:
         bpy.ops.export_scene.gltf(filepath=path, **_options(scene))
     except Exception as error:
-        raise Failure(f"Blender's glTF exporter failed: {_one_line(error)}") from None
+        raise Failure(f"Blender's glTF exporter failed: {opening.one_line(error)}") from None
     if not os.path.exists(path):
         raise Failure("Blender's glTF exporter wrote nothing")
 
@@ -136,46 +58,65 @@ def _nodes_by_mark(glb):
     return nodes
 
 
-def _materials(report, prepared, context, size, folder):
-    computed, strengths, translucent, scales = {}, {}, set(), {}
+def _materials(context, prepared, samples, size, folder, ledger):
+    """Leaves materials that the exporter understands. By their names: emission, which are translucent, albedo_scale(),
+    which read vertex colours."""
     shown = [o for o in prepared.objects if not o.hide_render]
     meshes = [o for o in shown if o.type in prepare.MESHES]
-    materials.fill_slots(meshes)
-    used = {s.material for o in meshes for s in o.material_slots if s.material}
-    for material in sorted(used, key=lambda m: m.name):
-        if material.library:
-            continue
-        node = materials.simplify(material, report)
+    materials.fill_slots(meshes, ledger.read(context.view_layer, "material_override"))
+    users, computed, causes, rules = {}, {}, {}, pictures.Rules(ledger)
+    for each in meshes:
+        for material in {s.material for s in each.material_slots}:
+            users.setdefault(material, []).append(each)
+    for material in sorted(users, key=lambda m: m.name):
+        node = materials.simplify(material, ledger)
         if node is None:
             continue
-        keys = materials.computed_inputs(node)
-        if keys:
-            computed[material.name] = keys
+        found = pictures.computed_inputs(node, rules)
+        if found and (pictures.changes(node) or (samples and material.name in samples.looks)):
+            ledger.lose("what nodes compute anew in each frame stays as in the saved one", "material", material.name)
+        unroll.unroll(material, node, found, users[material], rules, folder)
+        found = pictures.computed_inputs(node, rules)
+        if found:
+            computed[material.name] = found
+            sockets = [materials.principled_input(node, key) for key in found]
+            causes[material.name] = set().union(*map(unroll.other_sources, sockets)) or set(found.values())
+    left = computed
     if computed and size > 0:
-        done, left = bake.bake(context, shown, computed, size, report)
-        for name in left:
-            report.warn(f"material '{name}' could not be baked on something that deforms")
-    elif computed:
-        means.use_means(context, shown, computed, folder)
-        for name, keys in computed.items():
-            report.warn(f"material '{name}': its {', '.join(keys)} "
-                        f"{'are' if len(keys) > 1 else 'is'} computed by nodes; --bake 1024 makes pictures of them")
-    for material in bpy.data.materials:
-        if not material.use_nodes or material.node_tree is None or materials.output_of(material.node_tree) is None:
-            continue
-        found = materials.source_of(materials.output_of(material.node_tree).inputs["Surface"])
-        if found is None or found.node.type != "BSDF_PRINCIPLED":
+        left = {name: computed[name] for name in bake.bake(context, shown, computed, size)}
+    means.use_means(context, shown, left, folder)
+    for name in left:
+        ledger.lose(f"a mean of what nodes compute ({', '.join(sorted(causes[name]))})", "material", name,
+                    "what deforms cannot be baked" if size > 0 else "--bake 1024 makes pictures")
+    return _finished(meshes, samples, ledger)
+
+
+def _lit(emission):
+    """An emission that is dark in the saved frame keeps its picture: other frames show it."""
+    color, strength = emission
+    return (color if max(color) > 0 else (1.0, 1.0, 1.0)), strength or 1.0
+
+
+def _finished(meshes, samples, ledger):
+    strengths, translucent, scales, colored = {}, set(), {}, set()
+    for material in {s.material for o in meshes for s in o.material_slots}:
+        output = materials.output_of(material.node_tree)
+        found = output and materials.source_of(output.inputs["Surface"])
+        if not found:
             continue
         if "ods_own" not in found.node:
             scales[material.name] = materials.albedo_scale(found.node)
-        emission = materials.strength_of(found.node)
-        if emission is None:
-            report.warn(f"material '{material.name}': the strength of its emission is computed by nodes")
-        else:
-            strengths[material.name] = emission
+        strengths[material.name] = materials.strength_of(found.node)
+        if samples and material.name in samples.looks:
+            strengths[material.name] = _lit(strengths[material.name])
+            for frame in samples.looks[material.name] if "ods_peak" in material else []:
+                frame["glow"] = [c * material["ods_peak"] for c in frame.get("glow", ())]
         if "ods_translucent" in material:
             translucent.add(material.name)
-    return strengths, translucent, scales
+        if "ods_colors" in material:
+            colored.add(material.name)
+    materials.use_colors(meshes, ledger)
+    return strengths, translucent, scales, colored
 
 
 def _add_instances(glb, prepared, nodes):
@@ -219,14 +160,22 @@ def _strip_extras(glb):
             each.pop("extras", None)
 
 
-def _add_motion(glb, scene, samples, nodes, lamps, cameras):
-    clip = motion.Clip(glb, scene.name, samples.times)
+def _add_motion(glb, scene, samples, prepared, nodes, lamps, cameras, cut, ledger):
+    clip = motion.Clip(glb, scene.name, samples)
     objects = dict(nodes)
-    replaced = {index for each, index in objects.items() if "skin" not in glb.json["nodes"][index]}
+    replaced = {index for index in objects.values() if "skin" not in glb.json["nodes"][index]}
     motion.add_objects(clip, glb, objects, samples)
+    motion.add_points(clip, glb, objects, samples, ledger)
+    motion.add_scattered(clip, glb, [(objects[each], copies) for each, copies in prepared.scattered if each in objects],
+                         samples)
+    motion.add_visibility(clip, glb, objects, samples)
     motion.add_seers(clip, cameras, samples)
+    if cut is not None:
+        motion.add_cuts(clip, cut, samples)
     motion.add_seers(clip, {lamp.key: lamp.node for lamp in lamps if lamp.key}, samples)
-    motion.add_powers(clip, [lamp for lamp in lamps if lamp.key], samples)
+    motion.add_powers(clip, glb, [lamp for lamp in lamps if lamp.key], samples)
+    motion.name_shapes(samples, ledger)
+    motion.add_looks(clip, glb, samples)
     motion.merge(glb, clip, replaced)
 
 
@@ -241,80 +190,119 @@ def _reads():
     return files
 
 
-def export_scene(context, folder, size=0, report=None):
-    """Writes the files for the context's scene. size: of the pictures of computed materials; 0: none are made."""
-    report = report or Report()
-    _repair_numpy()
+def _make_own(context, ledger):
+    """Leaves the scene in object mode, with datablocks of its own and the render's settings."""
     scene = context.scene
     if bpy.ops.object.mode_set.poll() and context.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
-    reads = _reads()
-    animated = motion.is_animated(scene)
-    if animated:
-        scene.frame_set(scene.frame_start)
-    prepared = prepare.prepare(context, report)
-    materials.name_missing_pictures(report)
-    report.step("reading materials", 0.15)
-    strengths, translucent, scales = _materials(report, prepared, context, size, folder)
-    report.step("exporting", 0.55)
-    path = os.path.join(folder, "scene.glb")
-    _run_exporter(path, scene)
-    report.step("adding lights, camera and world", 0.8)
-    glb = Glb(path)
+    library.make_local()
+    if tuple(bpy.data.version[:2]) > tuple(bpy.app.version[:2]):
+        made, own = (".".join(map(str, v[:2])) for v in (bpy.data.version, bpy.app.version))
+        ledger.say(f"it was saved by Blender {made} and opened by {own}: what is new there is missing")
+    others = [each.name for each in bpy.data.scenes if each != scene]
+    if others:
+        ledger.say(f"the file has {len(others) + 1} scenes; this is '{scene.name}', --scene shows {some(others, 20)}")
+    prepare.modify_as_rendered(scene)
+
+
+def _follow(context, ledger):
+    """What changes from frame to frame; None: nothing does. Leaves the scene in its saved frame."""
+    scene, saved = context.scene, context.scene.frame_current
+    if not motion.is_animated(scene):
+        return None
+    step("following what moves", 0.05)
+    samples = motion.sample(context, materials.constants_of, ledger)
+    scene.frame_set(saved)
+    return samples
+
+
+def _add_the_rest(glb, scene, prepared, samples, folder, ledger):
+    """Lights, cameras, copies and motion. Returns the lights in the file."""
     marks = _nodes_by_mark(glb)
     nodes = {prepared.objects[mark]: index for mark, index in marks.items()}
-    materials.finish_in_file(glb, strengths, translucent, scales)
     _add_unseen(glb, prepared, marks)
-    lights.name_oddities({light for _, _, light, _ in prepared.lights}, report)
     meter = lights.Meter(folder)
-    lamps = [lights.add_light(glb, *each, meter, report) for each in prepared.lights]
+    lamps = [lights.add_light(glb, *each, meter, samples, ledger) for each in prepared.lights]
     lamps = [lamp for lamp in lamps if lamp]
-    seers = sorted((o for o in scene.objects if o.type == "CAMERA"), key=lambda o: o != scene.camera)
+    lights.close({light for _, _, light, _ in prepared.lights}, ledger)
+    seer, cut = motion.camera_at(scene, scene.frame_current), None
+    if samples and len(set(samples.cameras)) > 1:
+        cut = camera.add_node(glb, seer, seer.matrix_world, f"{seer.name}, as cut")
+    seers = sorted((o for o in scene.objects if o.type == "CAMERA"), key=lambda o: o != seer)
     cameras = {each: camera.add_node(glb, each, each.matrix_world) for each in seers}
     _add_instances(glb, prepared, marks)
-    if animated:
-        report.step("following what moves", 0.85)
-        samples = motion.sample(context, [*nodes, *cameras, *(l.key for l in lamps if l.key)],
-                                [l.key for l in lamps if l.key], report)
-        _add_motion(glb, scene, samples, nodes, lamps, cameras)
+    if samples:
+        _add_motion(glb, scene, samples, prepared, nodes, lamps, cameras, cut, ledger)
     else:
         glb.json.pop("animations", None)
-    report.step("rendering the world", 0.95)
-    environment = world.export_world(glb, scene, folder, report)
-    _strip_extras(glb)
-    glb.json["asset"]["generator"] = f"Omnistereo's exporter in Blender {bpy.app.version_string}"
-    glb.save(path)
-    render = scene.render
+    return lamps
+
+
+def _describe(scene, samples, ledger):
+    """What the command has to know besides the scene (bridge.json)."""
+    render, seer = scene.render, motion.camera_at(scene, scene.frame_current)
     result = {
         "omnistereo_bridge": VERSION,
         "blender": ".".join(str(n) for n in bpy.app.version),
         "fps": render.fps / render.fps_base,
-        "reads": reads,
-        "warnings": report.warnings,
+        "unit": scene.unit_settings.scale_length,
     }
-    glows = any(max(color) * strength > 0 for color, strength in strengths.values())
+    if samples:
+        result["frames"] = {"first": scene.frame_start, "count": len(samples.times), "saved": scene.frame_current}
+    if seer:
+        result["camera"] = camera.describe(scene, seer, seer.matrix_world, ledger)
+    if ledger.read(render, "use_motion_blur"):
+        result["shutter"] = min(360.0, 360.0 * render.motion_blur_shutter)
+    ledger.close("scene", [scene])
+    if render.use_compositing and scene.use_nodes:
+        ledger.say("the compositor does not come across")
+    return result
+
+
+def export_scene(context, folder, size=0):
+    """Writes the files for the context's scene. size: of the pictures of computed materials; 0: none are made."""
+    ledger, scene, reads = Ledger(), context.scene, _reads()
+    _make_own(context, ledger)
+    samples = _follow(context, ledger)
+    prepared = prepare.prepare(context, samples, ledger)
+    if samples:
+        prepare.number_points(context, [each for each, frames in samples.points.items() if frames is not None])
+    materials.name_missing_pictures(ledger)
+    step("reading materials", 0.15)
+    finished = _materials(context, prepared, samples, size, folder, ledger)
+    step("exporting", 0.55)
+    path = os.path.join(folder, "scene.glb")
+    _run_exporter(path, scene)
+    step("adding lights, camera and world", 0.8)
+    glb = Glb(path)
+    materials.finish_in_file(glb, *finished)
+    lamps = _add_the_rest(glb, scene, prepared, samples, folder, ledger)
+    step("rendering the world", 0.95)
+    environment, background = world.export_world(glb, scene, folder, ledger)
+    _strip_extras(glb)
+    glb.json["asset"]["generator"] = f"Omnistereo's exporter in Blender {bpy.app.version_string}"
+    glb.save(path)
+    result = {**_describe(scene, samples, ledger), "reads": reads}
+    glows = any(max(color) * strength > 0 for color, strength in finished[0].values())
     if lamps or glows or environment != "0,0,0":
         result["environment"] = environment  # else nothing shines, and ods finds some light
-    if scene.camera:
-        result["camera"] = camera.describe(scene, scene.camera, scene.camera.matrix_world, report)
+    if background is not None:
+        result["background"] = background
+    result["warnings"] = ledger.lines()
     with open(os.path.join(folder, "bridge.json"), "w", encoding="utf-8") as file:
         json.dump(result, file)
     return result
 
 
 def main(arguments):
-    """arguments: SCENE FOLDER [--bake N]. The exit code."""
+    """arguments: SCENE FOLDER [--bake N] [--scene NAME]. The exit code."""
     path, folder = arguments[0], arguments[1]
-    size = int(arguments[3]) if len(arguments) > 3 and arguments[2] == "--bake" else 0
-    report = Report()
-    report.step = lambda what, share: say("step", f"{share:.3f} {what}")
+    options = dict(zip(arguments[2::2], arguments[3::2]))
+    size = int(options.get("--bake", 0))
     try:
-        _repair_numpy()
-        if path.lower().endswith(".blend"):
-            _open_blend(path)
-        else:
-            _import(path)
-        export_scene(bpy.context, folder, size, report)
+        opening.repair_numpy()
+        opening.open_scene(path, options.get("--scene", ""))
+        export_scene(bpy.context, folder, size)
     except Failure as failure:
         say("error", failure)
         return 3

@@ -13,10 +13,9 @@ import bpy
 
 from .glb import UNSIGNED_SHORT
 from .places import TO_GLTF, columns
-from .report import some
 from .stage import Stage, pixels
 
-SIDES = 64  # of the polygon that stands for a disc
+SIDES = 64  # of the polygon that replaces a disc
 PLACED = {"NEW_GEOMETRY", "LIGHT_PATH", "CAMERA", "FRESNEL", "LAYER_WEIGHT", "OBJECT_INFO"}
 
 
@@ -78,24 +77,49 @@ def _varies(node):
     return node.type.startswith("TEX_") or node.type in PLACED
 
 
-def color_of(light, meter, report):
-    """Colour times what the light's own nodes make of it."""
-    color = [float(c) for c in light.color]
-    if getattr(light, "use_temperature", False) and hasattr(light, "temperature_color"):
-        color = [c * t for c, t in zip(color, light.temperature_color)]
+def _factor_of(light, meter, ledger):
+    """What makes its power besides power_of(), by colour."""
+    factor = [1.0] * 3
+    if ledger.read(light, "use_temperature", False):
+        factor = list(ledger.read(light, "temperature_color", factor))
     if not light.use_nodes or light.node_tree is None:
-        return color
+        return factor
     output = next((n for n in light.node_tree.nodes if n.type == "OUTPUT_LIGHT" and n.is_active_output), None)
     if output is None or not output.inputs["Surface"].is_linked:
         return [0.0] * 3
-    emission = output.inputs["Surface"].links[0].from_node
-    if emission.type != "EMISSION" or any(i.is_linked for i in emission.inputs):
+    if _plain_emission(light) is None:
         if any(_varies(node) for node in light.node_tree.nodes):
-            report.warn(f"light '{light.name}': its nodes may vary it with direction and distance, which does not come "
-                        "across: it is as 1 m in front of it")
-        return [c * e for c, e in zip(color, meter.measure(light))]
-    strength = emission.inputs["Strength"].default_value
-    return [c * e * strength for c, e in zip(color, emission.inputs["Color"].default_value)]
+            ledger.lose("nodes that vary a light with direction or distance do not come across: it shines as at 1 m in "
+                        "front of it", "light", light.name)
+        factor = [f * m for f, m in zip(factor, meter.measure(light))]
+    return factor
+
+
+def _plain_emission(light):
+    """The node that alone makes its light of constants."""
+    if not light.use_nodes or light.node_tree is None:
+        return None
+    output = next((n for n in light.node_tree.nodes if n.type == "OUTPUT_LIGHT" and n.is_active_output), None)
+    node = output.inputs["Surface"].links[0].from_node if output and output.inputs["Surface"].is_linked else None
+    return node if node is not None and node.type == "EMISSION" and not any(i.is_linked for i in node.inputs) else None
+
+
+def power_of(light):
+    """Watts by colour, as its settings say now."""
+    if not hasattr(light, "energy"):
+        return [0.0] * 3
+    watts = light.energy * 2.0 ** getattr(light, "exposure", 0.0)
+    node = _plain_emission(light)
+    if node is not None:
+        watts *= node.inputs["Strength"].default_value
+        return [watts * c * e for c, e in zip(light.color, node.inputs["Color"].default_value)]
+    return [watts * c for c in light.color]
+
+
+def shape_of(light):
+    """Whatever makes its shape, for comparison."""
+    names = ("size", "size_y", "angle", "shadow_soft_size", "spot_size", "spot_blend")
+    return [getattr(light, name, 0.0) for name in names]
 
 
 def area_of(light, matrix):
@@ -161,7 +185,7 @@ def _add_punctual(glb, name, light, intensity):
         shape["radius"] = light.shadow_soft_size
     if light.type == "SPOT":
         outer = min(light.spot_size / 2, math.pi / 2 * 0.999)
-        # The blend is a share of what the cone's edge lacks to the cosine of its axis.
+        # The blend is a share of the difference between the cosines of the cone's edge and its axis.
         inner = math.acos(min(1.0, math.cos(outer) + (1 - math.cos(outer)) * light.spot_blend))
         lamp["spot"] = {"innerConeAngle": max(0.0, min(inner, outer * 0.999)), "outerConeAngle": outer}
         shape["cone"] = "smooth cosine" if bpy.app.version < (3, 5, 0) else "smooth"
@@ -174,33 +198,42 @@ def _add_punctual(glb, name, light, intensity):
 
 
 class Lamp:
-    """A light in the file: its node, and what an animation of its power changes."""
+    """A light in the file: its node, what a watt of each colour is there, and the material or the light that has it."""
 
-    def __init__(self, key, node, pointer):
-        self.key, self.node, self.pointer = key, node, pointer
+    def __init__(self, key, node, factor, material=None, light=None):
+        self.key, self.node, self.factor, self.material, self.light = key, node, factor, material, light
 
 
-def add_light(glb, key, name, light, matrix, meter, report):
-    """A light datablock at a place."""
-    strength = strength_of(light.type, light, matrix) * light.energy
-    if not strength > 0.0:
+READ = ("type", "energy", "color", "size", "size_y", "shape", "angle", "shadow_soft_size", "spot_size", "spot_blend",
+        "use_temperature", "temperature", "normalize", "exposure")
+
+
+def add_light(glb, key, name, light, matrix, meter, samples, ledger):
+    """A light datablock at a place; None: it never shines."""
+    # A portal leads the renderer's rays and shines nothing.
+    if ledger.read(light, "cycles.is_portal", False):
         return None
-    power = [c * strength for c in color_of(light, meter, report)]
+    frames = samples.powers.get(key, []) if samples else []
+    if not any(max(power) > 0.0 for power in [power_of(light), *frames]):
+        return None
+    scale = strength_of(light.type, light, matrix)
+    factor = [scale * f for f in _factor_of(light, meter, ledger)]
+    power = [f * p for f, p in zip(factor, power_of(light))]
     if light.type == "AREA":
         material, node = _add_area(glb, name, light, power)
-        pointer = f"/materials/{material}/extensions/KHR_materials_emissive_strength/emissiveStrength"
-        if getattr(light, "spread", math.pi) < math.pi * 0.999:
-            report.warn(f"area light '{name}' shines in all directions: its spread does not come across")
+        place = {"material": material}
     else:
         index, node = _add_punctual(glb, name, light, power)
-        pointer = f"/extensions/KHR_lights_punctual/lights/{index}/intensity"
+        place = {"light": index}
     node["matrix"] = columns(TO_GLTF @ matrix)
-    return Lamp(key, glb.add_root(node), (pointer, max(power), light.energy))
+    return Lamp(key, glb.add_root(node), factor, **place)
 
 
-def name_oddities(lights, report):
-    """lights: datablocks."""
-    # Blender 4.2 has one switch for all renderers.
-    shadowless = [l.name for l in lights if not getattr(getattr(l, "cycles", None), "cast_shadow", l.use_shadow)]
-    if shadowless:
-        report.warn(f"{some(shadowless)} cast shadows: lights without them do not come across")
+def close(lights, ledger):
+    """Names what is set on the lights and was not read."""
+    lights = [light for light in lights if not getattr(light.cycles, "is_portal", False)]
+    for light in lights:
+        ledger.tick(light, *READ)
+        if hasattr(light.cycles, "cast_shadow"):
+            ledger.tick(light, "use_shadow")  # of another renderer, before Blender 4.2
+    ledger.close("light", lights)

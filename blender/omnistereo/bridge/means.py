@@ -6,12 +6,13 @@ import os
 import bpy
 from mathutils import Vector
 
-from .materials import BAKED, output_of, put, source_of
+from .looks import output_of, principled_input, source_of
+from .pictures import BAKED
 from .prepare import MESHES
 from .stage import Stage, pixels
 
 SIZE = 32
-FROM = Vector((0.5, -0.7, 0.5)).normalized()  # no usual surface lies along it
+FROM = Vector((0.5, -0.7, 0.5)).normalized()  # no usual surface is parallel to it
 
 
 def _glowing(material, key):
@@ -21,7 +22,7 @@ def _glowing(material, key):
     output = output_of(tree)
     node = source_of(output.inputs["Surface"]).node
     emission = tree.nodes.new("ShaderNodeEmission")
-    tree.links.new(source_of(put(node, key)), emission.inputs["Color"])
+    tree.links.new(source_of(principled_input(node, key)), emission.inputs["Color"])
     tree.links.new(emission.outputs[0], output.inputs["Surface"])
     return copy
 
@@ -41,7 +42,6 @@ def _mean(context, each, material, key, folder):
     """None: nothing of it can be seen."""
     path = os.path.join(folder, "mean.exr")
     stage, copy = Stage(), _glowing(material, key)
-    stage.scene.frame_current = context.scene.frame_current
     stage.scene.collection.objects.link(each)
     stage.scene.view_layers[0].material_override = copy
     _frame(stage, each)
@@ -67,7 +67,7 @@ def use_means(context, shown, computed, folder):
             mean = _mean(context, users[name], material, key, folder)
             if mean is None:
                 continue
-            socket = put(node, key)
+            socket = principled_input(node, key)
             for link in list(socket.links):
                 material.node_tree.links.remove(link)
             socket.default_value = (*mean, 1.0) if key in ("color", "emission") else min(max(sum(mean) / 3, 0.0), 1.0)

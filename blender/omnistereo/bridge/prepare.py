@@ -5,8 +5,7 @@
 Changes the scene in memory; nothing is saved.
 """
 import bpy
-
-from .report import some
+import numpy as np
 
 MESHES = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 MARK = "ods_number"  # of an object in the file
@@ -19,9 +18,12 @@ class Instances:
         self.prototype, self.parent, self.matrices = prototype, parent, []
 
 
-def _rendered(view_layer):
-    """The objects that the view layer renders, and those that the camera does not see."""
+def _rendered(view_layer, samples):
+    """The objects that the view layer renders in some frame, and those that the camera does not see."""
     shown, unseen, held_out = {}, set(), set()
+    if samples:
+        for each, frames in samples.shown.items():
+            each.hide_render = not any(frames)
 
     def visit(layer, indirect, holdout, hidden):
         hidden = hidden or layer.collection.hide_render
@@ -45,23 +47,17 @@ def _rendered(view_layer):
 def _unhide(view_layer, shown):
     def visit(layer):
         layer.hide_viewport = False
-        try:
-            layer.collection.hide_viewport = False
-        except AttributeError:
-            pass  # of a library
+        layer.collection.hide_viewport = False
         for child in layer.children:
             visit(child)
 
     visit(view_layer.layer_collection)
     for each in shown.values():
-        try:
-            each.hide_viewport = False
-            each.hide_set(False, view_layer=view_layer)
-        except (AttributeError, RuntimeError):
-            pass
+        each.hide_viewport = False
+        each.hide_set(False, view_layer=view_layer)
 
 
-def _modify_as_rendered(scene):
+def modify_as_rendered(scene):
     """The exporter evaluates the scene as viewports do."""
     if scene.render.use_simplify:
         scene.render.simplify_subdivision = scene.render.simplify_subdivision_render
@@ -77,42 +73,30 @@ def _modify_as_rendered(scene):
         setattr(settings, "child_percent" if bpy.app.version >= (4, 0, 0) else "child_nbr", settings.rendered_child_count)
 
 
-def _name_lost(shown, report):
-    hair = []
+def _name_lost(shown, ledger):
+    slits = "to render it in Blender itself: ods rig (docs/slits.md)"
+    kinds = {"VOLUME": "a volume", "GPENCIL": "grease pencil", "GREASEPENCIL": "grease pencil", "CURVES": "hair",
+             "POINTCLOUD": "a point cloud"}
     for each in shown.values():
         strands = [s for s in each.particle_systems if s.settings.type == "HAIR" and s.settings.render_type == "PATH"]
-        if strands or each.type == "CURVES":
-            hair.append(each.name)
-    if hair:
-        report.warn(f"hair of {some(hair)} does not come across; to render it in Blender itself: ods rig (docs/slits.md)")
-    for kind, what in (("VOLUME", "volumes"), ("GPENCIL", "grease pencil"), ("GREASEPENCIL", "grease pencil"),
-                       ("POINTCLOUD", "point clouds")):
-        names = [o.name for o in shown.values() if o.type == kind]
-        if names:
-            report.warn(f"{what} do not come across: {some(names)}")
-    smoke = [o.name for o in shown.values()
-             if any(m.type == "FLUID" and m.fluid_type == "DOMAIN" and m.domain_settings
-                    and m.domain_settings.domain_type == "GAS" for m in o.modifiers)]
-    if smoke:
-        report.warn(f"smoke and fire do not come across: {some(smoke)}")
-
-
-def _name_visibility(shown, report):
-    odd = [o.name for o in shown.values() if o.type in MESHES
-           and not all(getattr(o, f"visible_{ray}", True) for ray in ("diffuse", "glossy", "transmission", "shadow"))]
-    if odd:
-        report.warn(f"{some(odd)}: hidden from some rays in Cycles, here only the camera can be kept from seeing")
-    catchers = [o.name for o in shown.values() if o.type in MESHES and getattr(o, "is_shadow_catcher", False)]
-    if catchers:
-        words = " ".join(f"--shadow-catcher '{name}'" for name in catchers[:4])
-        report.warn(f"{some(catchers)}: a shadow catcher in Blender, an ordinary object here; add --transparent {words}")
+        smoke = [m for m in each.modifiers if m.type == "FLUID" and m.fluid_type == "DOMAIN" and m.domain_settings
+                 and m.domain_settings.domain_type == "GAS"]
+        what = "hair" if strands else "smoke and fire" if smoke else kinds.get(each.type)
+        if what:
+            ledger.lose(f"{what} does not come across", "object", each.name, slits)
+        if each.type in MESHES and ledger.read(each, "is_shadow_catcher", False):
+            ledger.lose("a shadow catcher is an ordinary object here", "object", each.name,
+                        f"add --transparent --shadow-catcher '{each.name}'")
+        ledger.tick(each, "visible_camera", "hide_render")
+    ledger.close("object", [each for each in shown.values() if each.type in MESHES])
 
 
 class Prepared:
     def __init__(self):
         self.objects = []  # by their mark
-        self.unseen = set()  # marks of what the camera does not see
+        self.unseen = set()  # marks of objects that the camera does not see
         self.instances = []  # Instances, with a prototype's mark
+        self.scattered = []  # (prototype, copies) of particles that fly
         self.lights = []  # (key, name, datablock, matrix), key: the light's object, None: a copy
 
 
@@ -123,10 +107,18 @@ def _mesh_of(source, depsgraph):
     return bpy.data.meshes.new_from_object(source, preserve_all_data_layers=True, depsgraph=depsgraph)
 
 
-def _collect_instances(depsgraph, shown, prepared, report):
+def _collect_scattered(depsgraph, shown, prepared, samples):
+    """What particles carry while they fly."""
+    for (source, parent), copies in samples.scattered.items():
+        if source.type in MESHES and parent.name_full in shown and not source.hide_render:
+            mesh = _mesh_of(source.evaluated_get(depsgraph), depsgraph)
+            prepared.scattered.append((bpy.data.objects.new(source.name, mesh), copies))
+
+
+def _collect_instances(depsgraph, shown, prepared, samples, ledger):
     groups, meshes, strange = {}, {}, set()
     for each in depsgraph.object_instances:
-        if not each.is_instance:
+        if not each.is_instance or (samples and each.particle_system):
             continue
         source, parent = each.object, each.parent.original if each.parent else None
         if source.original.hide_render or parent is None or parent.name_full not in shown:
@@ -149,56 +141,75 @@ def _collect_instances(depsgraph, shown, prepared, report):
             if not getattr(source, "visible_camera", True):
                 prototype["ods_unseen"] = 1
         groups[key].matrices.append(matrix)
-    if strange:
-        report.warn(f"scattered {some(sorted(strange))} do not come across")
+    for name in sorted(strange):
+        ledger.lose("what is scattered does not come across", "object", name)
     return list(groups.values())
 
 
-def _stop_scattering(groups, depsgraph):
+def _stop_scattering(parents, depsgraph):
     """What we scatter ourselves the exporter must not scatter again. Called when no instance is read any more."""
-    for parent in {group.parent for group in groups}:
+    for parent in parents:
         for system in parent.particle_systems:
             system.settings.render_type = "NONE"
-        if parent.type == "MESH" and any(m.type == "NODES" for m in parent.modifiers) and not parent.library:
+        if parent.type == "MESH" and any(m.type == "NODES" for m in parent.modifiers):
             mesh = bpy.data.meshes.new_from_object(parent.evaluated_get(depsgraph), preserve_all_data_layers=True,
                                                    depsgraph=depsgraph)
             parent.modifiers.clear()
             parent.data = mesh
 
 
-def prepare(context, report):
+def number_points(context, objects):
+    """Objects that deform get the mesh that they are now. Its last UV map numbers the points (motion.add_points())."""
+    depsgraph = context.evaluated_depsgraph_get()
+    for each in objects:
+        mesh = bpy.data.meshes.new_from_object(each.evaluated_get(depsgraph), preserve_all_data_layers=True,
+                                               depsgraph=depsgraph)
+        if each.type != "MESH":
+            continue
+        each.shape_key_clear()
+        each.modifiers.clear()
+        each.data = mesh
+        while len(mesh.uv_layers) >= 8:
+            mesh.uv_layers.remove(mesh.uv_layers[-1])
+        layer = mesh.uv_layers.new(name="ods points", do_init=False)
+        numbers = np.empty(len(mesh.loops), np.int32)
+        mesh.loops.foreach_get("vertex_index", numbers)
+        layer.data.foreach_set("uv", np.stack([numbers % 4096, numbers // 4096], 1).astype(np.float32).ravel())
+
+
+def prepare(context, samples, ledger):
+    """samples: of what moves; None: nothing does."""
     scene, view_layer = context.scene, context.view_layer
     prepared = Prepared()
-    shown, unseen, held_out = _rendered(view_layer)
-    if held_out:
-        report.warn(f"{some(sorted(held_out))}: a holdout in Blender, an ordinary object here")
-    _modify_as_rendered(scene)
+    shown, unseen, held_out = _rendered(view_layer, samples)
+    for name in sorted(held_out):
+        ledger.lose("a holdout is an ordinary object here", "object", name)
+        ledger.tick(shown[name], "is_holdout")
     _unhide(view_layer, shown)
-    _name_lost(shown, report)
-    _name_visibility(shown, report)
+    _name_lost(shown, ledger)
     depsgraph = context.evaluated_depsgraph_get()
     depsgraph.update()
     themselves = {i.object.original.name_full for i in depsgraph.object_instances if not i.is_instance and i.show_self}
-    prepared.instances = _collect_instances(depsgraph, shown, prepared, report)
+    prepared.instances = _collect_instances(depsgraph, shown, prepared, samples, ledger)
+    if samples:
+        _collect_scattered(depsgraph, shown, prepared, samples)
     for each in scene.objects:
         renders = each.name_full in shown and (each.name_full in themselves or each.type not in MESHES)
         if each.type == "LIGHT" and renders:
             prepared.lights.append((each, each.name, each.data, each.matrix_world.copy()))
         if each.type in ("LIGHT", "CAMERA"):
             continue
-        try:
-            each.hide_render = not renders and each.type in MESHES
-            if each.instance_type != "NONE":
-                each.instance_type = "NONE"
-        except (AttributeError, TypeError):
-            pass  # of a library
-    strange = sorted({light.name for _, _, light, _ in prepared.lights if not hasattr(light, "energy")})
+        each.hide_render = not renders and each.type in MESHES
+        if each.instance_type != "NONE":
+            each.instance_type = "NONE"
+    for _, _, light, _ in prepared.lights:
+        if not hasattr(light, "energy"):  # Blender 2 wrote its hemispheric light, which is gone, into Collada
+            ledger.lose("a light of a kind that Blender does not have does not come across", "light", light.name)
     prepared.lights = [each for each in prepared.lights if hasattr(each[2], "energy")]
-    if strange:  # Blender 2 wrote its hemispheric light, which is gone, into Collada
-        report.warn(f"{some(strange)}: lights of a kind that Blender does not have do not come across")
-    _stop_scattering(prepared.instances, depsgraph)
-    for group in prepared.instances:
-        scene.collection.objects.link(group.prototype)
+    parents = {group.parent for group in prepared.instances}
+    _stop_scattering(parents | {parent for _, parent in (samples.scattered if samples else ())}, depsgraph)
+    for prototype in [*(group.prototype for group in prepared.instances), *(each for each, _ in prepared.scattered)]:
+        scene.collection.objects.link(prototype)
     for number, each in enumerate(scene.objects):
         prepared.objects.append(each)
         each[MARK] = number

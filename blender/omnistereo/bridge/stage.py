@@ -12,6 +12,7 @@ class Stage:
 
     def __init__(self, world=None):
         self.scene = scene = bpy.data.scenes.new("ods stage")
+        scene.frame_set(bpy.context.scene.frame_current)  # pictures that change
         scene.world = world
         if world:
             world.cycles.sampling_method = "NONE"  # nothing is lit by it here

@@ -8,6 +8,8 @@ import numpy as np
 from mathutils import Vector
 
 from .camera import panorama_of
+from .groups import unpack_groups
+from .motion import moves
 from .places import TO_GLTF, columns
 from .stage import Stage, pixels
 
@@ -40,21 +42,6 @@ def even_color(world):
         return None
     strength = node.inputs["Strength"].default_value
     return [max(0.0, c * strength) for c in list(node.inputs["Color"].default_value)[:3]]
-
-
-def _trees(tree, seen):
-    if tree is None or tree.name in seen:
-        return
-    seen[tree.name] = tree
-    for node in tree.nodes:
-        if node.type == "GROUP":
-            _trees(node.node_tree, seen)
-
-
-def _nodes(world):
-    trees = {}
-    _trees(world.node_tree, trees)
-    return [node for tree in trees.values() for node in tree.nodes]
 
 
 def _width_of(nodes):
@@ -111,36 +98,94 @@ def _add_sun(glb, node, irradiance):
     })
 
 
-def export_world(glb, scene, folder, report):
-    """What --env takes: numbers, or the name of a picture in the folder. The disc of a sky's sun becomes a light."""
-    world = scene.world
-    color = even_color(world)
-    if color is not None:
-        return ",".join(f"{c:.9g}" for c in color)
-    nodes = _nodes(world)
-    kinds = {n.type for n in nodes}
-    if "LIGHT_PATH" in kinds:
-        report.warn("the world looks different to the camera than to light: it comes across as the camera sees it")
-    output = next(n for n in world.node_tree.nodes if n.type == "OUTPUT_WORLD" and n.is_active_output)
-    if output.inputs["Volume"].is_linked:
-        report.warn("the world's volume does not come across")
+def _see(world, is_camera):
+    """Sets what Light Path nodes say to a ray of the camera, or to one of light, and returns how to undo that."""
+    tree, before = world.node_tree, []
+    rays = {"Is Camera Ray"} if is_camera else {"Is Diffuse Ray", "Is Reflection Ray"}
+    for node in [n for n in tree.nodes if n.type == "LIGHT_PATH"]:
+        for output in node.outputs:
+            value = 1.0 if output.name in rays else 0.0
+            for link in list(output.links):
+                before.append((output, link.to_socket))
+                tree.links.remove(link)
+                constant = tree.nodes.new("ShaderNodeValue")
+                constant.outputs[0].default_value = value
+                tree.links.new(constant.outputs[0], before[-1][1])
+    return lambda: [tree.links.new(*each) for each in before]
+
+
+def _render(world, width, samples, path):
+    """One colour, if that is all there is; else None, and the picture is written."""
     stage = Stage(world)
-    skies = [n for n in nodes if n.type == "TEX_SKY" and hasattr(n, "sun_disc") and n.sun_disc
-             and n.sky_type not in ("PREETHAM", "HOSEK_WILKIE")]
-    for node in skies:
-        if node.inputs and node.inputs[0].is_linked:
-            report.warn("the sun of a turned sky is part of its picture, with soft shadows")
-            continue
-        _add_sun(glb, node, _measure_sun(stage, node, folder))
-        node.sun_disc = False
     stage.camera.rotation_euler = (math.pi / 2, 0, 0)
     stage.data.type = "PANO"
     pano = panorama_of(stage.data)
     pano.panorama_type = "EQUIRECTANGULAR"
     pano.longitude_min, pano.longitude_max = -math.pi, math.pi
     pano.latitude_min, pano.latitude_max = -math.pi / 2, math.pi / 2
-    width = _width_of(nodes)
-    samples = 1 if kinds & {"TEX_ENVIRONMENT", "TEX_SKY"} else 4  # those are pictures themselves
-    stage.render(os.path.join(folder, "world.exr"), width, width // 2, samples)
+    stage.render(path, width, width // 2, samples)
     stage.remove()
-    return "world.exr"
+    found = pixels(path)[..., :3]
+    if found.min(axis=(0, 1)).tolist() != found.max(axis=(0, 1)).tolist():
+        return None
+    os.remove(path)
+    return found[0, 0].tolist()
+
+
+def _add_suns(glb, world, nodes, folder, ledger):
+    """The discs of skies become lights."""
+    skies = [n for n in nodes if n.type == "TEX_SKY" and hasattr(n, "sun_disc") and n.sun_disc
+             and n.sky_type not in ("PREETHAM", "HOSEK_WILKIE")]
+    for node in skies:
+        if node.inputs and node.inputs[0].is_linked:
+            ledger.lose("the sun of a turned sky is part of its picture, with soft shadows", "world", world.name)
+            continue
+        stage = Stage(world)
+        _add_sun(glb, node, _measure_sun(stage, node, folder))
+        stage.remove()
+        node.sun_disc = False
+
+
+def _surroundings(world, nodes, folder, name, is_camera):
+    """What --env and --background take: numbers, or the name of a picture in the folder."""
+    undo = _see(world, is_camera)
+    kinds = {n.type for n in nodes}
+    samples = 1 if kinds & {"TEX_ENVIRONMENT", "TEX_SKY"} else 4  # those are pictures themselves
+    color = even_color(world) or _render(world, _width_of(nodes), samples, os.path.join(folder, name))
+    undo()
+    return name if color is None else _numbers(color)
+
+
+def _numbers(color):
+    return ",".join(f"{c:.9g}" for c in color)
+
+
+def export_world(glb, scene, folder, ledger):
+    """(light, background): what --env takes, and what --background takes; None if that is the same."""
+    world = scene.world
+    if world is None:
+        return "0,0,0", None
+    if not world.use_nodes or world.node_tree is None:
+        return _numbers(even_color(world)), None
+    output = next((n for n in world.node_tree.nodes if n.type == "OUTPUT_WORLD" and n.is_active_output), None)
+    if output is not None and output.inputs["Volume"].is_linked:
+        ledger.lose("the volume does not come across", "world", world.name)
+    unpack_groups(world.node_tree)
+    nodes = list(world.node_tree.nodes)
+    if even_color(world) is None:
+        _add_suns(glb, world, nodes, folder, ledger)
+    if moves(world):
+        ledger.lose("a world that changes stays as in the saved frame", "world", world.name)
+    seen = ledger.read(world, "cycles_visibility.camera", True)
+    ledger.tick(world, "color")
+    ledger.close("world", [world])
+    for ray in ("diffuse", "glossy", "transmission", "camera"):
+        if hasattr(world, "cycles_visibility"):
+            setattr(world.cycles_visibility, ray, True)
+    light = _surroundings(world, nodes, folder, "world.exr", False)
+    if not seen:
+        return light, "0,0,0"
+    if not any(n.type == "LIGHT_PATH" for n in nodes):
+        return light, None
+    background = _surroundings(world, nodes, folder, "background.exr", True)
+    return light, background

@@ -21,7 +21,7 @@ static glm::dmat3 frame_of(const ViewAngles& angles) {
   return {right, up, back};
 }
 
-// How sound turns with the pictures; none: they do not turn.
+// The rotation of the sound with the pictures. Returns no rotation if they do not turn.
 static SoundTurn sound_turn(const Footage& footage, const VideoConversion& conversion) {
   const auto angles = [](const StereoCamera& camera) { return ViewAngles{camera.yaw, camera.pitch, camera.roll}; };
   const glm::dmat3 before = frame_of(angles(footage.video().prototype.camera));
@@ -32,7 +32,7 @@ static SoundTurn sound_turn(const Footage& footage, const VideoConversion& conve
   };
 }
 
-// The depth of the next picture; tells of the first one.
+// The depth of the next picture. Reports on the first one through `tell`.
 static DepthFootage::Give next_depth(DepthFootage& depth, std::optional<int> number, bool is_first,
                                      const std::function<void(const DepthReport&)>& tell) {
   if (!is_first || !tell) return depth.next(number);
@@ -43,7 +43,7 @@ static DepthFootage::Give next_depth(DepthFootage& depth, std::optional<int> num
   };
 }
 
-// A frame whose eyes are moved by its depth.
+// Converts a frame whose eyes are moved by its depth.
 static std::shared_ptr<VideoFrame> convert_with_depth(const Footage& footage, const DecodedFrame& frame,
                                                       const DepthFootage::Give& give, const ConvertTarget& target,
                                                       const FrameFormat& format) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Converts a video in one decode and one encode: its pictures as frame_converter.h does, its sound copied, its time
-// stamps and colours kept. And makes a video of converted frames.
+// Converts a video in one decode and one encode: its pictures with frame_converter.h, its sound copied, its time stamps
+// and colours kept. Also makes a video of converted frames.
 #pragma once
 #include <functional>
 #include <memory>
@@ -20,45 +20,45 @@
 
 namespace ods {
 
-// The merge map of each picture, by its number from the first one on; none: the target's for all. May be called from
-// any thread.
+// The merge map of each picture, by its number from the first one on; null for the target's own. May be called from any
+// thread.
 using MergeOfPicture = std::function<std::shared_ptr<const Image>(int picture)>;
 
 struct VideoConversion {
   ConvertTarget target;  // as in FrameConverter
   Layout layout = Layout::kTopBottom;
-  SphericalMetadata metadata;  // of the new video
-  std::vector<TurnKey> turns;  // how the camera was turned; times from the first picture on. May be empty
+  SphericalMetadata metadata;  // metadata of the new video
+  std::vector<TurnKey> turns;  // rotation of the camera; times from the first picture on. May be empty
   Resume resume = {};
-  DepthFootage* depth = nullptr;                      // of the pictures; may be none
-  std::function<void(const DepthReport&)> tell = {};  // of the first picture's depth
-  MergeOfPicture merge = {};                          // with depth only
+  DepthFootage* depth = nullptr;                      // depth of the pictures; may be null
+  std::function<void(const DepthReport&)> tell = {};  // called for the first picture's depth
+  MergeOfPicture merge = {};                          // only with depth
 };
 
-// Converts the part of the video that Footage::choose() chose. `options` give the packing, and what is kept;
-// rate, clock and colours are those of the video; keep.cut.is_cut must be set for a part. Returns the number of
-// frames. Throws Error as VideoDecoder and write_video(); kUsage: there is no picture in that part.
+// Converts the part of the video that Footage::choose() selected. `options` specify the packing, and the streams and
+// metadata to keep; rate, clock and colours are copied from the video; keep.cut.is_cut must be set for a part. Returns
+// the number of frames. Throws Error like VideoDecoder and write_video(); kUsage if that part contains no picture.
 int convert_video(Footage& video, const VideoConversion& conversion, EncodeOptions options, const std::string& path,
                   const Progress& progress = {});
 
-// A frame's picture. Throws Error(kInput) as open_picture(), and if it is not like the first frame, of which `first` is
-// the header.
+// Opens a frame's picture. Throws Error(kInput) like open_picture(), and if it differs in format from the first frame,
+// whose header is `first`.
 StoredPicture open_frame(const FrameFiles& files, size_t index, const StoredPicture& first);
 
 struct FramesConversion {
   FrameFiles files;
-  StoredPicture first;   // header of the first frame; the others are like it
+  StoredPicture first;   // header of the first frame; the others have the same format
   ConvertTarget target;  // as in FrameConverter
   Layout layout = Layout::kTopBottom;
   SphericalMetadata metadata;
-  DisplayTransform display;  // of scene-linear frames
+  DisplayTransform display;  // for scene-linear frames
   Resume resume = {};
   DepthFootage* depth = nullptr;
-  std::function<void(const DepthReport&)> tell = {};  // of the first picture's depth
+  std::function<void(const DepthReport&)> tell = {};  // called for the first picture's depth
   MergeOfPicture merge = {};
 };
 
-// Throws Error as make_video(), also kUsage for a frame that cannot be converted.
+// Makes a video of converted frames. Throws Error like make_video(), also kUsage for a frame that cannot be converted.
 int convert_frames(const FramesConversion& conversion, const EncodeOptions& options, const std::string& path,
                    const Progress& progress = {});
 

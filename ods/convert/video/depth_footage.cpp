@@ -11,7 +11,7 @@ namespace ods {
 
 namespace {
 
-// Depth has the eyes and the shape of its pictures, whatever its own metadata say.
+// Depth has the eyes and the shape of its pictures, regardless of its own metadata.
 Footage open_depth(const std::string& path, const StoredPicture& format) {
   FormatHint known;
   known.one_eye = format.eyes.size() == 1;
@@ -20,7 +20,7 @@ Footage open_depth(const std::string& path, const StoredPicture& format) {
   return Footage(path, known);
 }
 
-// Grey, as a video has it: 0..1 of what its range allows.
+// Converts a grey frame of a video to numbers from 0 to 1 of its range.
 DepthNumbers numbers_of(const Footage& footage, const DecodedFrame& frame) {
   const VideoStream& stream = footage.stream();
   DepthNumbers depth{Image(stream.size.width, stream.size.height, 1), (1 << stream.bits) - 1, footage.path()};

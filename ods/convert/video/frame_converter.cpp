@@ -94,8 +94,8 @@ struct FrameConverter::State {
   const VideoStream& stream;
   ConvertTarget target;
   FrameFormat format;
-  std::optional<ConversionPlan> plan;             // the same for all frames; none: each is turned by angles of its own
-  std::optional<std::vector<PixelShift>> shifts;  // frames are copied
+  std::optional<ConversionPlan> plan;             // the same for all frames; not set if each frame has its own rotation
+  std::optional<std::vector<PixelShift>> shifts;  // set if pixels of frames are copied
   FramePool frames;
 
   std::shared_ptr<VideoFrame> copy(const DecodedFrame& frame) const;

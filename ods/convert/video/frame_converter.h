@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Converts the pictures of a video, or of frames, into frames of a new video: bit for bit as convert() converts each.
-// Only where pixels merely move are a video's own numbers copied (shifted_frame.h), which loses less: as colours, its
-// chroma would be interpolated and averaged.
+// Converts the pictures of a video, or single frames, to frames of a new video: bit for bit like convert() converts
+// each picture. If pixels merely move, the video's own numbers are copied instead (shifted_frame.h), which loses less,
+// because a conversion of colours would interpolate and average chroma.
 //
-// SDR is resampled in linear light, by sRGB's curve, as pictures are. HDR is resampled in its code values: PQ and HLG
-// are made so that equal steps look alike, and in linear light a highlight of a hundred times the white would outweigh
-// all its neighbours, so that its edges were jagged. Values above white and below black are kept.
+// SDR is resampled in linear light, by sRGB's curve, like pictures. HDR is resampled in its code values: equal steps of
+// PQ and HLG look equal, whereas in linear light a highlight of a hundred times the white would outweigh all adjacent
+// pixels, and its edges would be jagged. Values above white and below black are kept.
 #pragma once
 #include <memory>
 
@@ -18,9 +18,9 @@
 
 namespace ods {
 
-// The frames to make.
+// The format of the new frames.
 struct FrameFormat {
-  Layout layout = Layout::kTopBottom;  // of two eyes, each half of the frame
+  Layout layout = Layout::kTopBottom;  // for two eyes, each half of the frame
   Packing packing;
   ColorCode color;
 };
@@ -28,8 +28,8 @@ struct FrameFormat {
 // A conversion of a video's pictures.
 class FrameConverter {
  public:
-  // target.eye: as stored, that is squeezed for a squeezed layout. has_turns: every frame is turned by angles of its
-  // own. `video` and `stream` must outlive the converter. Preconditions: conversion_fault() is empty, no alpha.
+  // target.eye: as stored, that is, squeezed for a squeezed layout. has_turns: every frame has its own rotation.
+  // `video` and `stream` must outlive the converter. Preconditions: conversion_fault() is empty, no alpha.
   FrameConverter(const VideoInput& video, const VideoStream& stream, const ConvertTarget& target,
                  const FrameFormat& format, bool has_turns);
   ~FrameConverter();
@@ -42,7 +42,7 @@ class FrameConverter {
   std::unique_ptr<State> state_;
 };
 
-// The frame of a converted picture. `display` is for scene-linear light, none for display-encoded pictures.
+// Makes a frame of a converted picture. `display` is for scene-linear light, and not set for display-encoded pictures.
 std::shared_ptr<VideoFrame> frame_of(const PictureRows& rows, const FrameFormat& format,
                                      const std::optional<DisplayTransform>& display);
 

@@ -10,9 +10,9 @@
 
 namespace ods {
 
-// The place of a pixel, as a shift; nothing if it is between texels.
+// The shift of a pixel's position. Returns nullopt if it is between texels.
 static std::optional<PixelShift> shift_at(const Mapping& mapping, int index, int x, int y) {
-  const float kTolerance = 1.0f / 256.0f;  // as of the filter (texel_filter.h)
+  const float kTolerance = 1.0f / 256.0f;  // as in texel_filter.h
   const vec2 home = mapping.home_of(x, y);
   const Place place = mapping.find(index, home, home);
   const vec2 off = place.at - vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
@@ -22,8 +22,8 @@ static std::optional<PixelShift> shift_at(const Mapping& mapping, int index, int
   return PixelShift{place.source_eye, (column % width + width) % width, static_cast<int>(whole.y)};
 }
 
-// Between two lat-longs with the same axis places are linear, so a grid tells of all pixels. Of two pictures of the
-// same projection it tells whether they are the same.
+// Between two lat-longs with the same axis, positions are linear, so a grid of pixels determines all. For two pictures
+// of the same projection, the grid determines whether they are the same.
 static std::optional<PixelShift> find_shift(const Mapping& mapping, int index) {
   const int kSteps = 32;
   std::optional<PixelShift> all;

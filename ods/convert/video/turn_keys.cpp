@@ -13,7 +13,7 @@
 
 namespace ods {
 
-// A plain decimal number; nothing for other texts.
+// Parses a plain decimal number. Returns nullopt for other texts.
 static std::optional<double> parse_number(std::string_view text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a camera was turned while it filmed, as keyframes in a text file, so that `ods convert` can turn its video back.
+// The rotation of a camera during filming, as keyframes in a text file, so that `ods convert` can turn its video back.
 //
 // A line is a keyframe: "TIME ROLL" or "TIME YAW PITCH ROLL". The time is in seconds, 1:02.5 or 1:02:03; angles are in
-// degrees: yaw to the right, pitch up, roll clockwise. Times ascend. Empty lines, and what follows #, are ignored.
+// degrees: yaw to the right, pitch up, roll clockwise. Times ascend. Empty lines, and text after #, are ignored.
 #pragma once
 #include <optional>
 #include <string>
@@ -20,14 +20,14 @@ struct TurnKey {
   ViewAngles turned{0.0f, 0.0f, 0.0f};
 };
 
-// Throws Error(kInput): an unreadable file, no keyframe, a line of another form.
+// Reads keyframes. Throws Error(kInput) for an unreadable file, no keyframe, or a line of another form.
 std::vector<TurnKey> read_turn_keys(const std::string& path);
 
-// The angles at a time: those of the keyframes, linearly between them, constant before the first and after the last.
+// The angles at a time, interpolated linearly between keyframes, constant before the first and after the last.
 // Precondition: there is a keyframe.
 ViewAngles turned_at(const std::vector<TurnKey>& keys, double seconds);
 
-// "12.5", "1:02.5", "1:02:03": seconds. Nothing for other texts.
+// Parses "12.5", "1:02.5" or "1:02:03" to seconds. Returns nullopt for other texts.
 std::optional<double> parse_time(std::string_view text);
 
 }  // namespace ods

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One picture file being encoded, whatever its format. A format's encoder is in the .cpp with its name.
+// A picture file of any format that is being encoded. A format's encoder is in the .cpp with its name.
 #pragma once
 #include <cstddef>
 #include <memory>
 #include <string>
 
 #include "ods/base/error.h"
-#include "ods/files/atomic_file.h"
+#include "ods/files/byte_sink.h"
 #include "ods/image/image_file.h"
 
 namespace ods {
@@ -17,23 +17,23 @@ class Encoder {
  public:
   virtual ~Encoder() = default;
 
-  // Rows [begin, end), from the top and each once: interleaved by pixel, in the header's types of samples. An encoder
-  // need not notice that the disk is full: AtomicFile does. Throws Error(kOutput).
+  // Rows [begin, end), from the top and each once: interleaved by pixel, in the header's types of samples. Throws
+  // Error(kOutput).
   virtual void write(int begin, int end, const std::byte* rows) = 0;
-  // After the last row. Throws Error(kOutput).
+  // Call after the last row. Throws Error(kOutput).
   virtual void finish() = 0;
 };
 
-// The file and the header must outlive what they return. Throw Error(kOutput).
-std::unique_ptr<Encoder> create_png(AtomicFile& file, const FileHeader& header);
-std::unique_ptr<Encoder> create_jpeg(AtomicFile& file, const FileHeader& header);
-std::unique_ptr<Encoder> create_tiff(AtomicFile& file, const FileHeader& header);
-std::unique_ptr<Encoder> create_webp(AtomicFile& file, const FileHeader& header);
-std::unique_ptr<Encoder> create_hdr(AtomicFile& file, const FileHeader& header);
-std::unique_ptr<Encoder> create_exr(AtomicFile& file, const FileHeader& header);
+// The sink and the header must outlive what they return. Throw Error(kOutput).
+std::unique_ptr<Encoder> create_png(ByteSink& sink, const FileHeader& header);
+std::unique_ptr<Encoder> create_jpeg(ByteSink& sink, const FileHeader& header);
+std::unique_ptr<Encoder> create_tiff(ByteSink& sink, const FileHeader& header);
+std::unique_ptr<Encoder> create_webp(ByteSink& sink, const FileHeader& header);
+std::unique_ptr<Encoder> create_hdr(ByteSink& sink, const FileHeader& header);
+std::unique_ptr<Encoder> create_exr(ByteSink& sink, const FileHeader& header);
 
 size_t bytes_of_pixel(const FileHeader& header);
 
-Error cannot_write(const AtomicFile& file, const std::string& why);
+Error cannot_write(const ByteSink& sink, const std::string& why);
 
 }  // namespace ods

@@ -38,7 +38,7 @@
 
 namespace ods {
 
-// OpenEXR's threads: as many as TBB may have, so that one limit (tbb::global_control) holds for all.
+// OpenEXR's threads: the number that TBB may use, so that one limit (tbb::global_control) applies to all.
 static int exr_threads() {
   static std::mutex setting;
   const std::lock_guard lock(setting);
@@ -51,7 +51,7 @@ static int exr_threads() {
 
 namespace {
 
-// OpenEXR's functions throw exceptions of their own; `make` turns their words into an Error.
+// OpenEXR's functions throw exceptions of their own; `make` converts their text to an Error.
 template <class Calls, class MakeError>
 auto guarded(const Calls& calls, const MakeError& make) {
   try {
@@ -87,12 +87,14 @@ struct ExrChannel {
   int part = 0;
   Imf::PixelType type;
   std::string layer() const { return name.substr(0, name.rfind('.') + 1); }  // npos + 1: none
+  // R, G, B, A, then all others.
   size_t rank() const {
-    return std::min(std::string_view("RGBA").find(name.substr(layer().size())), std::string_view("RGBA").size());
+    const std::string own = name.substr(layer().size());
+    return own.size() == 1 ? std::min(std::string_view("RGBA").find(own), size_t{4}) : 4;
   }
 };
 
-// A part has its channels by the alphabet. Here: by layer, and in it first R, G, B, A.
+// Sorts a part's channels, which are in alphabetical order, by layer, and in it first R, G, B, A.
 void sort_channels(std::vector<ExrChannel>& channels) {
   std::stable_sort(channels.begin(), channels.end(), [](const ExrChannel& a, const ExrChannel& b) {
     const std::string one = a.layer(), other = b.layer();
@@ -100,7 +102,7 @@ void sort_channels(std::vector<ExrChannel>& channels) {
   });
 }
 
-// view: goes before the last word, as files of one part have it: right.R, normal.right.X; empty: none.
+// view: inserted before the last component, as in files of one part: right.R, normal.right.X; empty for none.
 std::vector<ExrChannel> channels_of(const Imf::Header& header, int part, const std::string& view,
                                     const std::string& path) {
   std::vector<ExrChannel> channels;
@@ -110,7 +112,7 @@ std::vector<ExrChannel> channels_of(const Imf::Header& header, int part, const s
       throw cannot_read(path, fmt::format("its channel {} has fewer pixels than the picture", each.name()));
     }
     std::string name = each.name();
-    if (!view.empty()) name.insert(name.rfind('.') + 1, view + ".");  // npos + 1: before all of it
+    if (!view.empty()) name.insert(name.rfind('.') + 1, view + ".");  // if there is no dot, npos + 1 is the start
     channels.push_back({name, each.name(), part, each.channel().type});
   }
   return channels;
@@ -120,12 +122,12 @@ bool is_deep(const Imf::Header& header) {
   return header.hasType() && Imf::isDeepData(header.type());
 }
 
-// The view that a part shows; empty: it does not say.
+// The view of a part. Empty if unspecified.
 std::string view_of(const Imf::Header& header) {
   return header.hasView() ? header.view() : "";
 }
 
-// The parts that show both eyes in the windows of the first one; otherwise only that.
+// The parts of both eyes if they have the same windows as the first one; otherwise only the first.
 std::vector<int> parts_of(const Imf::MultiPartInputFile& file) {
   std::vector<int> parts;
   bool has_left = false, has_right = false;
@@ -141,7 +143,7 @@ std::vector<int> parts_of(const Imf::MultiPartInputFile& file) {
   return has_left && has_right && parts[0] == 0 ? parts : std::vector{0};
 }
 
-// By the names that FileInfo has them.
+// Adds attributes under their names in FileInfo.
 void add_attributes(const Imf::Header& header, FileInfo& info) {
   for (auto each = header.begin(); each != header.end(); ++each) {
     const std::string name = each.name();
@@ -170,7 +172,7 @@ class ExrDecoder final : public Decoder {
  public:
   explicit ExrDecoder(const PictureBytes& file);
   void read(int begin, int end, size_t first, size_t count, std::byte* to) override;
-  // The data window's first pixel, from the display window's, and the size of that.
+  // The data window's first pixel, relative to the display window's, and the display window's size.
   Imath::V2i place() const { return window_.min - file_->header(0).displayWindow().min; }
   Imath::V2i shown() const { return file_->header(0).displayWindow().size() + Imath::V2i(1); }
 
@@ -184,11 +186,11 @@ class ExrDecoder final : public Decoder {
   bool on_disk_;
   std::unique_ptr<ExrInput> input_;
   std::unique_ptr<Imf::MultiPartInputFile> file_;
-  std::map<int, Imf::InputPart> parts_;  // for read_any(): they make room for rows
+  std::map<int, Imf::InputPart> parts_;  // for read_any(): they allocate rows
   Imath::Box2i window_;
   std::vector<ExrChannel> channels_;
-  bool has_views_ = false;         // in parts
-  std::unique_ptr<ExrRows> rows_;  // of the channels from first_ on; nullptr: ExrRows cannot read the file
+  bool has_views_ = false;         // views are in separate parts
+  std::unique_ptr<ExrRows> rows_;  // the channels from first_ on; nullptr if ExrRows cannot read the file
   std::optional<size_t> first_;
 };
 
@@ -204,7 +206,7 @@ ExrDecoder::ExrDecoder(const PictureBytes& file) : name_(file.name), on_disk_(fi
       [&](const std::string& words) { return cannot_read(name_, words); });
 }
 
-// Returns how many parts it has read.
+// Returns the number of parts that are read.
 int ExrDecoder::add_parts() {
   const std::vector<int> parts = parts_of(*file_);
   int count = 0;
@@ -237,7 +239,7 @@ void ExrDecoder::describe() {
   }
   add_attributes(header, info);
   has_views_ = read > 1;
-  if (has_views_) info.text.erase("view");  // it is that of one part
+  if (has_views_) info.text.erase("view");  // belongs to one part only
   if (header.hasTileDescription())
     rows_together = std::min(info.height, static_cast<int>(std::min(header.tileDescription().ySize, 1u << 30)));
 }
@@ -256,7 +258,7 @@ void ExrDecoder::read_any(int begin, int end, size_t first, size_t count, std::b
   const size_t pixel = bytes_of_pixel(first, count), row = pixel * static_cast<size_t>(info.width);
   std::map<int, Imf::FrameBuffer> buffers;
   char* at = reinterpret_cast<char*>(to) - static_cast<ptrdiff_t>(pixel) * window_.min.x -
-             static_cast<ptrdiff_t>(row) * (window_.min.y + begin);  // where pixel 0, 0 would be
+             static_cast<ptrdiff_t>(row) * (window_.min.y + begin);  // the position of pixel 0, 0
   for (size_t c = first; c < first + count; c++) {
     const ExrChannel& channel = channels_[c];
     buffers[channel.part].insert(channel.stored, Imf::Slice(channel.type, at, pixel, row));
@@ -287,7 +289,7 @@ void ExrDecoder::read(int begin, int end, size_t first, size_t count, std::byte*
 
 }  // namespace
 
-// OpenEXR makes room for what the header announces before it looks at the file.
+// OpenEXR allocates memory for the header's claims before it checks the file.
 std::unique_ptr<Decoder> open_exr(const PictureBytes& file) {
   const std::string fault = exr_header_fault(file.size, file.read);
   if (!fault.empty()) throw cannot_read(file.name, fault);
@@ -301,23 +303,16 @@ std::unique_ptr<Decoder> open_exr(const PictureBytes& file) {
 
 namespace {
 
-// What OpenEXR writes to. It never reports a failure: AtomicFile notices.
+// The output of OpenEXR.
 class ExrOutput final : public Imf::OStream {
  public:
-  explicit ExrOutput(const AtomicFile& file) : OStream(file.path().c_str()), stream_(file.stream()) {}
-  void write(const char bytes[], int size) override {
-    std::fwrite(bytes, 1, static_cast<size_t>(size), stream_);
-    at_ += static_cast<uint64_t>(size);
-  }
-  uint64_t tellp() override { return at_; }
-  void seekp(uint64_t to) override {
-    fseeko(stream_, static_cast<off_t>(to), SEEK_SET);
-    at_ = to;
-  }
+  explicit ExrOutput(ByteSink& sink) : OStream(sink.path().c_str()), sink_(sink) {}
+  void write(const char bytes[], int size) override { sink_.write(bytes, static_cast<size_t>(size)); }
+  uint64_t tellp() override { return sink_.position(); }
+  void seekp(uint64_t to) override { sink_.seek(to); }
 
  private:
-  std::FILE* stream_;
-  uint64_t at_ = 0;
+  ByteSink& sink_;
 };
 
 void insert_floats(Imf::Header& header, const char* name, const std::vector<float>& f) {
@@ -340,36 +335,27 @@ void insert_attribute(Imf::Header& header, const Attribute& attribute) {
   }
 }
 
-class TextOutput final : public Imf::OStream {
- public:
-  TextOutput() : OStream("") {}
-  void write(const char bytes[], int size) override { text.append(bytes, static_cast<size_t>(size)); }
-  uint64_t tellp() override { return text.size(); }
-  void seekp(uint64_t) override {}
-
-  std::string text;
-};
-
 // The header as OpenEXR will write it.
 ExrHeader written(const Imf::Header& header) {
-  constexpr int kVersion = 2;  // of the format
+  constexpr int kVersion = 2;  // version of the file format
   ExrHeader result;
   for (auto each = header.begin(); each != header.end(); ++each) {
-    TextOutput value;
-    each.attribute().writeValueTo(value, kVersion);
-    result.attributes.push_back({each.name(), each.attribute().typeName(), value.text});
+    MemorySink value(each.name());
+    ExrOutput output(value);
+    each.attribute().writeValueTo(output, kVersion);
+    result.attributes.push_back({each.name(), each.attribute().typeName(), value.take()});
   }
   return result;
 }
 
 class ExrEncoder final : public Encoder {
  public:
-  ExrEncoder(AtomicFile& file, const FileHeader& header);
+  ExrEncoder(ByteSink& sink, const FileHeader& header);
   void write(int begin, int end, const std::byte* rows) override;
-  void finish() override { output_.reset(); }  // writes the table of offsets
+  void finish() override { output_.reset(); }  // writes the offset table
 
  private:
-  AtomicFile& file_;
+  ByteSink& sink_;
   const FileHeader& header_;
   ExrOutput stream_;
   std::unique_ptr<Imf::OutputFile> output_;
@@ -379,7 +365,7 @@ Imf::PixelType type_of(SampleType sample) {
   return sample == SampleType::kHalf ? Imf::HALF : Imf::FLOAT;
 }
 
-ExrEncoder::ExrEncoder(AtomicFile& file, const FileHeader& header) : file_(file), header_(header), stream_(file) {
+ExrEncoder::ExrEncoder(ByteSink& sink, const FileHeader& header) : sink_(sink), header_(header), stream_(sink) {
   const int threads = exr_threads();
   guarded(
       [&] {
@@ -393,7 +379,7 @@ ExrEncoder::ExrEncoder(AtomicFile& file, const FileHeader& header) : file_(file)
         if (header.has_checksum) insert_attribute(words, {kExrChecksum, exr_checksum(written(words))});
         output_ = std::make_unique<Imf::OutputFile>(stream_, words, threads);
       },
-      [&](const std::string& what) { return cannot_write(file, what); });
+      [&](const std::string& what) { return cannot_write(sink, what); });
 }
 
 void ExrEncoder::write(int begin, int end, const std::byte* rows) {
@@ -410,13 +396,13 @@ void ExrEncoder::write(int begin, int end, const std::byte* rows) {
         output_->setFrameBuffer(buffer);
         output_->writePixels(end - begin);
       },
-      [&](const std::string& words) { return cannot_write(file_, words); });
+      [&](const std::string& words) { return cannot_write(sink_, words); });
 }
 
 }  // namespace
 
-std::unique_ptr<Encoder> create_exr(AtomicFile& file, const FileHeader& header) {
-  return std::make_unique<ExrEncoder>(file, header);
+std::unique_ptr<Encoder> create_exr(ByteSink& sink, const FileHeader& header) {
+  return std::make_unique<ExrEncoder>(sink, header);
 }
 
 }  // namespace ods

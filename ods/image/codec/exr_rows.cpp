@@ -18,12 +18,12 @@ namespace ods {
 
 namespace {
 
-// --- what ZIP has packed --------------------------------------------------------------------------------------------
+// --- undoing ZIP's preprocessing ------------------------------------------------------------------------------------
 
-// A register of the processor. Both g++ and clang know it so.
+// A SIMD register. Both g++ and clang support this attribute.
 using Bytes = uint8_t __attribute__((vector_size(16)));
 
-// Every byte became its difference to the one before it, and 128.
+// Every byte is stored as its difference from the previous one, plus 128.
 void add_up(uint8_t* bytes, size_t count) {
   const Bytes zero{}, offset = zero + uint8_t{128};
   Bytes before = offset;
@@ -43,7 +43,7 @@ void add_up(uint8_t* bytes, size_t count) {
   for (uint8_t last = before[0]; i < count; i++) bytes[i] = last = static_cast<uint8_t>(bytes[i] + last + 128);
 }
 
-// Those at even places stand before those at odd ones.
+// Bytes at even positions are stored before those at odd ones.
 void interleave(const uint8_t* bytes, size_t count, uint8_t* to) {
   const uint8_t *even = bytes, *odd = bytes + (count + 1) / 2;
   for (size_t i = 0; i < count / 2; i++) to[2 * i] = even[i], to[2 * i + 1] = odd[i];
@@ -63,7 +63,7 @@ exr_result_t unpack_zip(exr_decode_pipeline_t* decode) {
   thread_local Inflater inflater;
   const size_t packed = decode->chunk.packed_size, size = decode->chunk.unpacked_size;
   uint8_t* to = static_cast<uint8_t*>(decode->unpacked_buffer);
-  if (packed == size) {  // it would have grown
+  if (packed == size) {  // stored uncompressed, because it would have grown
     std::memcpy(to, decode->packed_buffer, size);
     return EXR_ERR_SUCCESS;
   }
@@ -84,7 +84,7 @@ void say_nothing(exr_const_context_t, exr_result_t, const char*) {}
 constexpr int64_t kWidest = int64_t{1} << 20;
 constexpr uint64_t kLargestChunk = uint64_t{1} << 28;  // bytes, unpacked
 
-// Its buffers go from one chunk to the next: new ones for each cost as much as unpacking, in page faults.
+// Its buffers are reused for the next chunk: new ones for each chunk cost as much as decompression, in page faults.
 struct Pipeline {
   exr_decode_pipeline_t decode{};  // all zeros, as EXR_DECODE_PIPELINE_INITIALIZER
   exr_const_context_t file;
@@ -107,10 +107,10 @@ struct ExrRows::State {
   std::string path;
   exr_context_t file = nullptr;
   int width = 0;
-  int top = 0;                  // the first row as the file counts
-  int chunk_rows = 1;           // that are packed together
-  std::vector<int> channels;    // as the file has them: which of those that are wanted; below 0: none
-  std::vector<size_t> offsets;  // bytes of a pixel before each that is wanted, and of all
+  int top = 0;                  // the first row in the file's coordinates
+  int chunk_rows = 1;           // rows compressed together
+  std::vector<int> channels;    // for each channel in the file, the index of the wanted channel; negative if not wanted
+  std::vector<size_t> offsets;  // byte offset of each wanted channel in a pixel, and the size of a pixel
 
   ~State() {
     if (file) exr_finish(&file);
@@ -170,7 +170,7 @@ std::unique_ptr<ExrRows> ExrRows::open(const std::string& path, const std::vecto
 ExrRows::ExrRows(std::unique_ptr<State> state) : state_(std::move(state)) {}
 ExrRows::~ExrRows() = default;
 
-// The chunk that starts at a row; what of it is wanted, if not all, by way of rows of our own.
+// Reads the chunk that starts at a row; if only a part of it is wanted, through a buffer.
 void ExrRows::State::read_chunk(Pipeline& pipeline, int row, int begin, int end, size_t wanted, std::byte* to) const {
   const size_t stride = offsets[wanted], row_size = stride * static_cast<size_t>(width);
   const auto failed = [&] {

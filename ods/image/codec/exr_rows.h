@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rows of OpenEXR files whose scanlines are packed by ZIP, which are most: read through OpenEXR's core with libdeflate
-// in zlib's place, about three times as fast as OpenEXR alone (exr_rows.cpp alone knows the two). Other files
-// are left to it. Source of the packing: OpenEXR, "Technical Introduction" and "OpenEXR File Layout".
+// Reads rows of OpenEXR files whose scanlines are compressed by ZIP, which are most files: through OpenEXR's core with
+// libdeflate instead of zlib, about three times as fast as OpenEXR alone (only exr_rows.cpp uses the two). Other files
+// are left to OpenEXR. Source of the compression: OpenEXR, "Technical Introduction" and "OpenEXR File Layout".
 #pragma once
 #include <cstddef>
 #include <memory>
@@ -14,15 +14,15 @@ namespace ods {
 
 class ExrRows {
  public:
-  // The first part of a file; nullptr: it is no EXR that this is for, or damaged. `channels`: names in the order in
-  // which they are wanted.
+  // Opens the first part of a file. Returns nullptr if it is not a supported EXR, or damaged. `channels`: names in the
+  // wanted order.
   static std::unique_ptr<ExrRows> open(const std::string& path, const std::vector<std::string>& channels);
   ~ExrRows();
   ExrRows(const ExrRows&) = delete;
   ExrRows& operator=(const ExrRows&) = delete;
 
-  // The first `channels` channels of rows begin..end, counted from the top, one sample behind the other, every sample
-  // as the file has it. Throws Error(kInput).
+  // Reads the first `channels` channels of rows begin..end, counted from the top, one sample after the other, in the
+  // file's sample type. Throws Error(kInput).
   void read(int begin, int end, size_t channels, std::byte* to) const;
 
  private:

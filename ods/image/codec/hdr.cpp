@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Radiance pictures (.hdr): three mantissas and the exponent that they share, four bytes a pixel. Sources: Greg Ward,
-// "Real Pixels", in "Graphics Gems II"; "Radiance File Formats". EXPOSURE and COLORCORR are not applied.
+// Radiance pictures (.hdr): three mantissas and a shared exponent, four bytes per pixel. Sources: Greg Ward, "Real
+// Pixels", in "Graphics Gems II"; "Radiance File Formats". EXPOSURE and COLORCORR are not applied.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,12 +19,12 @@ namespace ods {
 namespace {
 
 constexpr size_t kPixel = 4;                                   // red, green, blue, exponent
-constexpr size_t kShortestPacked = 8, kLongestPacked = 32767;  // rows of which each component may be packed by itself
+constexpr size_t kShortestPacked = 8, kLongestPacked = 32767;  // row widths with separately packed components
 constexpr std::string_view kFormat = "32-bit_rle_rgbe";
 
 // --- reading ---------------------------------------------------------------------------------------------------------
 
-// The bytes of a file one after the other.
+// Reads the bytes of a file sequentially.
 class ByteStream {
  public:
   explicit ByteStream(const PictureBytes& file) : file_(file), buffer_(1 << 16) {}
@@ -49,11 +49,11 @@ class ByteStream {
 
   PictureBytes file_;
   std::vector<uint8_t> buffer_;
-  size_t used_ = 0, held_ = 0;  // of the buffer
-  size_t end_ = 0;              // of the buffer in the file
+  size_t used_ = 0, held_ = 0;  // bytes in the buffer
+  size_t end_ = 0;              // end of the buffer in the file
 };
 
-// Each component by itself: runs of up to 127 equal bytes, and up to 128 bytes as they are.
+// Reads components that are packed separately: runs of up to 127 equal bytes, and up to 128 literal bytes.
 void read_components(ByteStream& in, uint8_t* to, size_t length) {
   for (size_t c = 0; c < kPixel; c++) {
     for (size_t x = 0; x < length;) {
@@ -65,7 +65,8 @@ void read_components(ByteStream& in, uint8_t* to, size_t length) {
   }
 }
 
-// Whole pixels, of which 1, 1, 1, n repeats the one before it n times; directly after another repetition, 256 n times.
+// Reads whole pixels, of which 1, 1, 1, n repeats the previous one n times; directly after another repetition, 256 n
+// times.
 void read_pixels(ByteStream& in, uint8_t* to, size_t length, const uint8_t* first) {
   unsigned shift = 0;
   for (size_t x = 0; x < length;) {
@@ -103,7 +104,7 @@ float to_float(const uint8_t* pixel, size_t component) {
 struct Order {
   char axes[2] = {'Y', 'X'};
   char signs[2] = {'-', '+'};
-  size_t counts[2] = {0, 0};  // of scanlines, and of pixels in each
+  size_t counts[2] = {0, 0};  // number of scanlines, and of pixels in each
   bool is_usual() const { return axes[0] == 'Y' && signs[0] == '-' && signs[1] == '+'; }
 };
 
@@ -133,10 +134,10 @@ class HdrDecoder final : public Decoder {
   std::string name_;
   ByteStream in_;
   Order order_;
-  size_t start_ = 0;            // of the first scanline
+  size_t start_ = 0;            // start of the first scanline
   int next_ = 0;                // scanline
-  std::vector<uint8_t> row_;    // a scanline
-  std::vector<uint8_t> whole_;  // every scanline, if their order is unusual
+  std::vector<uint8_t> row_;    // one scanline
+  std::vector<uint8_t> whole_;  // all scanlines, if their order is unusual
 };
 
 std::string HdrDecoder::read_line() {
@@ -178,7 +179,7 @@ void HdrDecoder::read_order(const std::string& line) {
   if (order_.axes[0] == order_.axes[1]) throw in_.damaged();
 }
 
-// Grows with what the file holds.
+// Memory grows with the data in the file.
 void HdrDecoder::read_whole() {
   in_.seek(start_);
   for (size_t i = 0; i < order_.counts[0]; i++) {
@@ -187,7 +188,7 @@ void HdrDecoder::read_whole() {
   }
 }
 
-// Row y of a picture whose order is unusual, as if it were a scanline.
+// Extracts row y of a picture with an unusual order, as if it were a scanline.
 void HdrDecoder::put_row(int y, size_t first, size_t count, std::byte* to) {
   const bool has_rows = order_.axes[0] == 'Y';
   const size_t down = static_cast<size_t>(order_.signs[has_rows ? 0 : 1] == '-' ? y : info.height - 1 - y);
@@ -233,7 +234,7 @@ std::unique_ptr<Decoder> open_hdr(const PictureBytes& file) {
 namespace {
 
 void put_pixel(const float* light, uint8_t* to) {
-  constexpr float kLeast = 1e-32f, kMost = 1e38f;  // of the shared exponent's range
+  constexpr float kLeast = 1e-32f, kMost = 1e38f;  // range of the shared exponent
   float values[3], largest = 0.0f;
   for (size_t c = 0; c < 3; c++) largest = std::max(largest, values[c] = finite(light[c], 0.0f, kMost));
   if (largest < kLeast) return void(std::memset(to, 0, kPixel));
@@ -243,7 +244,7 @@ void put_pixel(const float* light, uint8_t* to) {
   to[3] = static_cast<uint8_t>(exponent + 128);
 }
 
-// One component of a row: runs of at least four equal bytes, and what is between them.
+// Packs one component of a row: runs of at least four equal bytes, and the bytes between them.
 void pack_component(const uint8_t* row, size_t length, std::vector<uint8_t>& to) {
   constexpr size_t kShortestRun = 4, kLongestRun = 127, kMostBytes = 128;
   const auto run_at = [&](size_t x) {
@@ -268,18 +269,20 @@ void pack_component(const uint8_t* row, size_t length, std::vector<uint8_t>& to)
 
 class HdrEncoder final : public Encoder {
  public:
-  HdrEncoder(AtomicFile& file, const FileHeader& header)
-      : stream_(file.stream()), length_(static_cast<size_t>(header.width)), row_(kPixel * length_) {
+  HdrEncoder(ByteSink& sink, const FileHeader& header)
+      : sink_(sink), length_(static_cast<size_t>(header.width)), row_(kPixel * length_) {
     if (header.channels.size() != 3 || header.channels[0].sample != SampleType::kFloat) {
-      throw cannot_write(file, "an HDR has three channels of floats");
+      throw cannot_write(sink, "an HDR has three channels of floats");
     }
-    fmt::print(stream_, "#?RADIANCE\nFORMAT={}\n\n-Y {} +X {}\n", kFormat, header.height, header.width);
+    const std::string head =
+        fmt::format("#?RADIANCE\nFORMAT={}\n\n-Y {} +X {}\n", kFormat, header.height, header.width);
+    sink_.write(head.data(), head.size());
   }
   void write(int begin, int end, const std::byte* rows) override;
   void finish() override {}
 
  private:
-  std::FILE* stream_;
+  ByteSink& sink_;
   size_t length_;
   std::vector<uint8_t> row_, packed_;
 };
@@ -293,19 +296,19 @@ void HdrEncoder::write(int begin, int end, const std::byte* rows) {
       put_pixel(light, &row_[x * kPixel]);
     }
     if (length_ < kShortestPacked || length_ > kLongestPacked) {
-      std::fwrite(row_.data(), 1, row_.size(), stream_);
+      sink_.write(row_.data(), row_.size());
       continue;
     }
     packed_ = {2, 2, static_cast<uint8_t>(length_ >> 8), static_cast<uint8_t>(length_ & 0xff)};
     for (size_t c = 0; c < kPixel; c++) pack_component(&row_[c], length_, packed_);
-    std::fwrite(packed_.data(), 1, packed_.size(), stream_);
+    sink_.write(packed_.data(), packed_.size());
   }
 }
 
 }  // namespace
 
-std::unique_ptr<Encoder> create_hdr(AtomicFile& file, const FileHeader& header) {
-  return std::make_unique<HdrEncoder>(file, header);
+std::unique_ptr<Encoder> create_hdr(ByteSink& sink, const FileHeader& header) {
+  return std::make_unique<HdrEncoder>(sink, header);
 }
 
 }  // namespace ods

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// HEIC and AVIF through libheif, which turns, mirrors and crops them as they say.
+// Decodes HEIC and AVIF through libheif, which rotates, mirrors and crops them according to their metadata.
 #include <fmt/format.h>
 #include <libheif/heif.h>
 
@@ -29,7 +29,7 @@ struct Free {
 template <typename T>
 using Owned = std::unique_ptr<T, Free>;
 
-// libheif decodes whole pictures: on the first read().
+// libheif decodes whole pictures, so this happens on the first read().
 class HeifDecoder final : public Decoder {
  public:
   HeifDecoder(const PictureBytes& file, int view);
@@ -49,7 +49,7 @@ class HeifDecoder final : public Decoder {
   int bits_ = 8;
 };
 
-// Of a picture inside another file only that it asks for nothing impossible.
+// Pictures inside other files are only checked for impossible sizes.
 HeifItems items_of(const PictureBytes& file, const std::vector<uint8_t>& bytes) {
   try {
     if (file.on_disk) return read_heif_items(FileInput(file.name));

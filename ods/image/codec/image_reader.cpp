@@ -135,11 +135,11 @@ static void each_row(Decoder& decoder, size_t first, size_t count, const Take& t
   }
 }
 
-// Channels of a file, by their numbers and in their order, as floats.
+// Channels of a file, by their indices and in their order, as floats.
 static Image read_floats(Decoder& decoder, const std::vector<size_t>& channels) {
   const auto [least, most] = std::minmax_element(channels.begin(), channels.end());
   const size_t first = *least, count = *most - first + 1;
-  std::vector<size_t> offsets{0};  // of the channels from the first on
+  std::vector<size_t> offsets{0};  // offsets of the channels, from the first on
   for (size_t c = first; c < first + count; c++) offsets.push_back(offsets.back() + bytes_of(decoder.info.samples[c]));
   Image image(decoder.info.width, decoder.info.height, static_cast<int>(channels.size()));
   each_row(decoder, first, count, [&](const std::byte* from, int y) {
@@ -183,7 +183,7 @@ Image read_channels(const std::string& path, const std::vector<std::string>& nam
   return image;
 }
 
-// A code of 8 bits for any sample.
+// The 8-bit code of any sample.
 static uint32_t code_of(SampleType sample, const std::byte* at) {
   if (sample == SampleType::kUint8) return static_cast<uint32_t>(*at);
   return static_cast<uint32_t>(finite(sample_value(sample, at), 0.0f, 1.0f) * 255.0f + 0.5f);
@@ -236,7 +236,7 @@ class FileRows final : public RowReader {
  private:
   std::unique_ptr<Decoder> decoder_;
   ColorSpace color_;
-  FileInfo info_;                         // its samples: as read() returns them
+  FileInfo info_;                         // its samples have the types that read() returns
   std::optional<SrgbConverter> to_srgb_;  // for integers of another colour space
   std::vector<std::byte> narrow_;         // 8-bit integers that become 16-bit ones
 };

@@ -9,14 +9,13 @@
 #include <vector>
 
 #include "ods/base/text.h"
-#include "ods/files/file_input.h"
 #include "ods/image/codec/encoder.h"
 #include "ods/image/image_file.h"
 
 namespace ods {
 
-Error cannot_write(const AtomicFile& file, const std::string& why) {
-  return Error(ErrorKind::kOutput, fmt::format("cannot write '{}': {}", file.path(), library_words(why)));
+Error cannot_write(const ByteSink& sink, const std::string& why) {
+  return Error(ErrorKind::kOutput, fmt::format("cannot write '{}': {}", sink.path(), library_words(why)));
 }
 
 size_t bytes_of_pixel(const FileHeader& header) {
@@ -25,29 +24,29 @@ size_t bytes_of_pixel(const FileHeader& header) {
   return bytes;
 }
 
-static std::unique_ptr<Encoder> create_encoder(AtomicFile& file, const FileHeader& header) {
+static std::unique_ptr<Encoder> create_encoder(ByteSink& sink, const FileHeader& header) {
   switch (header.format) {
     case FileFormat::kPng:
-      return create_png(file, header);
+      return create_png(sink, header);
     case FileFormat::kJpeg:
-      return create_jpeg(file, header);
+      return create_jpeg(sink, header);
     case FileFormat::kTiff:
-      return create_tiff(file, header);
+      return create_tiff(sink, header);
     case FileFormat::kWebp:
-      return create_webp(file, header);
+      return create_webp(sink, header);
     case FileFormat::kHdr:
-      return create_hdr(file, header);
+      return create_hdr(sink, header);
     case FileFormat::kHeif:
-      throw cannot_write(file, "HEIF is only read");
+      throw cannot_write(sink, "HEIF is only read");
     case FileFormat::kExr:
       break;
   }
-  return create_exr(file, header);
+  return create_exr(sink, header);
 }
 
 // Writes rows in bands: large enough for OpenEXR to compress on all cores, small enough that no second picture is in
 // memory. Computes the next band meanwhile, as most formats compress on one core.
-void write_image(AtomicFile& file, const FileHeader& header, const RowSource& rows,
+void write_image(ByteSink& sink, const FileHeader& header, const RowSource& rows,
                  const std::function<void()>& band_done) {
   assert(header.width > 0 && header.height > 0 && !header.channels.empty());
   const int kBand = 64;
@@ -63,7 +62,7 @@ void write_image(AtomicFile& file, const FileHeader& header, const RowSource& ro
     });
     if (band_done) band_done();
   };
-  const std::unique_ptr<Encoder> encoder = create_encoder(file, header);
+  const std::unique_ptr<Encoder> encoder = create_encoder(sink, header);
   make(0);
   for (int begin = 0; begin < header.height; begin += kBand) {
     const int end = std::min(begin + kBand, header.height);
@@ -82,12 +81,10 @@ void write_image(AtomicFile& file, const FileHeader& header, const RowSource& ro
   encoder->finish();
 }
 
-std::string image_bytes(const std::string& path, const FileHeader& header, const RowSource& rows) {
-  AtomicFile file(path);
-  write_image(file, header, rows);
-  file.finish();
-  const FileInput bytes(file.temporary());
-  return bytes.read(0, bytes.size());
+std::string image_bytes(const std::string& name, const FileHeader& header, const RowSource& rows) {
+  MemorySink memory(name);
+  write_image(memory, header, rows);
+  return memory.take();
 }
 
 }  // namespace ods

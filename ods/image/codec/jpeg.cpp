@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <cstring>
 
-// After <cstdio>: it needs FILE.
+// After <cstdio>, because it needs FILE.
 #include <jpeglib.h>
 
 #include "ods/base/text.h"
@@ -22,7 +22,7 @@ namespace ods {
 
 namespace {
 
-// Where libjpeg's errors go: it would end the process, and print.
+// Handles libjpeg's errors; by default it would end the process, and print.
 struct JpegFault : jpeg_error_mgr {
   std::jmp_buf back;
   char words[JMSG_LENGTH_MAX] = "";
@@ -38,7 +38,7 @@ struct JpegFault : jpeg_error_mgr {
   }
 };
 
-// Calls libjpeg; false: it failed. longjmp leaves no chance to destructors, so `calls` must need none.
+// Calls libjpeg. Returns false if it failed. longjmp calls no destructors, so `calls` must need none.
 template <class Calls>
 bool succeeds(JpegFault& fault, const Calls& calls) {
   if (setjmp(fault.back)) return false;
@@ -48,10 +48,10 @@ bool succeeds(JpegFault& fault, const Calls& calls) {
 
 // --- reading ---------------------------------------------------------------------------------------------------------
 
-// What libjpeg reads: a PictureBytes, through a buffer.
+// The input of libjpeg: a PictureBytes, through a buffer.
 struct JpegInput : jpeg_source_mgr {
   const PictureBytes& file;
-  size_t at = 0;  // of what comes after the buffer
+  size_t at = 0;  // position of the data after the buffer
   JOCTET buffer[1 << 16];
 
   explicit JpegInput(const PictureBytes& of) : jpeg_source_mgr{}, file(of) {
@@ -66,7 +66,7 @@ struct JpegInput : jpeg_source_mgr {
     next_input_byte = buffer;
     if (count > 0 && file.read(at, buffer, count)) {
       bytes_in_buffer = count;
-    } else {  // libjpeg wants an end in any case
+    } else {  // libjpeg needs an end in any case
       buffer[0] = 0xFF, buffer[1] = JPEG_EOI;
       bytes_in_buffer = 2;
     }
@@ -102,7 +102,7 @@ class JpegDecoder final : public Decoder {
   Error failed() const { return cannot_read(file_.name, library_words(fault_.words)); }
 
   PictureBytes file_;
-  int least_wide_;  // 0: as it is
+  int least_wide_;  // 0 for full size
   JpegInput input_;
   JpegFault fault_;
   JpegReading jpeg_;
@@ -110,7 +110,7 @@ class JpegDecoder final : public Decoder {
   std::vector<JSAMPLE> row_;
 };
 
-// Anew from the first row.
+// Restarts from the first row.
 void JpegDecoder::start() {
   input_.at = 0, input_.bytes_in_buffer = 0;
   is_started_ = false;
@@ -123,7 +123,7 @@ void JpegDecoder::start() {
     const bool is_ink = jpeg_.jpeg_color_space == JCS_CMYK || jpeg_.jpeg_color_space == JCS_YCCK;
     if (is_ink) jpeg_.out_color_space = JCS_CMYK;
     if (least_wide_ > 0) {
-      // libjpeg makes eighths from what their blocks say in the first place: nearly all of its work is left out.
+      // libjpeg scales by eighths directly from the coefficients of the blocks, which avoids nearly all of its work.
       jpeg_.scale_num = 1, jpeg_.scale_denom = 8;
       while (jpeg_.scale_num < 8 && jpeg_.image_width * jpeg_.scale_num / 8 < static_cast<JDIMENSION>(least_wide_)) {
         jpeg_.scale_num *= 2;
@@ -148,7 +148,7 @@ void JpegDecoder::read_header() {
   row_.resize(jpeg_.output_width * static_cast<size_t>(jpeg_.output_components));
 }
 
-// Adobe's programs store ink as 255 minus its amount, and say so by a marker of theirs.
+// Adobe's programs store ink as 255 minus its amount, and mark this with their own marker.
 void ink_to_light(std::vector<JSAMPLE>& row, bool is_inverted) {
   JSAMPLE* to = row.data();
   for (size_t at = 0; at + 4 <= row.size(); at += 4) {
@@ -175,7 +175,7 @@ void JpegDecoder::read(int begin, int end, size_t first, size_t count, std::byte
 
 }  // namespace
 
-// libjpeg fills what is missing with grey, and only warns.
+// libjpeg fills missing data with grey, and only warns.
 std::unique_ptr<Decoder> open_jpeg(const PictureBytes& file, int least_wide) {
   if (!is_whole_jpeg(file.size, file.read)) throw cannot_read(file.name, "the JPEG is cut short or damaged");
   return std::make_unique<JpegDecoder>(file, least_wide);
@@ -185,22 +185,22 @@ std::unique_ptr<Decoder> open_jpeg(const PictureBytes& file, int least_wide) {
 
 namespace {
 
-// Where libjpeg writes. It never reports a failure: AtomicFile notices.
+// The output of libjpeg.
 struct JpegOutput : jpeg_destination_mgr {
-  std::FILE* stream;
+  ByteSink& sink;
   JOCTET buffer[1 << 16];
 
-  explicit JpegOutput(std::FILE* to) : jpeg_destination_mgr{}, stream(to) {
+  explicit JpegOutput(ByteSink& to) : jpeg_destination_mgr{}, sink(to) {
     init_destination = [](j_compress_ptr jpeg) { static_cast<JpegOutput*>(jpeg->dest)->begin(); };
     empty_output_buffer = [](j_compress_ptr jpeg) -> boolean {
       JpegOutput& output = *static_cast<JpegOutput*>(jpeg->dest);
-      std::fwrite(output.buffer, 1, sizeof output.buffer, output.stream);
+      output.sink.write(output.buffer, sizeof output.buffer);
       output.begin();
       return TRUE;
     };
     term_destination = [](j_compress_ptr jpeg) {
       JpegOutput& output = *static_cast<JpegOutput*>(jpeg->dest);
-      std::fwrite(output.buffer, 1, sizeof output.buffer - output.free_in_buffer, output.stream);
+      output.sink.write(output.buffer, sizeof output.buffer - output.free_in_buffer);
     };
   }
   void begin() { next_output_byte = buffer, free_in_buffer = sizeof buffer; }
@@ -215,7 +215,7 @@ struct JpegWriting : jpeg_compress_struct {
 
 class JpegEncoder final : public Encoder {
  public:
-  JpegEncoder(AtomicFile& file, const FileHeader& header);
+  JpegEncoder(ByteSink& sink, const FileHeader& header);
 
   void write(int begin, int end, const std::byte* rows) override {
     const bool good = succeeds(fault_, [&] {
@@ -231,17 +231,17 @@ class JpegEncoder final : public Encoder {
   }
 
  private:
-  Error failed() const { return cannot_write(file_, fault_.words); }
+  Error failed() const { return cannot_write(sink_, fault_.words); }
 
-  AtomicFile& file_;
+  ByteSink& sink_;
   JpegOutput output_;
   JpegFault fault_;
   JpegWriting jpeg_;
   size_t row_size_;
 };
 
-// Before the pixels come GPano as XMP, then text as comments.
-JpegEncoder::JpegEncoder(AtomicFile& file, const FileHeader& header) : file_(file), output_(file.stream()) {
+// XMP with GPano comes before the pixels, then text as comments.
+JpegEncoder::JpegEncoder(ByteSink& sink, const FileHeader& header) : sink_(sink), output_(sink) {
   const size_t channels = header.channels.size();
   row_size_ = channels * static_cast<size_t>(header.width);
   const std::string packet = gpano_xmp(header.attributes);
@@ -272,8 +272,8 @@ JpegEncoder::JpegEncoder(AtomicFile& file, const FileHeader& header) : file_(fil
 
 }  // namespace
 
-std::unique_ptr<Encoder> create_jpeg(AtomicFile& file, const FileHeader& header) {
-  return std::make_unique<JpegEncoder>(file, header);
+std::unique_ptr<Encoder> create_jpeg(ByteSink& sink, const FileHeader& header) {
+  return std::make_unique<JpegEncoder>(sink, header);
 }
 
 }  // namespace ods

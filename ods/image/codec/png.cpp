@@ -17,7 +17,7 @@ namespace ods {
 
 namespace {
 
-// Where libpng's errors go: it ends a call by longjmp, and must not print.
+// Handles libpng's errors: it ends a call by longjmp, and must not print.
 struct PngFault {
   char words[128] = "";
 };
@@ -30,7 +30,7 @@ void keep_error(png_structp png, png_const_charp words) {
 
 void ignore_warning(png_structp, png_const_charp) {}
 
-// Calls libpng; false: it failed. longjmp leaves no chance to destructors, so `calls` must need none.
+// Calls libpng. Returns false if it failed. longjmp calls no destructors, so `calls` must need none.
 template <class Calls>
 bool succeeds(png_structp png, const Calls& calls) {
   if (setjmp(png_jmpbuf(png))) return false;
@@ -88,10 +88,10 @@ class PngDecoder final : public Decoder {
   bool is_interlaced_ = false;
   size_t pixel_size_ = 0;
   std::vector<png_byte> row_;
-  std::vector<png_byte> whole_;  // of an interlaced picture
+  std::vector<png_byte> whole_;  // for interlaced pictures
 };
 
-// Anew from the first row. Palettes become colours, fewer than 8 bits become 8, a transparent colour becomes alpha.
+// Restarts from the first row. Palettes become colours, fewer than 8 bits become 8, a transparent colour becomes alpha.
 void PngDecoder::start() {
   libpng_.end();
   png_structp png = libpng_.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &fault_, keep_error, ignore_warning);
@@ -101,11 +101,11 @@ void PngDecoder::start() {
   next_ = 0;
   const bool good = succeeds(png, [&] {
     png_set_read_fn(png, &input_, read_bytes);
-    png_set_crc_action(png, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);  // essential_png() has checked them
+    png_set_crc_action(png, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);  // checked by essential_png()
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);     // ours are checked
     png_read_info(png, header);
     png_set_expand(png);
-    png_set_swap(png);  // 16 bits: little endian, as all machines that this runs on
+    png_set_swap(png);  // 16 bits: little endian, like all supported machines
     is_interlaced_ = png_set_interlace_handling(png) > 1;
     png_read_update_info(png, header);
   });
@@ -173,7 +173,7 @@ std::unique_ptr<Decoder> open_png(const PictureBytes& file) {
 namespace {
 
 void write_bytes(png_structp png, png_bytep bytes, size_t size) {
-  std::fwrite(bytes, 1, size, static_cast<std::FILE*>(png_get_io_ptr(png)));  // AtomicFile notices a failure
+  static_cast<ByteSink*>(png_get_io_ptr(png))->write(bytes, size);
 }
 
 void flush_nothing(png_structp) {}
@@ -195,7 +195,7 @@ struct PngWriting {
 
 class PngEncoder final : public Encoder {
  public:
-  PngEncoder(AtomicFile& file, const FileHeader& header);
+  PngEncoder(ByteSink& sink, const FileHeader& header);
 
   void write(int begin, int end, const std::byte* rows) override {
     const bool good = succeeds(libpng_.png, [&] {
@@ -209,15 +209,15 @@ class PngEncoder final : public Encoder {
   }
 
  private:
-  Error failed() const { return cannot_write(file_, fault_.words); }
+  Error failed() const { return cannot_write(sink_, fault_.words); }
 
-  AtomicFile& file_;
+  ByteSink& sink_;
   PngFault fault_;
   PngWriting libpng_;
   size_t row_size_;
 };
 
-// Uncompressed, which every reader knows. They point into their arguments.
+// Uncompressed, because all readers support that. The texts point into the arguments.
 std::vector<png_text> texts_of(const FileHeader& header, const std::string& xmp) {
   std::vector<png_text> texts;
   const auto add = [&](int form, const char* key, const std::string& text) {
@@ -235,7 +235,7 @@ std::vector<png_text> texts_of(const FileHeader& header, const std::string& xmp)
   return texts;
 }
 
-PngEncoder::PngEncoder(AtomicFile& file, const FileHeader& header) : file_(file) {
+PngEncoder::PngEncoder(ByteSink& sink, const FileHeader& header) : sink_(sink) {
   png_structp png = libpng_.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &fault_, keep_error, ignore_warning);
   png_infop info = libpng_.header = png ? png_create_info_struct(png) : nullptr;
   if (!info) throw std::bad_alloc();
@@ -244,7 +244,7 @@ PngEncoder::PngEncoder(AtomicFile& file, const FileHeader& header) : file_(file)
   const std::string xmp = gpano_xmp(header.attributes);
   const std::vector<png_text> texts = texts_of(header, xmp);
   const bool good = succeeds(png, [&] {
-    png_set_write_fn(png, file.stream(), write_bytes, flush_nothing);
+    png_set_write_fn(png, &sink, write_bytes, flush_nothing);
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_IHDR(png, info, static_cast<png_uint_32>(header.width), static_cast<png_uint_32>(header.height),
                  static_cast<int>(8 * sample), color_type_of(channels), PNG_INTERLACE_NONE,
@@ -260,8 +260,8 @@ PngEncoder::PngEncoder(AtomicFile& file, const FileHeader& header) : file_(file)
 
 }  // namespace
 
-std::unique_ptr<Encoder> create_png(AtomicFile& file, const FileHeader& header) {
-  return std::make_unique<PngEncoder>(file, header);
+std::unique_ptr<Encoder> create_png(ByteSink& sink, const FileHeader& header) {
+  return std::make_unique<PngEncoder>(sink, header);
 }
 
 }  // namespace ods

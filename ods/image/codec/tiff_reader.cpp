@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// TIFF through libtiff: the first picture of a file. Its orientation is not applied.
+// Decodes TIFF through libtiff: the first picture of a file. Its orientation is not applied.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tiffio.h>
@@ -25,7 +25,7 @@ T field(TIFF* tiff, uint32_t tag, T otherwise) {
   return TIFFGetFieldDefaulted(tiff, tag, &value) == 1 ? value : otherwise;
 }
 
-// One of several handles of a file: each thread decodes with its own.
+// One of several handles of a file: each thread decodes with its own one.
 class TiffInput final : public TiffStream {
  public:
   explicit TiffInput(const PictureBytes& file) : file_(file) {
@@ -57,15 +57,15 @@ class TiffInput final : public TiffStream {
 // The tiles or strips of a picture.
 struct TiffBlocks {
   bool are_tiles = false;
-  uint32_t width = 0, height = 0;  // of each
-  uint64_t bytes = 0;              // of each, in one plane
-  uint64_t row_bytes = 0;          // of a row in it
+  uint32_t width = 0, height = 0;  // size of each
+  uint64_t bytes = 0;              // size of each, in one plane
+  uint64_t row_bytes = 0;          // size of a row in a block
 };
 
 enum class TiffWay {
   kBlocks,  // whole tiles or strips, several at once
-  kLines,   // strips too large for that, row by row
-  kRgba     // colour spaces and packings that libtiff makes RGBA of
+  kLines,   // strips too large for kBlocks, row by row
+  kRgba     // colour spaces and compressions that libtiff converts to RGBA
 };
 
 class TiffDecoder final : public Decoder {
@@ -74,7 +74,7 @@ class TiffDecoder final : public Decoder {
   void read(int begin, int end, size_t first, size_t count, std::byte* to) override;
 
  private:
-  struct Rows {  // wanted
+  struct Rows {  // wanted rows
     int begin, end;
     size_t first, count;
     std::byte* to;
@@ -101,15 +101,15 @@ class TiffDecoder final : public Decoder {
   TiffBlocks blocks_;
   TiffWay way_ = TiffWay::kBlocks;
   std::mutex inputs_mutex_;
-  std::vector<std::unique_ptr<TiffInput>> inputs_;  // that nobody uses
-  struct Line {                                     // of a plane
+  std::vector<std::unique_ptr<TiffInput>> inputs_;  // unused ones
+  struct Line {                                     // a line of one plane
     std::unique_ptr<TiffInput> input;
     int next = 0;
   };
   std::vector<Line> lines_;
 };
 
-// --- what is in it
+// --- the header
 
 TiffNumber number_of(uint16_t format) {
   if (format == SAMPLEFORMAT_INT) return TiffNumber::kSigned;
@@ -125,7 +125,7 @@ std::vector<std::string> names_of(size_t channels) {
   return names;
 }
 
-// The extra samples say which channel is alpha. A file without their kinds has it where names_of() expects it.
+// The extra samples specify which channel is alpha. Without their kinds, it is where names_of() expects it.
 void find_alpha(TIFF* tiff, TiffSamples& samples) {
   std::vector<std::string>& channels = samples.channels;
   uint16_t count = 0;
@@ -143,7 +143,7 @@ void find_alpha(TIFF* tiff, TiffSamples& samples) {
   if (samples.alpha) channels[*samples.alpha] = "A";
 }
 
-// Of 16 bits each, as the file has them; some programs write 8.
+// Palettes have 16 bits each; some programs write 8.
 void read_palette(TIFF* tiff, TiffSamples& samples) {
   const uint16_t* colors[3] = {};
   if (samples.bits > 8 || !TIFFGetField(tiff, TIFFTAG_COLORMAP, &colors[0], &colors[1], &colors[2])) return;
@@ -189,7 +189,7 @@ void TiffDecoder::describe(TIFF* tiff) {
   if (samples_.palette.empty()) find_alpha(tiff, samples_);
 }
 
-// As libtiff makes it: red, green, blue of 8 bits.
+// The output of libtiff's conversion: red, green, blue of 8 bits.
 void TiffDecoder::describe_rgba(TIFF* tiff) {
   char why[1024] = "";
   if (!TIFFRGBAImageOK(tiff, why)) throw cannot_read(file_.name, library_words(why));
@@ -199,7 +199,7 @@ void TiffDecoder::describe_rgba(TIFF* tiff) {
   samples_.channels = names_of(is_grey ? 1 : 3);
 }
 
-// Whether a file's samples are none of the kinds that TiffSamples knows.
+// Returns whether a file's samples are not supported by TiffSamples.
 bool is_unusual(TIFF* tiff) {
   const auto compression = field<uint16_t>(tiff, TIFFTAG_COMPRESSION, COMPRESSION_NONE);
   const bool is_separate = field<uint16_t>(tiff, TIFFTAG_PLANARCONFIG, 1) == PLANARCONFIG_SEPARATE;
@@ -217,7 +217,7 @@ bool is_unusual(TIFF* tiff) {
   }
 }
 
-// Before anything is allocated for pixels.
+// Called before pixels are allocated.
 void TiffDecoder::find_blocks(const TiffInput& input) {
   TIFF* const tiff = input.tiff();
   const auto side = [&](uint32_t tag, uint32_t otherwise) {
@@ -241,7 +241,7 @@ void TiffDecoder::find_blocks(const TiffInput& input) {
   if (blocks_.height < 1 || blocks_.bytes < 1 || blocks_.row_bytes < 1) throw input.failed();
 }
 
-// A few bytes may announce many numbers for each pixel.
+// A few bytes may claim many numbers for each pixel.
 void TiffDecoder::check_amount() const {
   constexpr int64_t kUsual = 4;  // numbers per pixel
   const int64_t most = std::max(kSmallPixels, kMaxPixelsPerByte * static_cast<int64_t>(file_.size));
@@ -277,7 +277,7 @@ TiffDecoder::TiffDecoder(const PictureBytes& file) : file_(file) {
   give_back(std::move(input));
 }
 
-// --- its pixels
+// --- the pixels
 
 std::unique_ptr<TiffInput> TiffDecoder::take_input() {
   {
@@ -296,7 +296,7 @@ void TiffDecoder::give_back(std::unique_ptr<TiffInput> input) {
   inputs_.push_back(std::move(input));
 }
 
-// The wanted rows of the block with this corner.
+// Reads the wanted rows of the block with this corner.
 void TiffDecoder::read_block(const Rows& rows, uint32_t left, uint32_t top) {
   TiffRows convert(samples_, rows.first, rows.count);
   std::vector<std::byte> bytes(blocks_.bytes * convert.planes());
@@ -331,7 +331,7 @@ void TiffDecoder::read_blocks(const Rows& rows) {
                     [&](uint32_t i) { read_block(rows, i % across * blocks_.width, i / across * blocks_.height); });
 }
 
-// libtiff would read all of a strip that is not compressed.
+// libtiff would read the whole of an uncompressed strip.
 void TiffDecoder::read_plain_line(const TiffInput& input, size_t plane, int y, std::byte* to) const {
   const uint32_t row = static_cast<uint32_t>(y),
                  strip = TIFFComputeStrip(input.tiff(), row, static_cast<uint16_t>(plane));
@@ -347,7 +347,7 @@ void TiffDecoder::read_plain_line(const TiffInput& input, size_t plane, int y, s
   if (samples_.bits == 64) TIFFSwabArrayOfDouble(static_cast<double*>(numbers), size / 8);
 }
 
-// A strip is decoded from its first row on.
+// A strip can only be decoded from its first row on.
 void TiffDecoder::read_line(size_t plane, int y, std::byte* to) {
   Line& line = lines_[plane];
   if (!line.input) line.input = take_input();

@@ -38,7 +38,7 @@ void store(std::byte* at, T value) {
   std::memcpy(at, &value, sizeof value);
 }
 
-// Bits [at, at + count), the highest first.
+// Bits [at, at + count), most significant bit first.
 uint64_t bits_at(const std::byte* bytes, size_t at, size_t count) {
   uint64_t value = 0;
   for (size_t i = at; i < at + count; i++) {
@@ -47,7 +47,7 @@ uint64_t bits_at(const std::byte* bytes, size_t at, size_t count) {
   return value;
 }
 
-// A whole number of bytes in this machine's order, which libtiff has made.
+// A number with whole bytes in this machine's byte order, as converted by libtiff.
 uint64_t number_at(const std::byte* bytes, size_t i, int bits) {
   switch (bits) {
     case 8:
@@ -64,7 +64,7 @@ uint64_t number_at(const std::byte* bytes, size_t i, int bits) {
   }
 }
 
-// Integers as codes of the type that they become; indices into a palette as they are.
+// Converts integers to codes of their sample type; indices into a palette are not changed.
 void put_codes(const TiffSamples& samples, const std::byte* from, size_t count, std::byte* to, size_t stride) {
   const bool is_signed = samples.number == TiffNumber::kSigned, is_index = !samples.palette.empty();
   const uint64_t range = uint64_t{1} << (samples.bits - (is_signed ? 1 : 0)), most = range - 1;
@@ -78,14 +78,14 @@ void put_codes(const TiffSamples& samples, const std::byte* from, size_t count, 
   }
 }
 
-// Whether a number of the file is a sample already.
+// Returns whether the file's numbers already are samples.
 bool is_sample(const TiffSamples& samples) {
   const bool is_double = samples.number == TiffNumber::kFloat && samples.bits == 64;
   return samples.number != TiffNumber::kSigned && !is_double &&
          samples.bits == 8 * static_cast<int>(bytes_of(samples.sample));
 }
 
-// `count` numbers of the file; each becomes a sample, `stride` bytes after the one before it.
+// Converts `count` numbers of the file to samples, `stride` bytes apart.
 void put_samples(const TiffSamples& samples, const std::byte* from, size_t count, std::byte* to, size_t stride) {
   const size_t size = bytes_of(samples.sample);
   if (is_sample(samples)) {
@@ -100,7 +100,7 @@ void put_samples(const TiffSamples& samples, const std::byte* from, size_t count
 
 // --- colours ---------------------------------------------------------------------------------------------------------
 
-// Light that two inks let through.
+// The light that two inks let through.
 template <class T>
 T through(T ink, T black) {
   constexpr uint64_t kMost = std::numeric_limits<T>::max();
@@ -130,7 +130,7 @@ void multiply(const TiffSamples& samples, std::byte* pixel) {
   }
 }
 
-// Colours and alpha of whole pixels, as Decoder::read() returns them.
+// Converts colours and alpha of whole pixels to the format of Decoder::read().
 void make_colors(const TiffSamples& samples, const std::byte* from, std::span<std::byte> to) {
   const size_t size = bytes_of(samples.sample), pixel = samples.channels.size() * size;
   for (size_t at = 0; at < to.size(); at += pixel, from += samples.inputs * size) {

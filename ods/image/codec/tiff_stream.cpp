@@ -12,11 +12,11 @@ namespace ods {
 
 namespace {
 
-// Keeps the first message: it says what happened, later ones what that led to. Called by C: nothing here may throw.
+// Keeps the first message, which is the cause of later ones. Called by C, so it must not throw.
 int keep_message(TIFF*, void* to, const char*, const char* format, std::va_list values) {
   TiffStream& stream = *static_cast<TiffStream*>(to);
   if (stream.words[0] == '\0') std::vsnprintf(stream.words, sizeof stream.words, format, values);
-  return 1;  // and nobody else is told
+  return 1;  // suppresses libtiff's own handler
 }
 
 int ignore_message(TIFF*, void*, const char*, const char*, std::va_list) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// libtiff's handle of a file: where it reads and writes, and what it says.
+// A handle of a file for libtiff: its input and output, and its messages.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -12,10 +12,10 @@ struct tiff;  // libtiff's TIFF
 
 namespace ods {
 
-// The bytes of a file.
+// The bytes of a file for libtiff.
 struct TiffStream {
   virtual ~TiffStream() = default;
-  // At `at`, which they move. read() returns the number of bytes read.
+  // At the position `at`, which they advance. read() returns the number of bytes read.
   virtual size_t read(void* to, size_t count) = 0;
   virtual void write(const void* from, size_t count) = 0;
   virtual uint64_t size() = 0;
@@ -29,8 +29,8 @@ struct TiffCloser {
 };
 using TiffHandle = std::unique_ptr<tiff, TiffCloser>;
 
-// `mode` as TIFFOpen() has it. `most`: bytes that libtiff may allocate at once; 0: any number. nullptr: it failed. The
-// stream must outlive the handle.
+// Opens a handle. `mode`: as for TIFFOpen(). `most`: bytes that libtiff may allocate at once; 0 for no limit. Returns
+// nullptr on failure. The stream must outlive the handle.
 TiffHandle open_tiff_handle(TiffStream& stream, const std::string& name, const char* mode, uint64_t most);
 
 }  // namespace ods

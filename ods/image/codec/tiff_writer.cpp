@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// TIFF through libtiff, packed by libdeflate.
+// Encodes TIFF through libtiff, compressed by libdeflate.
 #include <libdeflate.h>
 #include <tbb/parallel_for.h>
 #include <tiffio.h>
@@ -22,29 +22,28 @@ namespace {
 
 class TiffOutput final : public TiffStream {
  public:
-  explicit TiffOutput(std::FILE* stream) : stream_(stream) {}
+  explicit TiffOutput(ByteSink& sink) : sink_(sink) {}
   size_t read(void*, size_t) override { return 0; }
-  // Never reports a failure: AtomicFile notices.
   void write(const void* from, size_t count) override {
-    if (at != place_) fseeko(stream_, static_cast<off_t>(at), SEEK_SET);
-    std::fwrite(from, 1, count, stream_);
-    place_ = at += count;
+    if (at != sink_.position()) sink_.seek(at);
+    sink_.write(from, count);
+    at += count;
     size_ = std::max(size_, at);
   }
   uint64_t size() override { return size_; }
 
  private:
-  std::FILE* stream_;
-  uint64_t place_ = 0, size_ = 0;
+  ByteSink& sink_;
+  uint64_t size_ = 0;
 };
 
 constexpr size_t kRowsPerStrip = 16;
 
-// Strips of 16 rows, several packed at once by libdeflate: the differences of neighbours where the numbers are
+// Strips of 16 rows, several compressed at once by libdeflate, with differences of adjacent samples if the numbers are
 // integers.
 class TiffEncoder final : public Encoder {
  public:
-  TiffEncoder(AtomicFile& file, const FileHeader& header);
+  TiffEncoder(ByteSink& sink, const FileHeader& header);
   void write(int begin, int end, const std::byte* rows) override;
   void finish() override;
 
@@ -52,25 +51,25 @@ class TiffEncoder final : public Encoder {
   void set_fields();
   void write_strips();
   std::vector<std::byte> packed(std::span<std::byte> strip) const;
-  Error failed() const { return cannot_write(file_, output_.words); }
+  Error failed() const { return cannot_write(sink_, output_.words); }
 
-  AtomicFile& file_;
+  ByteSink& sink_;
   const FileHeader& header_;
   TiffOutput output_;
   TiffHandle handle_;
   size_t row_size_;
-  uint32_t strips_ = 0;          // that are written
-  std::vector<std::byte> rows_;  // that are not
+  uint32_t strips_ = 0;          // number of written strips
+  std::vector<std::byte> rows_;  // rows that are not written yet
 };
 
-TiffEncoder::TiffEncoder(AtomicFile& file, const FileHeader& header)
-    : file_(file),
+TiffEncoder::TiffEncoder(ByteSink& sink, const FileHeader& header)
+    : sink_(sink),
       header_(header),
-      output_(file.stream()),
+      output_(sink),
       row_size_(bytes_of_pixel(header) * static_cast<size_t>(header.width)) {
   constexpr uint64_t kLongest = std::numeric_limits<uint32_t>::max() - (uint32_t{1} << 26);
   const bool is_big = row_size_ * static_cast<size_t>(header.height) > kLongest;
-  handle_ = open_tiff_handle(output_, file.path(), is_big ? "w8" : "w", 0);
+  handle_ = open_tiff_handle(output_, sink.path(), is_big ? "w8" : "w", 0);
   if (!handle_) throw failed();
   set_fields();
 }
@@ -157,8 +156,8 @@ void TiffEncoder::finish() {
 
 }  // namespace
 
-std::unique_ptr<Encoder> create_tiff(AtomicFile& file, const FileHeader& header) {
-  return std::make_unique<TiffEncoder>(file, header);
+std::unique_ptr<Encoder> create_tiff(ByteSink& sink, const FileHeader& header) {
+  return std::make_unique<TiffEncoder>(sink, header);
 }
 
 }  // namespace ods

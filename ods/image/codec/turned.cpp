@@ -9,7 +9,7 @@ namespace ods {
 
 namespace {
 
-// Holds the whole picture: rows of the turned one are columns of the stored one.
+// Keeps the whole picture in memory, because rows of the rotated one are columns of the stored one.
 class TurnedDecoder final : public Decoder {
  public:
   TurnedDecoder(std::unique_ptr<Decoder> stored, int orientation)

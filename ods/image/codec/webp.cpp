@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// WebP through libwebp; of an animation the first frame.
+// WebP through libwebp; for an animation, the first frame.
 #include <webp/decode.h>
 #include <webp/demux.h>
 #include <webp/encode.h>
@@ -19,7 +19,7 @@ namespace ods {
 
 namespace {
 
-// libwebp decodes whole pictures: on the first read().
+// libwebp decodes whole pictures, so this happens on the first read().
 class WebpDecoder final : public Decoder {
  public:
   explicit WebpDecoder(const PictureBytes& file);
@@ -31,9 +31,9 @@ class WebpDecoder final : public Decoder {
   void decode_first_frame();
 
   std::string name_;
-  std::vector<uint8_t> file_;  // until it is decoded
+  std::vector<uint8_t> file_;  // kept until it is decoded
   WebPBitstreamFeatures features_{};
-  size_t channels_ = 0;  // of pixels_
+  size_t channels_ = 0;  // channels of pixels_
   std::vector<uint8_t> pixels_;
 };
 
@@ -108,13 +108,13 @@ struct WebpPicture : WebPPicture {
   ~WebpPicture() { WebPPictureFree(this); }
 };
 
-// libwebp encodes whole pictures: in finish().
+// libwebp encodes whole pictures, so this happens in finish().
 class WebpEncoder final : public Encoder {
  public:
-  WebpEncoder(AtomicFile& file, const FileHeader& header) : file_(file), header_(header) {
+  WebpEncoder(ByteSink& sink, const FileHeader& header) : sink_(sink), header_(header) {
     const size_t channels = header.channels.size();
     if ((channels != 3 && channels != 4) || header.channels[0].sample != SampleType::kUint8) {
-      throw cannot_write(file, "a WebP has three or four channels of 8 bits");
+      throw cannot_write(sink, "a WebP has three or four channels of 8 bits");
     }
     pixels_.reserve(channels * static_cast<size_t>(header.width) * static_cast<size_t>(header.height));
   }
@@ -126,7 +126,7 @@ class WebpEncoder final : public Encoder {
   void finish() override;
 
  private:
-  AtomicFile& file_;
+  ByteSink& sink_;
   const FileHeader& header_;
   std::vector<uint8_t> pixels_;
 };
@@ -135,12 +135,12 @@ void WebpEncoder::finish() {
   WebPConfig config;
   if (!WebPConfigInit(&config)) throw std::bad_alloc();
   config.quality = static_cast<float>(header_.quality);
-  config.method = 6;  // the slowest, which packs best
+  config.method = 6;  // the slowest, with the best compression
   WebpPicture picture;
   picture.width = header_.width, picture.height = header_.height;
-  picture.custom_ptr = file_.stream();
+  picture.custom_ptr = &sink_;
   picture.writer = [](const uint8_t* bytes, size_t size, const WebPPicture* to) {
-    std::fwrite(bytes, 1, size, static_cast<std::FILE*>(to->custom_ptr));  // AtomicFile notices a failure
+    static_cast<ByteSink*>(to->custom_ptr)->write(bytes, size);
     return 1;
   };
   const int row = static_cast<int>(header_.channels.size()) * header_.width;
@@ -150,15 +150,15 @@ void WebpEncoder::finish() {
   if (is_taken && WebPEncode(&config, &picture)) return;
   const WebPEncodingError fault = picture.error_code;
   if (fault == VP8_ENC_ERROR_OUT_OF_MEMORY || fault == VP8_ENC_ERROR_BITSTREAM_OUT_OF_MEMORY) throw std::bad_alloc();
-  throw cannot_write(file_, fault == VP8_ENC_ERROR_PARTITION0_OVERFLOW || fault == VP8_ENC_ERROR_PARTITION_OVERFLOW
+  throw cannot_write(sink_, fault == VP8_ENC_ERROR_PARTITION0_OVERFLOW || fault == VP8_ENC_ERROR_PARTITION_OVERFLOW
                                 ? "it is too large for WebP; a lower `quality` or .png holds it"
                                 : "libwebp cannot encode it; try .png");
 }
 
 }  // namespace
 
-std::unique_ptr<Encoder> create_webp(AtomicFile& file, const FileHeader& header) {
-  return std::make_unique<WebpEncoder>(file, header);
+std::unique_ptr<Encoder> create_webp(ByteSink& sink, const FileHeader& header) {
+  return std::make_unique<WebpEncoder>(sink, header);
 }
 
 }  // namespace ods

@@ -45,7 +45,7 @@ class WindowedDecoder final : public Decoder {
   }
 
   std::unique_ptr<Decoder> stored_;
-  int left_, top_;  // of what is stored, in the picture
+  int left_, top_;  // position of the stored part in the picture
   std::vector<std::byte> rows_;
 };
 

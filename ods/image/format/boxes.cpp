@@ -23,8 +23,8 @@ namespace {
 
 struct BoxHeader {
   BoxType type;
-  uint32_t size;   // of the header
-  uint64_t whole;  // of the box; 0: to the end of the file
+  uint32_t size;   // size of the header
+  uint64_t whole;  // size of the box; 0 if it extends to the end of the file
 };
 
 }  // namespace

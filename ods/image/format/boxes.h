@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Boxes, the building blocks of mp4 and mov files: a size, a four-letter type and a body, which may contain boxes.
-// Sources: ISO/IEC 14496-12 (ISO base media file format), 4.2; Apple, "QuickTime File Format" for how lists end there.
+// Sources: ISO/IEC 14496-12 (ISO base media file format), 4.2; Apple, "QuickTime File Format" for the end of lists
+// there.
 //
 // A box's size is checked against its parent's. Callers open a box only if they know its type, so the file does not
-// control the nesting depth. Everything is written back byte for byte.
+// control the nesting depth. Unchanged boxes are written back byte for byte.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -31,7 +32,7 @@ std::string type_text(BoxType type);
 
 struct Box {
   BoxType type = 0;
-  std::string body;           // all after the header; once opened, the bytes before the first child
+  std::string body;           // everything after the header; once opened, the bytes before the first child
   std::vector<Box> children;  // once opened
   std::string tail;           // fewer than 8 bytes after the last child
   bool is_large = false;      // rare: a 64-bit size field
@@ -44,14 +45,14 @@ std::vector<Box> parse_boxes(std::string_view bytes, std::string& tail);
 // open already. Throws MalformedFile.
 void open_box(Box& box, size_t prefix);
 
-// The first child of this type; null if there is none.
+// The first child of this type, or null.
 Box* find_child(Box& box, BoxType type);
 const Box* find_child(const Box& box, BoxType type);
 
-// Opens that child; throws MalformedFile if there is none.
+// Opens the child of this type. Throws MalformedFile if there is none.
 Box& open_child(Box& box, BoxType type, size_t prefix = 0);
 
-// The size and the bytes of a box, its children included.
+// The size and the bytes of a box, including its children.
 uint64_t box_size(const Box& box);
 void write_box(const Box& box, std::string& bytes);
 void write_box(const Box& box, AtomicFile& file);

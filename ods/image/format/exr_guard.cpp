@@ -19,7 +19,7 @@ namespace {
 constexpr size_t kLongestName = 255;
 constexpr int64_t kMaxRowsOfAChunk = 256;  // DWAB's
 
-// OpenEXR reads the values of these types as long as they should be, whatever size the file states.
+// OpenEXR reads values of these types with their proper size, regardless of the size in the file.
 struct TypeSize {
   std::string_view type;
   int32_t size;
@@ -60,7 +60,7 @@ class HeaderReader {
   size_t at = 0;
 
   template <class T>
-  std::optional<T> number(size_t where) const {  // little endian, as all machines that this runs on
+  std::optional<T> number(size_t where) const {  // little endian, like all supported machines
     T value;
     if (where > size_ || size_ - where < sizeof value || !read_(where, &value, sizeof value)) return std::nullopt;
     return value;
@@ -90,7 +90,7 @@ class HeaderReader {
   const ByteReader& read_;
 };
 
-// Whether a list of channels ends where its attribute does.
+// Returns whether a list of channels ends at the end of its attribute.
 bool is_channel_list(HeaderReader in, size_t size) {
   constexpr size_t kChannel = 16;  // bytes after its name
   const size_t end = in.at + size;
@@ -116,8 +116,8 @@ bool is_preview(const HeaderReader& in, size_t size) {
   return width <= size && height <= size && size == 8 + 4 * width * height;
 }
 
-// Whether OpenEXR will read as many bytes of the value at in.at as the file states; if not, it goes on somewhere else
-// than this guard, or makes room for what is not there.
+// Returns whether OpenEXR will read as many bytes of the value at in.at as the file claims. If not, it continues at
+// another position than this guard, or allocates memory for missing data.
 bool has_true_size(const HeaderReader& in, const std::string& type, size_t size) {
   for (const TypeSize& known : kTypeSizes) {
     if (known.type == type) return size == static_cast<size_t>(known.size);
@@ -130,10 +130,10 @@ bool has_true_size(const HeaderReader& in, const std::string& type, size_t size)
 
 constexpr const char* kDamaged = "the EXR is cut short or damaged";
 
-// Skips attributes up to the empty name that ends them. Returns what is wrong with them.
+// Skips attributes up to the empty name at their end. Returns their fault.
 std::string skip_attributes(HeaderReader& in, size_t file_size) {
   Box box{};
-  int64_t columns = 0, rows = kMaxRowsOfAChunk;  // of a chunk; 0 columns: as wide as the picture
+  int64_t columns = 0, rows = kMaxRowsOfAChunk;  // size of a chunk; 0 columns for the width of the picture
   for (;;) {
     const std::optional<std::string> name = in.word();
     if (!name) return kDamaged;

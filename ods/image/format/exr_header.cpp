@@ -21,7 +21,7 @@ static Error unusable(const FileInput& file, const std::string& why) {
 }
 
 template <class T>
-static T number_at(std::string_view bytes, size_t at) {  // little endian, as all machines that this runs on
+static T number_at(std::string_view bytes, size_t at) {  // little endian, like all supported machines
   T value{};
   if (at <= bytes.size() && sizeof value <= bytes.size() - at) std::memcpy(&value, bytes.data() + at, sizeof value);
   return value;
@@ -129,7 +129,7 @@ std::string exr_checksum(const ExrHeader& header) {
   return fmt::format("{:08x}", checksum);
 }
 
-// The offset table ends where the earliest chunk starts, which need not be the first one in the table.
+// The offset table ends at the start of the earliest chunk, which need not be the first one in the table.
 static std::vector<uint64_t> read_offsets(const FileInput& file, uint64_t at) {
   constexpr uint64_t kPiece = 8192;  // offsets
   const Error damaged = unusable(file, "the EXR's offsets are damaged, as if it was never finished");

@@ -23,28 +23,28 @@ struct ExrAttribute {
 
 struct ExrHeader {
   std::vector<ExrAttribute> attributes;
-  uint64_t end = 0;  // just past the terminating zero, where the chunk offset table starts
+  uint64_t end = 0;  // just after the terminating zero, where the chunk offset table starts
 };
 
 inline constexpr size_t kExrOffsetSize = 8;  // bytes of each of those offsets
 
-// Throws Error(kInput): not an EXR, truncated, damaged, or multi-part.
+// Throws Error(kInput) if the file is not an EXR, truncated, damaged, or multi-part.
 ExrHeader read_exr_header(const FileInput& file);
 
-// Size, channels, and the attributes that are text or numbers, as read_info() returns them.
+// The size, the channels, and the attributes that are text or numbers, as in read_info().
 FileInfo exr_info(const ExrHeader& header);
 
 // Converts to the EXR types: int, float, string, stringvector, v2f, v3f.
 ExrAttribute exr_attribute(const Attribute& attribute);
 
-// The attribute that holds it, as text: what is read from the header is what was written.
+// The attribute with the checksum, as text. It verifies that the header is read as it was written.
 inline constexpr const char* kExrChecksum = "ods:headerChecksum";
 
-// A checksum of all attributes but that one, in their order, as text.
+// A checksum of all other attributes, in their order, as text.
 std::string exr_checksum(const ExrHeader& header);
 
 // Writes the file with these attributes. The chunks stay byte-identical; their offsets are updated. Throws
-// Error(kInput): damaged offsets, as in a picture that was never finished; Error(kOutput).
+// Error(kInput) for damaged offsets, as in a picture that was never finished; Error(kOutput).
 void write_exr_header(const FileInput& file, AtomicFile& to, const ExrHeader& header);
 
 }  // namespace ods

@@ -16,27 +16,27 @@ namespace ods {
 
 enum class FileFormat { kPng, kJpeg, kTiff, kWebp, kHdr, kExr, kHeif };
 
-// Those that are written; kHeif (HEIC, AVIF) is only read.
+// The formats that can be written; kHeif (HEIC, AVIF) is only read.
 inline constexpr FileFormat kFileFormats[] = {FileFormat::kPng,  FileFormat::kJpeg, FileFormat::kTiff,
                                               FileFormat::kWebp, FileFormat::kHdr,  FileFormat::kExr};
 static_assert(std::size(kFileFormats) + 1 == enumerator_count<FileFormat>());
 
-// By file extension; case does not matter. Only formats that are written.
+// The format by file extension, in upper or lower case. Only formats that can be written.
 std::optional<FileFormat> format_of_path(const std::string& path);
 
-// Whether a file with this extension is a picture that is read.
+// Returns whether a file with this extension is a readable picture.
 bool names_picture(const std::string& path);
 
-// By the file's first bytes; ignores the name.
+// The format by the file's first bytes, regardless of its name.
 std::optional<FileFormat> format_of_bytes(std::span<const std::byte> file);
 
 std::optional<FileFormat> format_of_file(const FileInput& file);
 
-// `png, jpg, jpeg, tif, tiff, webp, hdr, exr`, for messages; the second one also has those that are only read.
+// `png, jpg, jpeg, tif, tiff, webp, hdr, exr`, for messages; the second function adds those that can only be read.
 std::string known_extensions();
 std::string readable_extensions();
 
-// Whether the format holds scene-referred light; the others are display-referred.
+// Returns whether the format stores scene-referred light; the others are display-referred.
 bool is_scene_referred(FileFormat format);
 
 // The maximum width or height in this format.

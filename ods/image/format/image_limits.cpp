@@ -8,14 +8,21 @@
 
 namespace ods {
 
+static std::string excess(int width, int height) {
+  return fmt::format("{}x{} pixels exceed the limits of {} per side and {} in all", width, height, kMaxSide,
+                     kMaxPixels);
+}
+
+std::string image_size_fault(int width, int height) {
+  const bool fits = std::max(width, height) <= kMaxSide && int64_t{width} * height <= kMaxPixels;
+  return fits ? "" : excess(width, height);
+}
+
 std::string image_size_fault(int width, int height, int longest, size_t file_size) {
   if (width < 1 || height < 1) return "it has no pixels";
   const int64_t pixels = int64_t{width} * height;
   const int64_t most = std::max(kSmallPixels, kMaxPixelsPerByte * static_cast<int64_t>(file_size));
-  if (longest > kMaxSide || pixels > kMaxPixels) {
-    return fmt::format("{}x{} pixels exceed the limits of {} per side and {} in all", width, height, kMaxSide,
-                       kMaxPixels);
-  }
+  if (longest > kMaxSide || pixels > kMaxPixels) return excess(width, height);
   if (pixels > most) {
     return fmt::format("{}x{} pixels in {} bytes: the file is broken or hostile", width, height, file_size);
   }

@@ -34,7 +34,7 @@ class Bytes {
  public:
   Bytes(size_t size, const ByteReader& read) : size_(size), read_(read) {}
 
-  // False at the end.
+  // Returns false at the end.
   bool next(unsigned char& byte) {
     if (at_ >= size_ || !fill()) return false;
     byte = block_[at_++ - start_];

@@ -39,7 +39,7 @@ PngChunk read_png_chunk(const FileInput& file, uint64_t at) {
 constexpr uint64_t kHeaderBytes = 13;
 
 static bool has_sane_size(std::string_view header) {
-  const uint32_t kLongest = 1000000;  // of libpng
+  const uint32_t kLongest = 1000000;  // limit of libpng
   const uint64_t width = get_number(header, 0, 4), height = get_number(header, 4, 4);
   return width > 0 && width <= kLongest && height > 0 && height <= kLongest;
 }

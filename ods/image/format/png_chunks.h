@@ -20,19 +20,19 @@ namespace ods {
 // A whole chunk: length, type, data, CRC.
 std::string png_chunk(std::string_view type, std::string_view data);
 
-// The prefix of an iTXt chunk that holds an XMP packet: the keyword and a zero. Then follow: compression flag (0:
-// none), method 0, empty language, empty translated keyword.
+// The prefix of an iTXt chunk with an XMP packet: the keyword and a zero. It is followed by compression flag (0: none),
+// method 0, empty language, empty translated keyword.
 inline constexpr std::string_view kPngXmpKeyword{"XML:com.adobe.xmp\0", 18};
 std::string xmp_chunk(const std::string& packet);
 
-// Where new chunks go: directly after the header chunk.
+// The position of new chunks: directly after the header chunk.
 inline constexpr size_t kPngAfterHeader = 33;
 
 // A chunk of a file: four bytes of length, four of type, the data, four of CRC. Throws Error(kInput) if the file does
-// not hold all of it.
+// not contain all of it.
 struct PngChunk {
   std::string type;
-  uint64_t length = 0;  // of the data alone
+  uint64_t length = 0;  // length of the data alone
 };
 PngChunk read_png_chunk(const FileInput& file, uint64_t at);
 
@@ -44,7 +44,7 @@ struct FileRange {
   size_t size = 0;
 };
 
-// Ranges of a file, read as if concatenated.
+// Reads ranges of a file as if they were concatenated.
 class FileParts {
  public:
   FileParts(ByteReader file, std::vector<FileRange> parts);
@@ -55,12 +55,12 @@ class FileParts {
  private:
   ByteReader file_;
   std::vector<FileRange> parts_;
-  std::vector<size_t> starts_;  // of each part, in the concatenation
+  std::vector<size_t> starts_;  // start of each part, in the concatenation
   size_t size_ = 0;
 };
 
-// The file ranges of a PNG that are needed for its pixels and for ods:rig; nothing if one of them is truncated, damaged
-// or missing. The decoder reads only those: what else is in the file cannot make it fail.
+// The file ranges of a PNG that are needed for its pixels and for ods:rig. Returns nullopt if one of them is truncated,
+// damaged or missing. The decoder reads only these, so that other parts of the file cannot cause errors.
 std::optional<std::vector<FileRange>> essential_png(size_t file_size, const ByteReader& read);
 
 }  // namespace ods

@@ -65,7 +65,7 @@ TiffDirectory read_tiff_directory(const FileInput& file) {
   return directory;
 }
 
-// The size of a value type; 0: unknown.
+// The size of a value type; 0 if unknown.
 static size_t type_size(uint16_t type) {
   constexpr size_t kSizes[] = {0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4, 0, 0, 8, 8, 8};
   return type < std::size(kSizes) ? kSizes[type] : 0;

@@ -24,23 +24,23 @@ struct TiffDirectory {
   bool is_big = false;     // BigTIFF: 8-byte offsets
   bool is_little = false;  // little endian
   std::vector<TiffEntry> entries;
-  uint64_t next = 0;  // offset of the next directory; 0: none
+  uint64_t next = 0;  // offset of the next directory; 0 if there is none
 };
 
 inline constexpr uint16_t kTiffWidth = 256, kTiffHeight = 257, kTiffXmp = 700;
 
-// Throws Error(kInput): no valid directory.
+// Throws Error(kInput) if there is no valid directory.
 TiffDirectory read_tiff_directory(const FileInput& file);
 
-// The bytes of an entry; nothing if the entry is missing, lies beyond the end of the file or has
-// more than `most` bytes.
+// The bytes of an entry. Returns nullopt if the entry is missing, extends beyond the end of the file or has more than
+// `most` bytes.
 std::optional<std::string> tiff_value(const FileInput& file, const TiffDirectory& directory, uint16_t tag,
                                       uint64_t most);
 // The first number of an entry.
 std::optional<uint64_t> tiff_number(const FileInput& file, const TiffDirectory& directory, uint16_t tag);
 
 // Writes the file with this value for the entry, or without the entry if there is none. The new value and directory are
-// appended, and all other bytes keep their places. Throws Error(kInput): the result would be too long for a TIFF that
+// appended, and all other bytes keep their places. Throws Error(kInput) if the result would be too long for a TIFF that
 // is not BigTIFF.
 void write_tiff_value(const FileInput& file, AtomicFile& to, TiffDirectory directory, uint16_t tag,
                       const std::string& bytes);

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <set>
 
+#include "ods/base/quote.h"
+
 namespace ods {
 
 bool is_gpano(const Attribute& attribute) {
@@ -15,26 +17,6 @@ bool is_gpano(const Attribute& attribute) {
 }
 
 // --- writing ---------------------------------------------------------------------------------------------------------
-
-std::string xml_escaped(const std::string& text) {
-  std::string result;
-  for (char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
 
 std::string xml_unescaped(std::string text) {
   for (const auto& [name, letter] : {std::pair<std::string_view, char>{"&lt;", '<'},
@@ -88,7 +70,7 @@ static std::string written(const std::vector<Attribute>& properties, std::string
     if (named.insert(space->prefix).second && tag.find(name) == std::string_view::npos) {
       names += fmt::format("{}\"{}\"", name, space->address);
     }
-    values += fmt::format(" {}=\"{}\"", property.name, xml_escaped(text_of(property)));
+    values += fmt::format(" {}=\"{}\"", property.name, xml_text(text_of(property)));
   }
   return names + values;
 }
@@ -120,7 +102,7 @@ namespace {
 
 struct Tag {
   size_t begin = 0, end = 0;  // from its < to just after its >
-  std::string_view name;      // of an end tag, including the slash
+  std::string_view name;      // includes the slash of an end tag
   bool is_empty = false;      // <name/>
 };
 
@@ -172,7 +154,7 @@ struct Name {
 
 }  // namespace
 
-// The attributes in a tag; nothing if they are not valid XML. Cutting one out leaves a valid tag.
+// The attributes in a tag. Returns nullopt if they are not valid XML. Cutting one out leaves a valid tag.
 static std::optional<std::vector<Name>> names_in(std::string_view xml, const Tag& tag) {
   xml = xml.substr(0, tag.end - (tag.is_empty ? 2 : 1));
   std::vector<Name> names;
@@ -191,7 +173,7 @@ static std::optional<std::vector<Name>> names_in(std::string_view xml, const Tag
   }
 }
 
-// The end of the element that this tag starts; nothing if it is not closed.
+// The end of the element that this tag starts. Returns nullopt if it is not closed.
 static std::optional<size_t> end_of_element(std::string_view xml, const Tag& tag) {
   if (tag.is_empty) return tag.end;
   bool is_broken = false;

@@ -16,30 +16,29 @@
 
 namespace ods {
 
-// Escapes text for XML elements and double-quoted attributes, and back.
-std::string xml_escaped(const std::string& text);
+// The text that XML has in an element or attribute: xml_text() (ods/base/quote.h) backwards.
 std::string xml_unescaped(std::string text);
 
-// Whether an attribute is in Google's panorama namespace: GPano:FullPanoWidthPixels.
+// Returns whether an attribute is in Google's panorama namespace: GPano:FullPanoWidthPixels.
 bool is_gpano(const Attribute& attribute);
 
-// A packet with those properties that are in the namespaces GPano, GImage and xmpNote.
+// A packet with the properties in the namespaces GPano, GImage and xmpNote.
 std::string make_xmp(const std::vector<Attribute>& properties);
 
-// A packet with those attributes that are GPano; empty if none is.
+// A packet with the GPano attributes. Empty if there are none.
 std::string gpano_xmp(const std::vector<Attribute>& attributes);
 
 // make_xmp() without the packet wrapper, as in extended XMP.
 std::string make_xmp_body(const std::vector<Attribute>& properties);
 
-// Replaces all GPano properties of the packet by these; everything else stays. Nothing if the packet is not valid XML
-// or has no rdf:Description.
+// Replaces all GPano properties of the packet by these; everything else is kept. Returns nullopt if the packet is not
+// valid XML or has no rdf:Description.
 std::optional<std::string> replace_gpano(const std::string& xmp, const std::vector<Attribute>& properties);
 
 // All GPano properties of a packet, as text. Empty if the packet cannot be parsed.
 std::vector<Attribute> gpano_properties(const std::string& xmp);
 
-// Whether a packet has any content.
+// Returns whether a packet has any content.
 bool says_something(const std::string& xmp);
 
 // The value of `name` in XMP, as name="value" or <name>value</name>; empty if absent.

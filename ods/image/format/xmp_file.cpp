@@ -59,7 +59,7 @@ namespace {
 
 struct PngPacket {
   Cut place;
-  std::optional<std::string> text;  // none: it is compressed or damaged
+  std::optional<std::string> text;  // not set if it is compressed or damaged
 };
 
 }  // namespace
@@ -73,7 +73,7 @@ static std::optional<PngPacket> find_in_png(const FileInput& file) {
       PngPacket packet{{at, chunk.length + 12}, std::nullopt};
       if (chunk.length > kLongestPacket) return packet;
       std::string data = file.read(at + 8, chunk.length).substr(kPngXmpKeyword.size());
-      // Compression flag and method, then language and translated keyword, each ended by a zero.
+      // Compression flag and method, then language and translated keyword, each with a terminating zero.
       const size_t language = data.find('\0', 2), keyword = data.find('\0', language + 1);
       if (data[0] == 0 && language != std::string::npos && keyword != std::string::npos) {
         packet.text = data.substr(keyword + 1);
@@ -94,7 +94,7 @@ static void write_png(const FileInput& file, AtomicFile& to, const std::string& 
 
 // --- all -------------------------------------------------------------------------------------------------------------
 
-// The XMP specification, part 3, allows readers to find a packet by its marks in any file.
+// The XMP specification, part 3, allows readers to find a packet by its markers in any file.
 static std::string find_by_marks(const FileInput& file) {
   const std::string text = file.read(0, std::min<uint64_t>(file.size(), 1u << 20u));
   const size_t begin = text.find("<x:xmpmeta"), end = text.find("</x:xmpmeta>");
@@ -123,7 +123,7 @@ std::string read_xmp(const FileInput& file) {
     return packet_of(file);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kInput) throw;
-    return {};  // reading the pixels reports the fault
+    return {};  // reading the pixels reports the error
   }
 }
 

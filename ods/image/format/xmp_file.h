@@ -10,14 +10,14 @@
 
 namespace ods {
 
-// The packet of a picture's first page; empty if there is none or it cannot be decoded. In other formats, anything that
-// looks like a packet in the first megabyte. Throws Error(kInput): no such file.
+// The packet of a picture's first page; empty if there is none or it cannot be decoded. In other formats, the first
+// data in the first megabyte that looks like a packet. Throws Error(kInput) if there is no such file.
 std::string read_xmp(const std::string& path);
 std::string read_xmp(const FileInput& file);
 
 // Writes the file with this packet in place of its own; with an empty one, without a packet. Everything else stays
-// byte-identical; in a TIFF it keeps its place, too, because packet and directory are appended. Throws Error(kInput):
-// another format, damaged, a compressed packet, or a packet that does not fit; Error(kOutput).
+// byte-identical; in a TIFF it also keeps its position, because packet and directory are appended. Throws Error(kInput)
+// for another format, a damaged file, a compressed packet, or a packet that does not fit; Error(kOutput).
 void write_xmp(const FileInput& file, AtomicFile& to, const std::string& packet);
 
 }  // namespace ods

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Source: KTX 2.0, appendices "BasisLZ Global Data" and "BasisLZ/ETC1S Bitstream Specification"; the colours of a block
-// are ETC1's, in the Khronos Data Format Specification. A block is two numbers: which four colours it has, and which
-// of them each texel shows.
+// are ETC1's, in the Khronos Data Format Specification. A block is two numbers: its four colours, and which of them
+// each texel has.
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -29,7 +29,7 @@ struct Block {
 struct Codebook {
   std::vector<FourColors> colors;
   std::vector<Selectors> selectors;
-  // Of slices.
+  // Codes of slices.
   PrefixCode predictions, color_steps, selectors_used, runs;
   size_t history_size = 0;
 };
@@ -57,7 +57,7 @@ FourColors colors_of(const std::array<uint32_t, 3>& base, uint32_t table) {
 
 void read_colors(Bytes bytes, size_t count, Codebook& book) {
   BitReader bits(bytes);
-  PrefixCode steps[3];  // from dark, middle and light
+  PrefixCode steps[3];  // after dark, middle and light colours
   for (PrefixCode& code : steps) code = read_prefix_code(bits);
   const PrefixCode table_steps = read_prefix_code(bits);
   const bool is_grey = bits.read(1) == 1;
@@ -103,7 +103,7 @@ void read_codes(Bytes bytes, Codebook& book) {
 
 // --- slices
 
-// Selectors that were used lately, the frequent ones roughly in front.
+// Recently used selectors, with frequent ones roughly in front.
 class History {
  public:
   explicit History(size_t size) : values_(size), next_(size / 2) {}
@@ -130,7 +130,7 @@ class Slice {
   Slice(Bytes bytes, const Codebook& book, size_t width)
       : bits_(bytes), book_(book), history_(book.history_size), above_(width), predictions_((width + 1) / 2) {}
 
-  // Of all blocks, row by row.
+  // The next block of all blocks, row by row.
   Block next(size_t x, size_t y) {
     const uint32_t colors = next_colors(x, y);
     const uint32_t selectors = next_selectors();
@@ -139,7 +139,7 @@ class Slice {
   }
 
  private:
-  // A number in pieces of `size` bits, each after the first announced by the bit above the one before.
+  // Reads a number in pieces of `size` bits; each piece after the first is announced by the bit above the previous one.
   uint32_t read_pieces(size_t size) {
     uint32_t value = 0;
     for (size_t shift = 0; shift < 32; shift += size) {
@@ -150,7 +150,7 @@ class Slice {
     fail_damaged();
   }
 
-  // Where the colours of four blocks come from, two bits for each.
+  // The predictors of the colours of four blocks, two bits for each.
   uint32_t read_predictions() {
     constexpr uint32_t kRepeat = 256, kLeast = 3;
     if (repeated_predictions_ > 0) {
@@ -209,14 +209,14 @@ class Slice {
   const Codebook& book_;
   History history_;
   uint64_t run_ = 0;
-  std::vector<uint32_t> above_;  // the colours of the row before, from here to the right
+  std::vector<uint32_t> above_;  // the colours of the previous row, from here to the right
   uint32_t above_left_ = 0, colors_ = 0;
-  std::vector<uint32_t> predictions_;  // of two rows
+  std::vector<uint32_t> predictions_;  // for two rows
   uint32_t last_predictions_ = 0;
   uint64_t repeated_predictions_ = 0;
 };
 
-// What is decoded of one picture.
+// The coded data of one picture.
 struct Slices {
   Bytes color, alpha;  // alpha is empty if there is none
 };

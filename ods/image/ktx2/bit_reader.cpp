@@ -10,7 +10,7 @@ namespace ods {
 
 uint32_t BitReader::read(size_t count) {
   if (count > 8 * bytes_.size() - at_) throw MalformedFile("its data ends too early");
-  uint32_t word = 0;  // the bits lie in up to three bytes
+  uint32_t word = 0;  // the bits are in up to three bytes
   for (size_t i = 0; i < 3 && at_ / 8 + i < bytes_.size(); i++) {
     word |= static_cast<uint32_t>(bytes_[at_ / 8 + i]) << (8 * i);
   }
@@ -22,7 +22,7 @@ uint32_t BitReader::read(size_t count) {
 PrefixCode::PrefixCode(const std::vector<uint8_t>& lengths) {
   for (const uint8_t length : lengths) counts_[length]++;
   counts_[0] = 0;
-  uint32_t taken = 0;  // of the 2^16 longest codes
+  uint32_t taken = 0;  // share of the 2^16 longest codes
   std::array<size_t, kLongest + 2> starts{};
   for (size_t length = 1; length <= kLongest; length++) {
     taken += counts_[length] << (kLongest - length);
@@ -36,7 +36,7 @@ PrefixCode::PrefixCode(const std::vector<uint8_t>& lengths) {
 }
 
 uint32_t PrefixCode::read(BitReader& bits) const {
-  uint32_t code = 0, first = 0;  // of the codes of this length
+  uint32_t code = 0, first = 0;  // codes of this length
   size_t shorter = 0;            // symbols with shorter codes
   for (size_t length = 1; length <= kLongest; length++) {
     code = code << 1 | bits.read(1);
@@ -49,7 +49,7 @@ uint32_t PrefixCode::read(BitReader& bits) const {
 }
 
 PrefixCode read_prefix_code(BitReader& bits) {
-  // Lengths up to 16 stand for themselves; then come runs.
+  // Lengths up to 16 are literal; the others are runs.
   enum { kShortGap = 17, kLongGap, kShortRepeat, kLongRepeat, kLengthSymbols };
   constexpr std::array<uint8_t, kLengthSymbols> kOrder = {17, 18, 19, 20, 0,  8, 7,  9, 6,  10, 5,
                                                           11, 4,  12, 3,  13, 2, 14, 1, 15, 16};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bits of a stream, the lowest of each byte first, and the prefix codes in them.
+// Reads the bits of a stream, least significant bit first, and prefix codes.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -26,22 +26,23 @@ class BitReader {
 // A canonical prefix code: RFC 1951, section 3.2.2, with codes of up to 16 bits.
 class PrefixCode {
  public:
-  PrefixCode() = default;  // of no symbol
+  PrefixCode() = default;  // a code without symbols
 
-  // The length of each symbol's code; 0: it has none. Throws MalformedFile if more codes are asked for than there are.
+  // lengths: of each symbol's code, 0 for none. Throws MalformedFile if there are more codes than possible.
   explicit PrefixCode(const std::vector<uint8_t>& lengths);
 
-  // Throws MalformedFile if the bits are no code.
+  // Throws MalformedFile if the bits are not a code.
   uint32_t read(BitReader& bits) const;
 
  private:
   static constexpr size_t kLongest = 16;
 
-  std::array<uint32_t, kLongest + 1> counts_{};  // of the codes of each length
+  std::array<uint32_t, kLongest + 1> counts_{};  // number of codes of each length
   std::vector<uint16_t> symbols_;                // in the order of their codes
 };
 
-// A code in the stream: the lengths of its codes, in a prefix code. KTX 2.0, "Compressed Huffman Tables".
+// Reads a code that is described in the stream: the lengths of its codes, in a prefix code. KTX 2.0, "Compressed
+// Huffman Tables".
 PrefixCode read_prefix_code(BitReader& bits);
 
 }  // namespace ods

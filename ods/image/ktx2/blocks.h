@@ -24,18 +24,18 @@ inline size_t blocks_along(int side) {
   return (static_cast<size_t>(side) + 3) / 4;
 }
 
-// Puts what of block (x, y) lies in the picture.
+// Writes the part of block (x, y) that is inside the picture.
 void put_block(CodeImage& image, size_t x, size_t y, const TexelBlock& texels);
 
-// ETC1S in BasisLZ: the first of `image_count` pictures, in `level`. `global`: what KTX 2.0 calls the supercompression
-// global data. Alpha is the second slice's green, 255 without one. A picture that is a difference to another is
-// refused.
+// Decodes ETC1S in BasisLZ: the first of `image_count` pictures, in `level`. `global`: the supercompression global data
+// of KTX 2.0. Alpha is the second slice's green, 255 without one. A picture that is a difference from another is
+// rejected.
 void decode_basis_lz(std::span<const std::byte> global, size_t image_count, std::span<const std::byte> level,
                      CodeImage& image);
 
 inline constexpr size_t kUastcBlockBytes = 16;
 
-// UASTC LDR 4x4, a block of 16 bytes. Throws MalformedFile if no block has these bits.
+// Decodes UASTC LDR 4x4, a block of 16 bytes. Throws MalformedFile for invalid blocks.
 TexelBlock decode_uastc(std::span<const std::byte> block);
 
 }  // namespace ods

@@ -23,17 +23,17 @@ using Bytes = std::span<const std::byte>;
 
 constexpr unsigned char kMark[] = {0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb, '\r', '\n', 0x1a, '\n'};
 
-enum Packing : uint32_t { kUnpacked, kBasisLz, kZstandard };  // "supercompression"
-enum ColorModel : uint32_t { kEtc1s = 163, kUastc = 166 };    // of the data format
+enum Packing : uint32_t { kUnpacked, kBasisLz, kZstandard };  // the specification's supercompression scheme
+enum ColorModel : uint32_t { kEtc1s = 163, kUastc = 166 };    // values in the data format
 
-// Where the data format's descriptor says what the two channels of a file with two are.
+// The values of the data format descriptor for files with two channels.
 constexpr uint32_t kGreenInSecondSlice = 4, kGreenInAlpha = 5;
 
 struct Ktx2 {
   uint32_t vulkan_format, depth, layers, faces, levels, packing;
   int width, height;
-  Bytes descriptor;  // of the data format
-  Bytes global;      // of BasisLZ
+  Bytes descriptor;  // descriptor of the data format
+  Bytes global;      // global data of BasisLZ
   Bytes level;       // the largest
 };
 
@@ -53,7 +53,7 @@ Ktx2 open(Bytes file) {
   return ktx;
 }
 
-// Throws unless it is one picture of a possible size.
+// Throws unless the file is one picture of a possible size.
 void check_picture(const Ktx2& ktx, size_t file_size) {
   const std::string fault = image_size_fault(ktx.width, ktx.height, std::max(ktx.width, ktx.height), file_size);
   if (!fault.empty()) throw MalformedFile(fault);
@@ -94,7 +94,7 @@ void read_uastc(const Ktx2& ktx, CodeImage& image) {
   }
 }
 
-// What Vulkan calls R8G8B8A8 and the like, VkFormat in vulkan_core.h; 0: another format.
+// The number of channels of Vulkan's R8G8B8A8 and similar formats, VkFormat in vulkan_core.h; 0 for another format.
 size_t channels_of(uint32_t format) {
   constexpr uint32_t kUnorm[] = {0, 9, 16, 23, 37}, kSrgb[] = {0, 15, 22, 29, 43};
   for (size_t channels = 1; channels <= 4; channels++) {
@@ -103,7 +103,7 @@ size_t channels_of(uint32_t format) {
   return 0;
 }
 
-// Missing channels are as Vulkan samples them: 0, and opaque.
+// Missing channels have Vulkan's defaults: 0, and opaque.
 void read_plain(const Ktx2& ktx, size_t channels, CodeImage& image) {
   const std::vector<std::byte> bytes = unpack(ktx, channels * pixels_of(image));
   for (size_t i = 0; i < image.pixels.size(); i++) {

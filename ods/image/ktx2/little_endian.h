@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Parts of a file, and its numbers, the lowest byte first. All throw MalformedFile beyond the end.
+// Reads parts and little-endian numbers of a file. All functions throw MalformedFile beyond the end.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Source: R. Geldreich, "UASTC LDR 4x4 Texture Specification" (the wiki of Basis Universal), which builds upon ASTC as
-// in the Khronos Data Format Specification: quantised colours and weights, and where a block is divided. A block has
+// in the Khronos Data Format Specification: quantised colours and weights, and the partition of a block. A block has
 // one to three subsets, each with two colours that its texels mix.
 #include <algorithm>
 
@@ -14,7 +14,7 @@ namespace ods {
 
 namespace {
 
-// How colours are quantised: a digit of this base, then bits. One without a digit has base 1.
+// The quantisation of colours: a digit of this base, then bits. One without a digit has base 1.
 // A value is digit * digit_step + (bits but the lowest) * factor >> shift, of 511, mirrored if the lowest bit is set:
 // ASTC's table of bit patterns in numbers.
 struct Quantizer {
@@ -26,15 +26,15 @@ constexpr Quantizer k12{3, 2, 93, 278, 0}, k16{1, 4, 0, 0, 0}, k32{1, 5, 0, 0, 0
     k48{3, 4, 22, 65, 0}, k160{5, 5, 6, 257, 3}, k192{3, 6, 5, 257, 4}, k256{1, 8, 0, 0, 0};
 
 struct Mode {
-  uint8_t code, code_bits;  // which the block begins with
-  uint8_t hints;            // bits for those who make other formats of it
-  uint8_t channels;         // 2: grey and alpha
-  uint8_t subsets, planes;  // planes 2: one channel has weights of its own
+  uint8_t code, code_bits;  // at the start of the block
+  uint8_t hints;            // bits for transcoders to other formats
+  uint8_t channels;         // 2 for grey and alpha
+  uint8_t subsets, planes;  // with 2 planes, one channel has its own weights
   uint8_t weight_bits;
   Quantizer colors;
 };
 
-// By their numbers. Mode 8 is one colour.
+// Indexed by mode number. Mode 8 is a single colour.
 constexpr Mode kModes[] = {
     {0x01, 4, 15, 3, 1, 1, 4, k192}, {0x35, 6, 15, 3, 1, 1, 2, k256}, {0x1d, 5, 15, 3, 2, 1, 3, k16},
     {0x03, 5, 15, 3, 3, 1, 2, k12},  {0x13, 5, 15, 3, 2, 1, 2, k40},  {0x0b, 5, 15, 3, 1, 1, 3, k256},
@@ -45,7 +45,7 @@ constexpr Mode kModes[] = {
     {0x09, 4, 15, 3, 1, 1, 5, k32}};
 constexpr size_t kThreeSubsets = 3, kOtherTwoSubsets = 7, kOneColor = 8, kGreyPlanes = 17;
 
-// Which texels are in subset 1, from the lowest bit: ASTC's partitions of small blocks, as of the seeds
+// The texels in subset 1, from the lowest bit: ASTC's partitions of small blocks, for the seeds
 //   28 20 16 29 91 9 107 72 149 204 50 114 496 17 78 39 252 828 43 156 116 210 476 273 684 359 246 195 694 524;
 constexpr uint16_t kTwo[] = {0xcccc, 0x8888, 0x1111, 0xecc8, 0x377f, 0xfeec, 0x0137, 0x137f, 0xc800, 0x0013,
                              0xfe80, 0x17ff, 0x0017, 0x00ff, 0xfff0, 0x0fff, 0xff71, 0x8eff, 0x08ce, 0x008c,
@@ -92,7 +92,7 @@ std::array<uint8_t, 16> read_subsets(size_t mode, BitReader& bits) {
   return subsets;
 }
 
-// Eight bits: the lowest `count` of them again and again.
+// Extends the lowest `count` bits to eight by repetition.
 uint32_t repeated(uint32_t bits, size_t count) {
   uint32_t value = bits << (8 - count);
   for (size_t filled = count; filled < 8; filled *= 2) value |= value >> filled;
@@ -105,7 +105,7 @@ uint32_t color_of(const Quantizer& quantizer, uint32_t digit, uint32_t low) {
   return low & 1 ? 255 - value : value;
 }
 
-// Up to 18 colour values: of each subset, of each channel, the first colour's and the second's. All digits come first,
+// Up to 18 colour values: for each subset and each channel, the first colour's and the second's. All digits come first,
 // five of base 3 in 8 bits or three of base 5 in 7; the last group has as many bits as it needs.
 std::array<uint32_t, 18> read_colors(const Quantizer& quantizer, size_t count, BitReader& bits) {
   std::array<uint32_t, 18> digits{}, colors{};
@@ -120,16 +120,16 @@ std::array<uint32_t, 18> read_colors(const Quantizer& quantizer, size_t count, B
   return colors;
 }
 
-// Of 64: the bits again up to six, and one more in the upper half.
+// A weight out of 64: the bits repeated up to six, plus one in the upper half.
 uint32_t weight_of(uint32_t bits, size_t count) {
   const uint32_t value = repeated(bits, count) >> 2;
   return value > 32 ? value + 1 : value;
 }
 
-// By texel and plane. The first weight of a subset is in the lower half: its highest bit is not there.
+// By texel and plane. The first weight of a subset is in the lower half, so its highest bit is not stored.
 std::array<uint32_t, 32> read_weights(const Mode& mode, const std::array<uint8_t, 16>& subsets, BitReader& bits) {
   std::array<uint32_t, 32> weights{};
-  uint32_t begun = 0;  // a bit for each subset
+  uint32_t begun = 0;  // one bit for each subset
   for (size_t i = 0; i < 16; i++) {
     const bool is_first = (begun >> subsets[i] & 1) == 0;
     begun |= 1u << subsets[i];
@@ -162,7 +162,7 @@ TexelBlock decode_uastc(std::span<const std::byte> block) {
   const std::array<uint8_t, 16> subsets = read_subsets(number, bits);
   size_t own_weights = 4;  // the channel that has them
   if (mode.planes == 2) own_weights = number == kGreyPlanes ? 3 : bits.read(2);
-  const size_t values = 2 * size_t{mode.channels};  // of a subset
+  const size_t values = 2 * size_t{mode.channels};  // per subset
   const std::array<uint32_t, 18> colors = read_colors(mode.colors, values * mode.subsets, bits);
   const std::array<uint32_t, 32> weights = read_weights(mode, subsets, bits);
   for (size_t i = 0; i < texels.size(); i++) {

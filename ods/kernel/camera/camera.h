@@ -3,14 +3,14 @@
 //
 // Eye and image position -> ray: the omni-directional stereo camera, a pure function.
 // Source: Google, "Rendering Omni-directional Stereo Content", Ray tracing the ODS projection. StereoCamera's defaults
-// give exactly that model; the rest is what other systems add to it:
+// give exactly that model; the other parameters are those of other systems:
 //
 //   a ray of heading F, with R to its right, starts at   E + merge * neck * F   with E = merge * side * ipd/2 * R
 //   and has the projection's direction d, or, with toe-in at a distance C, the direction   C * d - E.
 //
 // A head-tilt map turns E about d, clockwise as the viewer sees it, by (map - 1/2) pi: at 1 the head lies on its right
 // side and the right eye is below the left one. The neck's part of the origin stays. Source: Domemaster3D,
-// LatLongStereo (mental ray). kShift turns the pictures about the circle's axis, whatever the tilt.
+// LatLongStereo (mental ray). kShift rotates the pictures about the circle's axis, independently of the tilt.
 //
 // Image positions may be outside 0..1 (ods/kernel/camera/projection.h): lat-long wraps, and continues over the pole,
 // where the formula itself continues into the other eye's picture half a turn away, as a wide pixel filter needs.
@@ -31,7 +31,7 @@ const int kConvergenceCount = 3;
 
 // A lat-long picture of values 0..1 in the camera's frame, rows from the top.
 struct CameraMap {
-  int width;  // 0: there is no map
+  int width;  // 0 if there is no map
   int height;
 #ifdef __cplusplus
   const float* texels = nullptr;  // a shader reads them from a buffer or a texture
@@ -42,7 +42,7 @@ const int kMapOfMerge = 0;
 const int kMapOfHeadTilt = 1;
 
 struct Camera {
-  vec3 center;  // of the viewing circle
+  vec3 center;  // centre of the viewing circle
   vec3 right;   // an orthonormal frame, right-handed unless the picture is mirrored
   vec3 up;
   vec3 back;
@@ -51,7 +51,7 @@ struct Camera {
   float neck;  // distance of the eyes in front of the centre, metres
   int convergence;
   float convergence_distance;
-  float lens_radius;     // 0: sharp everywhere
+  float lens_radius;     // 0 if everything is sharp
   float focus_distance;  // along the ray from the eye
   PoleMerge top;
   PoleMerge bottom;
@@ -62,7 +62,7 @@ struct Camera {
 
 struct Ray {
   vec3 origin;
-  vec3 direction;  // unit length; 0: the picture is empty here, there is no ray
+  vec3 direction;  // unit length; 0 if the picture is empty here
 };
 
 #ifdef __cplusplus
@@ -130,7 +130,8 @@ inline bool has_head_tilt(Camera camera) {
   return camera.head_tilt_map.width > 0;
 }
 
-// Where the eye stands for a ray that looks along `look`, from the circle's centre, in the camera's frame: the sum.
+// The eye's position for a ray that looks along `look`, relative to the circle's centre, in the camera's frame. It is
+// the sum of the two.
 struct EyeOffset {
   vec3 stereo;
   vec3 neck;
@@ -181,7 +182,7 @@ inline Ray camera_ray(Camera camera, int eye, vec2 home, vec2 uv, vec2 lens) {
 }
 
 #ifdef __cplusplus
-// Through the centre of the lens, as if uv were the centre of a pixel.
+// The ray through the centre of the lens, as if uv were the centre of a pixel.
 inline Ray camera_ray(const Camera& camera, int eye, vec2 uv) {
   return camera_ray(camera, eye, uv, uv, vec2(0.0f, 0.0f));
 }

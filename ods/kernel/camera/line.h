@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Line of sight -> position in a picture, for everything that shows or converts one: a display knows the direction in
-// which a viewer looks, not the point that is seen.
+// Line of sight -> position in a picture, for code that shows or converts pictures: it has the direction in which a
+// viewer looks, not the point that is seen.
 //
 // A line of sight is identified by its direction alone: pictures with the same viewing circle and merge contain the
 // same lines, and differ only in where they put them.
@@ -14,15 +14,16 @@ namespace ods {
 
 // The ray that meets a point, as the camera builds it.
 struct PointLook {
-  vec3 direction;  // of the projection, after kShift's turn and before toe-in
-  vec3 origin;     // from the circle's centre; both in the camera's frame
-  bool found;      // false: no ray meets the point, or several do
+  vec3 direction;  // before the projection, after kShift's rotation and before toe-in, in the camera's frame
+  vec3 origin;     // relative to the circle's centre, in the camera's frame
+  bool found;      // false if no ray or several rays meet the point
 };
 
-// point: from the circle's centre, in the camera's frame. nearness: 1; or 0 for a point at infinity in that direction.
-// A fixed-point iteration that is right for every camera: take the eye's place for the direction found so far, and look
-// from there to the point. It converges because the eye moves by less than its distance to the point. Aitken's
-// relaxation makes it fast, and lets it converge on maps so steep that the eye moves by more.
+// Finds the ray that meets a point. point: relative to the circle's centre, in the camera's frame. nearness: 1, or 0
+// for a point at infinity in that direction.
+// A fixed-point iteration that works for every camera: it places the eye for the current direction, then looks from
+// there to the point. It converges because the eye moves by less than its distance to the point. Aitken's relaxation
+// makes it fast, and makes it converge on maps so steep that the eye moves by more.
 inline PointLook look_of_point(Camera camera, int eye, vec3 point, float nearness) {
   PointLook look;
   look.direction = vec3(0.0f, 0.0f, -1.0f);
@@ -68,15 +69,15 @@ inline vec3 toed_in_label(Camera camera, int eye, vec3 d) {
   return turn_about(normalize(level), camera.axis, turn) * cos(phi) + camera.axis * sin(phi);
 }
 
-// The direction of the projection, in the camera's frame, where an eye's picture has the line of sight of a direction
-// in that frame (unit length).
+// The direction, in the camera's frame, that the projection maps to the place where an eye's picture shows the line of
+// sight `direction` (camera's frame, unit length).
 inline vec3 line_label(Camera camera, int eye, vec3 direction) {
   if (camera.convergence == kToeIn) return toed_in_label(camera, eye, direction);
   if (camera.convergence == kShift) return turn_about(direction, camera.axis, -shift_angle(camera, eye));
   return direction;
 }
 
-// Where an eye's picture has the line of sight of a direction in the camera's frame, any length but 0.
+// Position in an eye's picture of the line of sight in a direction (camera's frame, any length but 0).
 inline ImagePoint place_of_line(Camera camera, int eye, vec3 direction) {
   return place_of(camera.projection, line_label(camera, eye, normalize(direction)));
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pole merge: the fraction of the viewing circle's radius that remains at an elevation. The curves are those of the
-// systems that merge (docs/cameras.md names them).
+// Pole merge: the fraction of the viewing circle's radius that remains at an elevation. The curves are taken from
+// existing systems, which docs/cameras.md lists.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/math.h"
@@ -18,7 +18,7 @@ const int kMergeSmoothstep = 3;
 const int kMergeGaussian = 4;      // eVRydayVR
 const int kMergePower = 5;         // Mandelbulber: 1 - t^exponent
 const int kMergeTiltBrush = 6;     // Google's Unity kit: never below 0.84
-const int kMergeMap = 7;           // a lat-long picture: the VR camera for Arnold's shader mode
+const int kMergeMap = 7;           // a lat-long picture, as in shader mode of the VR camera for Arnold
 const int kMergeSmootherstep = 8;  // Perlin's curve: its second derivative is continuous at both ends
 const int kMergeCount = 9;
 
@@ -30,8 +30,8 @@ struct PoleMerge {
   float exponent;  // the curve is raised to this power; for kMergePower, t is
 };
 
-// The fraction that remains at an elevation (radians, 0 at the horizon .. pi/2). kMergeMap is not a function of
-// elevation: 1.
+// The fraction that remains at an elevation (radians, 0 at the horizon .. pi/2). Returns 1 for kMergeMap, which is not
+// a function of elevation.
 inline float merge_factor(PoleMerge merge, float elevation) {
   if (merge.mode == kMergeNone || merge.mode == kMergeMap) return 1.0f;
   float t = clamp((elevation - merge.start) / (merge.end - merge.start), 0.0f, 1.0f);

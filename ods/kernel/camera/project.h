@@ -9,11 +9,12 @@
 //   rho^2 = r^2 + L^2 with L = dot(point, F) = n + t cos(phi),   tan(phi) = y / (L - n).
 // With toe-in at C it leaves along C d - r R, and at s times that vector
 //   rho^2 = r^2 (1 - s)^2 + (n + s C cos(phi))^2,   y = s C sin(phi).
-// Without a merge and a neck both have a closed form, below the merge's start too, and so has r = ipd/2 cos(phi).
-// Otherwise r and n depend on phi, and the equation in phi has one root, since a circle that shrinks towards the poles
-// never makes rays cross: bisection finds it.
+// Both have a closed form without a merge and a neck, below the start of a merge, and for r = ipd/2 cos(phi). Otherwise
+// r and n depend on phi, and the equation in phi has one root, because rays do not cross if the circle shrinks towards
+// the poles. Bisection finds the root.
 //
-// A head-tilt map moves the eyes out of the circle's plane, so none of this holds: look_of_point() (line.h) iterates.
+// A head-tilt map moves the eyes out of the circle's plane, so none of this holds there; look_of_point() (line.h)
+// iterates instead.
 #ifdef __cplusplus
 #pragma once
 #include "ods/kernel/camera/line.h"
@@ -23,12 +24,12 @@ namespace ods {
 struct ImagePosition {
   vec2 uv;      // both 0..1
   float depth;  // along the ray from its own origin
-  vec3 origin;  // of the ray, in the world
-  bool seen;    // false: no ray of this eye meets the point, or the picture does not reach it
+  vec3 origin;  // the ray's origin, in the world
+  bool seen;    // false if no ray of this eye meets the point, or the picture does not contain it
 };
 
-// How the ray of one elevation passes the point: the point's coordinates across and along the heading, and the distance
-// by which the ray passes below it (negative: above).
+// The position of the point relative to the ray at one elevation: the point's coordinates across and along the heading,
+// and the distance by which the ray passes below it (negative if above).
 struct Meeting {
   float across;  // dot(point, R)
   float along;   // dot(point, F)
@@ -36,7 +37,7 @@ struct Meeting {
   float depth;
 };
 
-// r, n: after the merge. No ray meets points nearer to the axis than r; the nearest ray is used instead.
+// r, n: after the merge. No ray meets points closer to the axis than r; the closest ray is used instead.
 inline Meeting meet(Camera camera, float r, float n, float rho, float y, float phi) {
   Meeting meeting;
   meeting.across = r;
@@ -76,7 +77,7 @@ inline float cosine_elevation(float r, float rho, float y) {
   return atan(y, sqrt(max(rho * rho - merged * merged, 0.0f)));
 }
 
-// phi with its sign. heading: of the point, for a merge map, which is a function of direction.
+// phi with its sign. heading: the point's, needed for a merge map, which is a function of direction.
 inline float elevation_of(Camera camera, float r, float rho, float y, vec3 heading) {
   PoleMerge merge = camera.top;
   if (y < 0.0f) merge = camera.bottom;
@@ -103,7 +104,7 @@ inline float elevation_of(Camera camera, float r, float rho, float y, vec3 headi
   return sign_of_y * 0.5f * (low + high);
 }
 
-// With a head-tilt map, whose eyes leave the circle's plane.
+// Projects a point for cameras with a head-tilt map, whose eyes leave the circle's plane.
 inline ImagePosition project_by_search(Camera camera, int eye, vec3 point) {
   PointLook look = look_of_point(camera, eye, point, 1.0f);
   vec3 direction = look.direction;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Projections: image position <-> direction, each with its exact inverse. CONTRIBUTING.md lists what a new one needs.
-// Where code asks for a kind and no compiler can tell that a new one is missing, a static_assert of kProjectionCount
-// does.
+// Code that distinguishes kinds without a switch has a static_assert on kProjectionCount, so that a new kind is not
+// forgotten.
 //
 // Image positions: u is 0..1 from left to right, v is 0..1 from top to bottom of one eye's picture. Directions are in
 // the camera's frame: x right, y up, z back. theta is the heading, 0 ahead and positive to the right;
@@ -19,11 +19,11 @@ const int kCylinder = 1;               // linear in theta and in the tangent of 
 const int kFisheye = 2;                // equidistant: the radius is proportional to the angle from the lens axis
 const int kFisheyeEquisolid = 3;       // equal areas have equal solid angles
 const int kPerspective = 4;            // a flat window; with 90 degrees it is a face of a cube
-const int kCube3x2 = 5;                // as the VR camera for Arnold arranges the faces
-const int kCube6x1 = 6;                // likewise ("NVIDIA" order)
+const int kCube3x2 = 5;                // faces arranged as by the VR camera for Arnold
+const int kCube6x1 = 6;                // NVIDIA's order of the faces
 const int kCube1x6 = 7;                // the faces of kCube6x1 in a column
 const int kEac = 8;                    // equi-angular cube, 3x2 as players of 360 video expect it
-const int kEacFace = 9;                // one face of it, which can be pointed in any direction
+const int kEacFace = 9;                // one face of kEac, which can be pointed in any direction
 const int kFisheyePolynomial = 10;     // the angle from the lens axis is a polynomial of the radius on a sensor
 const int kFisheyeStereographic = 11;  // keeps shapes: seen from the point opposite to the lens axis on the unit sphere
 const int kProjectionCount = 12;
@@ -61,11 +61,11 @@ inline bool is_cube(int kind) {
 struct Projection {
   int kind;
   vec2 center;  // kLatLong, kCylinder: theta and phi of the picture's centre, radians; kCylinder: tan(phi)
-  vec2 span;    // the range that the picture covers from edge to edge, likewise
+  vec2 span;    // the range that the picture covers from edge to edge, in the units of `center`
   float angle;  // kFisheye...: from edge to edge of the image circle, radians
   vec2 circle;  // has_image_circle(): its half axes, in units of half the frame's width and height
   vec2 sensor;  // kFisheyePolynomial: the frame's width and height, millimetres
-  float k0;     // and the coefficients of the radius to the power of 0, 1 .. in minus the angle, radians
+  float k0;     // the coefficients of the radius to the power of 0, 1, .. in the negated angle, radians
   float k1;
   float k2;
   float k3;
@@ -81,12 +81,12 @@ struct ViewDirection {
   vec3 direction;   // unit length
   vec3 heading;     // (sin theta, 0, -cos theta)
   float elevation;  // phi; beyond +-pi/2 where a lat-long picture continues over its pole
-  bool seen;        // false: the picture is empty there
+  bool seen;        // false if the picture is empty there
 };
 
 struct ImagePoint {
   vec2 uv;
-  bool seen;  // false: the direction is not in the picture
+  bool seen;  // false if the direction is outside the picture
 };
 
 inline ViewDirection look_along(vec3 direction) {
@@ -162,12 +162,13 @@ inline vec3 to_lens(Projection projection, vec3 d) {
   return vec3(dot(d, projection.lens_right), dot(d, projection.lens_up), dot(d, projection.lens_back));
 }
 
-// The image circle touches the picture's edges. home decides what is inside, as in look_of().
+// Returns whether a position is inside the image circle, which touches the picture's edges. As in look_of(), pass
+// `home` to decide for a pixel.
 inline bool inside_circle(Projection projection, vec2 uv) {
   return length(vec2(2.0f * uv.x - 1.0f, 1.0f - 2.0f * uv.y) / projection.circle) <= 1.0f;
 }
 
-// The angle from the lens axis at a radius, in units of the image circle's, and the way back.
+// The angle from the lens axis at a radius, in units of the image circle's radius, and its inverse.
 inline float fisheye_angle(Projection projection, float r) {
   float quarter = 0.25f * projection.angle;
   if (projection.kind == kFisheyeEquisolid) return 2.0f * asin(min(sin(quarter) * r, 1.0f));
@@ -391,7 +392,7 @@ inline ViewDirection look_of(Projection projection, vec2 home, vec2 uv) {
   if (is_cube(projection.kind)) return cube_look(projection.kind, home, uv);
   if (projection.kind == kEacFace) return eac_face_look(projection, uv);
   if (projection.kind == kFisheyePolynomial) return polynomial_look(projection, home, uv);
-  ViewDirection nothing = lat_long_look(projection, uv);  // no such projection
+  ViewDirection nothing = lat_long_look(projection, uv);  // unknown projection
   nothing.seen = false;
   return nothing;
 }
@@ -410,7 +411,7 @@ inline ImagePoint place_of(Projection projection, vec3 direction) {
   return nothing;
 }
 
-// A cube's position within the cell of its home, both coordinates -1..1, upwards.
+// Position within the cube face that contains `home`, both coordinates -1..1, upwards.
 inline vec2 place_in_cell(int kind, vec2 home, vec2 uv) {
   float columns = float(cube_columns(kind));
   float rows = 6.0f / columns;
@@ -418,20 +419,20 @@ inline vec2 place_in_cell(int kind, vec2 home, vec2 uv) {
               1.0f - 2.0f * (uv.y * rows - floor(home.y * rows)));
 }
 
-// Whether the picture at uv is that of the pixel at home: it is not beyond the edge of a cube's face.
+// Returns whether uv is on the same cube face as `home`. Always true for other projections.
 inline bool same_face(Projection projection, vec2 home, vec2 uv) {
   if (!is_cube(projection.kind)) return true;
   vec2 place = place_in_cell(projection.kind, home, uv);
   return abs(place.x) <= 1.0f && abs(place.y) <= 1.0f;
 }
 
-// Of a plane at the distance 1, per area.
+// Solid angle per area of a plane at distance 1.
 inline float plane_solid_angle(vec2 p) {
   float square = 1.0f + dot(p, p);
   return 1.0f / (square * sqrt(square));
 }
 
-// Likewise, of a plane whose coordinates are the tangents of angles in -pi/4..pi/4, per square of those angles.
+// Solid angle per square of the angles in -pi/4..pi/4 whose tangents are the coordinates on a plane at distance 1.
 inline float eac_solid_angle(vec2 place) {
   vec2 p = vec2(tan(0.25f * kPi * place.x), tan(0.25f * kPi * place.y));
   return plane_solid_angle(p) * (1.0f + p.x * p.x) * (1.0f + p.y * p.y);
@@ -461,7 +462,7 @@ inline float relative_solid_angle(Projection projection, vec2 home, vec2 uv) {
   if (projection.kind == kEac) return eac_solid_angle(place_in_cell(projection.kind, home, uv));
   if (is_cube(projection.kind)) return plane_solid_angle(place_in_cell(projection.kind, home, uv));
   if (projection.kind == kFisheyeEquisolid) return 1.0f;
-  return 0.0f;  // there is no such projection
+  return 0.0f;  // unknown projection
 }
 
 #ifdef __cplusplus

@@ -27,19 +27,16 @@ static std::string attribute_of(const CameraFieldRow& row, size_t i) {
                                       : std::string(row.attribute);
 }
 
-// A map that is the same all around, as a merge by depth is, is a curve: "4x180:" and a number per row, from the top.
-// Empty: it is not.
+// Writes a map that is the same all around, such as a merge by depth, as a curve: "4x180:" and a number per row, from
+// the top. Empty for other maps.
 static std::string text_of_curve(const Image& map) {
+  if (map.height > kMostCurveRows || !is_same_around(camera_map(map))) return "";
   std::string text = fmt::format("{}x{}:", map.width, map.height);
-  for (int y = 0; y < map.height; y++) {
-    const float* row = map.at(0, y);
-    if (!std::all_of(row, row + map.width, [&](float value) { return value == *row; })) return "";
-    text += fmt::format(" {}", decimal(*row));
-  }
-  return map.height <= kMostCurveRows ? text : "";
+  for (int y = 0; y < map.height; y++) text += fmt::format(" {}", decimal(*map.at(0, y)));
+  return text;
 }
 
-// Nothing: that is no curve.
+// Returns null if the text is not a curve.
 static std::shared_ptr<const Image> curve_of_text(const std::string& text) {
   int width = 0, height = 0, used = 0;
   if (std::sscanf(text.c_str(), "%5dx%5d:%n", &width, &height, &used) != 2 || used == 0) return nullptr;
@@ -94,7 +91,7 @@ class AttributeReader {
     const auto found = info_.text.find(name);
     return found == info_.text.end() ? std::nullopt : std::optional(found->second);
   }
-  // Empty: the file does not have it.
+  // Empty if the file does not have the attribute.
   std::vector<float> numbers(const std::string& name) const {
     const auto found = info_.numbers.find(name);
     return found == info_.numbers.end() ? std::vector<float>() : found->second;
@@ -141,7 +138,7 @@ void read_numbers(AttributeReader& in, StereoCamera& camera) {
   }
 }
 
-// Maps that vary around are in a sidecar only.
+// Maps that vary around are only in sidecars.
 void read_maps(AttributeReader& in, StereoCamera& camera, const StereoCamera* maps,
                std::vector<std::string>& warnings) {
   if (merges_by_map(camera)) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What each of a phone's two lenses sees, of spatial photos and videos.
+// The field of view of a phone's two lenses, for spatial photos and videos.
 #pragma once
 #include <optional>
 #include <string>
@@ -12,8 +12,8 @@
 
 namespace ods {
 
-// A flat window, so many degrees across. Where the file does not say, it is as wide as phones' usual ones, and
-// `guesses` say so.
+// A flat window with this horizontal field of view in degrees. If the file does not specify it, phones' usual one is
+// assumed, with a note in `guesses`.
 ProjectionSetting phone_window(std::optional<float> fov, Extent eye, std::vector<std::string>& guesses);
 
 }  // namespace ods

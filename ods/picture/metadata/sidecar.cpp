@@ -12,6 +12,7 @@
 #include "ods/base/decimal.h"
 #include "ods/base/error.h"
 #include "ods/base/json_reader.h"
+#include "ods/base/quote.h"
 #include "ods/camera/camera_fields.h"
 #include "ods/files/atomic_file.h"
 #include "ods/files/read_file.h"
@@ -19,7 +20,7 @@
 namespace ods {
 namespace {
 
-constexpr size_t kLargestFile = 1u << 30u;  // bytes; room for two of the largest maps
+constexpr size_t kLargestFile = 1u << 30u;  // bytes; enough for two of the largest maps
 
 // --- writing ---------------------------------------------------------------------------------------------------------
 
@@ -64,7 +65,7 @@ Json conventions() {
 
 // --- reading ---------------------------------------------------------------------------------------------------------
 
-// What the tables of a camera say of one object of the file; "" is the file itself.
+// Reads the fields in the tables of a camera from one object of the file; "" is the file itself.
 void read_object(JsonReader& in, std::string_view object, StereoCamera& camera) {
   for (const CameraModeRow& row : camera_modes()) {
     const Place place = place_of(row.place);
@@ -100,7 +101,7 @@ void read_projection(JsonReader& in, StereoCamera& camera) {
   if (!fault.empty()) in.fail("", "is impossible: " + fault);
 }
 
-// null: no axis of its own.
+// An axis of null is an axis that is not set.
 void read_pose(JsonReader& in, StereoCamera& camera) {
   if (in.find("axis") && !in.is_null("axis")) camera.axis = vec3(0.0f);
   read_object(in, "", camera);
@@ -167,7 +168,7 @@ std::string write_sidecar(const Sidecar& file) {
   json["merge_map"] = camera.merge_map ? to_json(*camera.merge_map) : Json(nullptr);
   json["head_tilt_map"] = camera.head_tilt_map ? to_json(*camera.head_tilt_map) : Json(nullptr);
   json["mirrored"] = camera.mirrored;
-  return json.dump(2) + "\n";
+  return json_document(json, 2) + "\n";
 }
 
 Sidecar read_sidecar(std::string_view text, const std::string& name, std::vector<std::string>& warnings) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The camera sidecar: all about a picture's camera as JSON, beside the picture. docs/camera-sidecar.md has the schema.
-// Values round-trip bit for bit.
+// The camera sidecar: all data of a picture's camera as JSON, beside the picture. docs/camera-sidecar.md has the
+// schema. Values round-trip bit for bit.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -17,12 +17,12 @@ namespace ods {
 // The number in "omnistereo_camera". It increases when older readers would misunderstand newer files.
 inline constexpr int kSidecarVersion = 1;
 
-// Texels of a merge map or a head-tilt map, at most.
+// Maximum number of texels of a merge map or a head-tilt map.
 inline constexpr int64_t kLargestMap = 1 << 24;
 
 struct Sidecar {
   StereoCamera camera;
-  Extent eye;  // pixels of one eye as rendered; 0x0 if the file does not say
+  Extent eye;  // pixels of one eye as rendered; 0x0 if the file does not specify it
   Layout layout = Layout::kTopBottom;
   std::vector<int> eyes{kLeft, kRight};  // as in EyeImage
 };
@@ -30,11 +30,12 @@ struct Sidecar {
 std::string write_sidecar(const Sidecar& file);
 
 // `name` stands for the text in messages. Unknown keys add to `warnings`; missing keys keep the defaults of
-// StereoCamera. Throws Error(kInput): not JSON, a newer version, a value of the wrong type or out of range.
+// StereoCamera. Throws Error(kInput) if the text is not JSON, of a newer version, or has a value of the wrong type or
+// out of range.
 Sidecar read_sidecar(std::string_view text, const std::string& name, std::vector<std::string>& warnings);
 Sidecar load_sidecar(const std::string& path, std::vector<std::string>& warnings);
 
-// Atomic. Throws Error(kOutput).
+// Writes the file atomically. Throws Error(kOutput).
 void save_sidecar(const Sidecar& file, const std::string& path);
 
 // picture.png -> picture.camera.json; an eye's placeholder (%V) is dropped with its separator.

@@ -28,7 +28,7 @@ static bool is_packing(Layout layout) {
   return how != EyePacking::kMixed && how != EyePacking::kAlone;
 }
 
-// Words after the format words: frame numbers, fields of view.
+// Parts after the format part of a name: frame numbers, fields of view.
 static bool says_nothing(const std::string& word) {
   return word.find_first_not_of("0123456789xX") == std::string::npos;
 }
@@ -59,7 +59,7 @@ NameWords read_name(const std::string& path) {
     const std::optional<Layout> layout = layout_of(word);
     // After a dot a number is a frame number, not an angle.
     const NamedProjection* projection = marked[0] == '.' && says_nothing(word) ? nullptr : projection_word(word);
-    // A file called checkerboard shows one more often than it is one.
+    // A file named checkerboard usually shows a checkerboard pattern.
     const bool is_word = layout && is_packing(*layout) && arrangement_of(*layout).how != EyePacking::kCheckerboard;
     if (is_word || word == "mono") {
       words.layout = layout;
@@ -87,13 +87,14 @@ std::string renamed(const std::string& path, const std::string& words) {
   return (file.parent_path() / (name + words + file.extension().native())).native();
 }
 
-// --- the shape -------------------------------------------------------------------------------------------------------
+// --- the aspect ratio ------------------------------------------------------------------------------------------------
 
 static bool has_shape(const ProjectionSetting& setting, Extent eye) {
   return eye.width % width_step(setting) == 0 && natural_height(setting, eye.width) == eye.height;
 }
 
-// The projections that a shape alone identifies. 3:2 is not one of a cube's: most cameras' photos have it.
+// The projections that an aspect ratio alone identifies. 3:2 does not identify a cube, because most cameras' photos
+// have it.
 static std::vector<const NamedProjection*> shapes() {
   return {find_projection("lat-long"), find_projection("cube-6x1"), find_projection("cube-1x6")};
 }
@@ -119,14 +120,14 @@ static LayoutGuess layout_of_shape(Extent file, const std::optional<ProjectionSe
   return {{}, LayoutSource::kNothing, "nothing says otherwise"};
 }
 
-// Whether it has colour of that view; Blender's layers have names.
+// Returns whether the file has a colour layer of that view; Blender's layers have names.
 static bool has_view(const FileInfo& info, const std::string& view) {
   return std::ranges::any_of(info.channels, [&](const std::string& channel) {
     return channel == view + ".R" || channel.ends_with(".Combined." + view + ".R");
   });
 }
 
-// The layout in ods:layout, or the eye it names.
+// The layout in ods:layout, or the eye that it specifies.
 static std::optional<LayoutGuess> said_layout(const FileInfo& info) {
   const auto said = info.text.find("ods:layout");
   if (said == info.text.end()) return std::nullopt;
@@ -156,7 +157,7 @@ LayoutGuess guess_layout(const FileInfo& info, const std::string& path,
   return layout_of_shape({info.width, info.height}, {});
 }
 
-// --- everything together ---------------------------------------------------------------------------------------------
+// --- all sources combined ------------------------------------------------------------------------------------------
 
 bool belongs_to(const Sidecar& sidecar, const FileInfo& info) {
   const int count = static_cast<int>(sidecar.eyes.size());
@@ -247,7 +248,7 @@ static const NamedProjection* projection_of_shape(Extent eye) {
   return nullptr;
 }
 
-// By the name, else by the pixels, else by the shape of an eye before squeezing.
+// From the name, else from the pixels, else from the aspect ratio of an eye before squeezing.
 static ProjectionSetting guess_projection(Extent eye, const std::string& path, const FormatHint& known,
                                           std::vector<std::string>& guesses) {
   const NameWords words = read_name(path);
@@ -264,8 +265,8 @@ static ProjectionSetting guess_projection(Extent eye, const std::string& path, c
   return guess(*find_projection("lat-long"), "nothing says otherwise");
 }
 
-// The file's own metadata takes precedence over its sidecar, which may be older. Maps that the file says it has and
-// does not hold come from the sidecar.
+// The file's own metadata takes precedence over its sidecar, which may be older. Maps that the file mentions but does
+// not contain come from the sidecar.
 static std::optional<StereoCamera> find_stated_camera(const FileInfo& info, const std::string& path,
                                                       const FormatHint& known, const std::optional<Sidecar>& sidecar,
                                                       std::vector<std::string>& guesses) {
@@ -285,7 +286,7 @@ static StereoCamera camera_of_pair(const FileInfo& info, std::vector<std::string
   return camera;
 }
 
-// A square eye of a VR photo whose GPano gives no crop is VR180: no other camera writes such photos.
+// A square eye of a VR photo whose GPano has no crop is VR180, because no other camera writes such photos.
 static std::optional<StereoCamera> find_camera(const FileInfo& info, const std::string& path, const FormatHint& known,
                                                const std::optional<Sidecar>& sidecar, StereoFormat& format) {
   std::optional<StereoCamera> camera = find_stated_camera(info, path, known, sidecar, format.guesses);
@@ -304,7 +305,8 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
   format.layout = find_layout(info, path, known, sidecar, format.is_photo);
   const std::optional<StereoCamera> camera = find_camera(info, path, known, sidecar, format);
   format.has_camera = camera.has_value();
-  // GPano knows no layout, but says what one eye covers: if that is all of the file, there is no other.
+  // GPano has no layout, but the part of the sphere that one eye covers: if the file has its aspect ratio, there is
+  // only one eye.
   if (camera && format.layout.source >= LayoutSource::kShape &&
       has_shape(camera->projection, {info.width, info.height}))
     format.layout = {{}, LayoutSource::kFile, "its metadata fits one eye"};
@@ -334,7 +336,7 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
   return format;
 }
 
-// JSON starts with a brace, and no picture format does.
+// JSON starts with a brace, unlike every picture format.
 static bool is_sidecar(const std::string& path) {
   if (path.ends_with(".json")) return true;
   const FileInput file(path);

@@ -38,7 +38,7 @@ static FileFormat format_of(const FileInput& file) {
   return *format;
 }
 
-// --- what the file says ----------------------------------------------------------------------------------------------
+// --- the file's own metadata -----------------------------------------------------------------------------------------
 
 static Extent stored_size(const FileInput& file, FileFormat format) {
   if (format == FileFormat::kJpeg) return jpeg_size(read_jpeg_headers(file)).value_or(Extent());
@@ -50,7 +50,7 @@ static Extent stored_size(const FileInput& file, FileFormat format) {
   return {side(kTiffWidth), side(kTiffHeight)};
 }
 
-// As it is shown.
+// The size of the picture as displayed.
 static Extent size_of(const FileInput& file, FileFormat format) {
   const Extent stored = stored_size(file, format);
   return orientation_of(file) >= 5 ? Extent{stored.height, stored.width} : stored;
@@ -115,13 +115,13 @@ static std::vector<Attribute> gpano_of(const FileInput& file, FileFormat format,
   return properties;
 }
 
-// What readers of GPano need: it is added where a camera has left it out.
+// Returns whether readers of GPano need a property, which is then added if a camera has left it out.
 static bool is_needed(const std::string& name) {
   return name == "GPano:ProjectionType" || name.starts_with("GPano:CroppedArea") || name.starts_with("GPano:FullPano");
 }
 
-// A packet that says the same already stays. Otherwise only the GPano properties that differ change; the others, such
-// as the initial view, stay.
+// The new packet. A packet with the same values is kept. Otherwise only the GPano properties that differ change; the
+// others, such as the initial view, are kept.
 static std::optional<std::string> tagged_packet(const FileInput& file, FileFormat format, const PictureTag& tag,
                                                 const std::string& old) {
   std::vector<Attribute> wanted = gpano_of(file, format, tag);
@@ -157,7 +157,7 @@ static void tag_xmp(const FileInput& file, AtomicFile& to, FileFormat format, co
 
 // --- EXR -------------------------------------------------------------------------------------------------------------
 
-// For other programs' pictures the eye distance and depth type are unknown, so these are not written.
+// The eye distance and depth type of other programs' pictures are unknown, so they are not written.
 static bool needs_said_camera(const std::string& name) {
   return name == "ods:depthType" || name == "ods:ipd" || name == "ods:position" || name == "ods:headTilt" ||
          name.starts_with("ods:poleMerge");
@@ -173,15 +173,15 @@ static std::vector<ExrAttribute> exr_words(const PictureTag& tag) {
   for (const Attribute& word : words) {
     if (tag.has_camera || !needs_said_camera(word.name)) attributes.push_back(exr_attribute(word));
   }
-  // 0: lat-long. Only for one eye: a renderer cannot look up a picture that holds two.
+  // 0: lat-long. Only for one eye, because a renderer cannot use a picture that contains two.
   if (!tag.layout && is_full_lat_long(tag.camera.projection)) {
     attributes.push_back({"envmap", "envmap", std::string(1, '\0')});
   }
   return attributes;
 }
 
-// Attributes outside the tag's scope stay: the default view, the writer, maps (which only a sidecar holds), and, if
-// the camera is unknown, all but projection and orientation.
+// Attributes outside the tag's scope are kept: the default view, the writer, maps (which only a sidecar contains), and,
+// if the camera is unknown, all but projection and orientation.
 static bool stays(const ExrAttribute& there, const PictureTag& tag) {
   if (there.name == "multiView" || there.name == "ods:version") return true;
   const bool may_be_map = there.name.starts_with("ods:poleMerge") || there.name == "ods:headTilt";
@@ -227,7 +227,7 @@ static void tag_exr(const FileInput& file, AtomicFile& to, const std::optional<P
 
 // --- sidecar ---------------------------------------------------------------------------------------------------------
 
-// Commands that open the picture believe its sidecar first: it must not say otherwise.
+// Commands that open the picture give precedence to its sidecar, so it must not contradict the tag.
 static void retag_sidecar(const std::string& picture, const PictureTag& tag) {
   const std::string path = sidecar_path(picture);
   std::error_code ignored;
@@ -237,7 +237,7 @@ static void retag_sidecar(const std::string& picture, const PictureTag& tag) {
     std::vector<std::string> unknown_keys;
     sidecar = load_sidecar(path, unknown_keys);
   } catch (const Error&) {
-    return;  // complete_tag() has said so
+    return;  // reported by complete_tag()
   }
   if (!belongs_to(sidecar, read_picture_header(picture))) return;
   const std::string before = write_sidecar(sidecar);

@@ -57,7 +57,7 @@ static std::string id_of(const JpegSegment& segment) {
   return capitals(std::string_view(segment.data).substr(kJpegExtendedXmp.size(), kId));
 }
 
-// The id that a packet gives, in capitals, if there are segments with it; else that of the first segment.
+// The id in a packet, in capitals, if there are segments with it; else the id of the first segment.
 static std::string find_id(const std::vector<JpegSegment>& segments, std::string_view packet) {
   const std::string stated = capitals(xmp_property(packet, "xmpNote:HasExtendedXMP"));
   std::string first;
@@ -83,7 +83,7 @@ static std::vector<Piece> pieces_of(const std::vector<JpegSegment>& segments, st
   return pieces;
 }
 
-// Memory grows with the segments actually read, not with a length that the file claims.
+// Memory grows with the segments actually read, not with a length in the file's metadata.
 static std::string join(const std::vector<Piece>& pieces, const std::string& path) {
   std::string packet;
   for (const Piece& piece : pieces) {
@@ -136,7 +136,7 @@ bool is_photo(const std::string& path) {
     return is_photo(read_jpeg_headers(file));
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kInput) throw;
-    return false;  // reading the pixels reports the fault
+    return false;  // reading the pixels reports the error
   }
 }
 

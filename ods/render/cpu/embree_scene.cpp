@@ -9,13 +9,15 @@
 #endif
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <new>
 #include <vector>
 
+#include "ods/render/cpu/exact_hit.h"
 #include "ods/scene/placement.h"
 
-// All differences between Embree 3 and 4.
+// The differences between Embree 3 and 4.
 #if RTC_VERSION_MAJOR >= 4
 using EmbreeContext = RTCRayQueryContext;
 
@@ -85,22 +87,23 @@ struct RayContext {
   PathTracer* tracer;
   int ray;
   uint still;
-  uint index;  // of the first ray's sample
-  int clear;   // surfaces of clear glass that a shadow ray met
+  uint index;       // index of the first ray's sample
+  int clear;        // number of surfaces of clear glass that a shadow ray met
+  ExactRays exact;  // if the scene is portable
 };
 
 }  // namespace
 
-// A geometry's number in its scene is the number of our instance. If something moves, everything that does not is one
-// additional instance in the top scene.
+// A geometry's number in its scene is the index of our instance. If something moves, all static instances together are
+// one additional instance in the top scene.
 struct EmbreeScene::Handles {
   const Scene* scene = nullptr;
   RTCDevice device = nullptr;
   RTCScene top = nullptr;
   RTCScene still = nullptr;      // null if nothing moves
-  uint still_id = 0;             // in the top scene
-  bool portable = false;         // Scene::portable
-  bool coherent = true;          // trace packets of rays as one; Embree 3.13 may never return where there are instances
+  uint still_id = 0;             // index in the top scene
+  bool portable = false;         // Scene::portable: ods/render/cpu/exact_hit.h decides what a ray meets
+  bool coherent = true;          // trace packets of rays as one; with instances, Embree 3.13 may never return
   std::vector<RTCScene> shared;  // by mesh; null if the mesh is copied
   std::vector<char> moves;       // by instance
 
@@ -121,8 +124,9 @@ static int instance_of(uint geometry, uint instance, uint still) {
   return static_cast<int>(instance == RTC_INVALID_GEOMETRY_ID || instance == still ? geometry : instance);
 }
 
-// Embree calls this for the candidate hits of one or several rays on a surface with alpha, or that some rays do not
-// meet, or of shadow rays on one that may be clear glass.
+// Embree calls this for the candidate hits of one or several rays on surfaces with alpha, on surfaces that are
+// invisible to some rays, and, for shadow rays, on surfaces that may be clear glass; on all surfaces if the scene is
+// portable.
 template <bool kShadow>
 static void filter(const RTCFilterFunctionNArguments* arguments) {
   auto* context = reinterpret_cast<RayContext*>(arguments->context);
@@ -137,13 +141,22 @@ static void filter(const RTCFilterFunctionNArguments* arguments) {
     hit.v = RTCHitN_v(arguments->hit, count, i);
     hit.instance = instance_of(geometry, instance, context->still);
     hit.triangle = static_cast<int>(RTCHitN_primID(arguments->hit, count, i));
-    context->tracer->path.index = context->index + RTCRayN_id(arguments->ray, count, i);
-    if (context->tracer->is_absent(context->ray, hit.instance) ||
-        context->tracer->passes(hit, context->tracer->alpha_draw(context->ray, hit))) {
+    const uint id = RTCRayN_id(arguments->ray, count, i);
+    context->tracer->path.index = context->index + id;
+    const bool is_portable = context->exact.rays != nullptr;
+    const double t = is_portable ? context->exact.distance(*context->tracer, id, hit) : 0.0;
+    if (t < 0.0) {
+      arguments->valid[i] = 0;
+    } else if (context->tracer->is_absent(context->ray, hit.instance) ||
+               context->tracer->passes(hit, context->tracer->alpha_draw(context->ray, hit))) {
       arguments->valid[i] = 0;
     } else if (kShadow && context->ray == kShadowRay && context->tracer->is_clear(hit, true)) {
       arguments->valid[i] = 0;
       context->clear++;
+    } else if (!kShadow && is_portable) {
+      context->exact.keep(id, t, hit);
+      RTCRayN_tfar(arguments->ray, count, i) =
+          static_cast<float>(t) * kCandidates;  // Embree asks for those up to there
     }
   }
 }
@@ -152,7 +165,7 @@ static uint key_count(const Scene& scene, int motion) {
   return motion < 0 ? 1u : static_cast<uint>(scene.motion_keys);
 }
 
-// A mesh's vertices at a key of the shutter; placed: the instance whose matrix transforms them, or null.
+// Writes a mesh's vertices at a key of the shutter. placed: the instance whose matrix transforms them, or null.
 static void write_positions(const Scene& scene, const Mesh& mesh, uint key, const Instance* placed, float* positions) {
   const Vertex* vertices = scene.vertices.data() + mesh.first_vertex;
   const MotionVertex* bent = nullptr;
@@ -168,8 +181,8 @@ static bool has_absences(const Instance& instance) {
   return instance.role == kUnseen || instance.role == kPureLight;
 }
 
-// A mesh's triangles as Embree geometry; placed: the instance whose matrix transforms copies of the vertices, or null.
-// absences: some rays do not meet it.
+// Makes an Embree geometry of a mesh's triangles. placed: the instance whose matrix transforms copies of the vertices,
+// or null. absences: some rays do not meet it.
 static RTCGeometry make_geometry(RTCDevice device, const Scene& scene, const Mesh& mesh, const Instance* placed,
                                  bool absences) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -190,8 +203,10 @@ static RTCGeometry make_geometry(RTCDevice device, const Scene& scene, const Mes
   }
   const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
   const bool may_pass = material.alpha_mode != kAlphaOpaque || absences;
-  if (may_pass) rtcSetGeometryIntersectFilterFunction(geometry, filter<false>);
-  if (may_pass || material.transmission > 0.0f) rtcSetGeometryOccludedFilterFunction(geometry, filter<true>);
+  if (may_pass || scene.portable) rtcSetGeometryIntersectFilterFunction(geometry, filter<false>);
+  if (may_pass || scene.portable || material.transmission > 0.0f) {
+    rtcSetGeometryOccludedFilterFunction(geometry, filter<true>);
+  }
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
   rtcCommitGeometry(geometry);
   return geometry;
@@ -239,7 +254,7 @@ static std::vector<char> moving_instances(const Scene& scene) {
   return moves;
 }
 
-// Which meshes are instanced: those that move, and those that would need too many copies.
+// Selects the meshes that are instanced: those that move, and those that would need too many copies.
 static std::vector<bool> choose_shared(const Scene& scene, const std::vector<char>& moves,
                                        size_t max_copied_triangles) {
   std::vector<size_t> uses(scene.meshes.size());
@@ -258,7 +273,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles, const 
     : handles_(std::make_unique<Handles>()) {
   handles_->scene = &scene;
   handles_->portable = scene.portable;
-  // What every x86-64 processor has; other processors have one set only.
+  // The instruction set that every x86-64 processor has; other processors have only one.
   handles_->device = rtcNewDevice(scene.portable ? "isa=sse2" : nullptr);
   if (!handles_->device) throw std::bad_alloc();
   RTCDevice device = handles_->device;
@@ -351,23 +366,8 @@ static RayContext make_context(PathTracer& tracer, int ray, uint still) {
   context.still = still;
   context.index = tracer.path.index;
   context.clear = 0;
+  context.exact = {};
   return context;
-}
-
-// Computes anew where a ray meets the triangle that Embree has found. Embree divides by the processor's approximate
-// reciprocals, whose last bits are each maker's own. Source: Moeller and Trumbore, "Fast, Minimum Storage Ray-Triangle
-// Intersection" (1997).
-static void place_exactly(PathTracer& tracer, const Ray& ray, Hit& hit) {
-  if (hit.t < 0.0f) return;
-  const auto triangle = tracer.triangle_of(tracer.instance_now(hit.instance), tracer.corners_of(hit));
-  const glm::dvec3 ab(triangle.ab), ac(triangle.ac), direction(ray.direction);
-  const glm::dvec3 from = glm::dvec3(ray.origin) - glm::dvec3(triangle.a);
-  const glm::dvec3 p = glm::cross(direction, ac), q = glm::cross(from, ab);
-  const double determinant = glm::dot(ab, p);
-  if (determinant == 0.0) return;
-  hit.t = static_cast<float>(std::max(0.0, glm::dot(ac, q) / determinant));
-  hit.u = static_cast<float>(std::clamp(glm::dot(from, p) / determinant, 0.0, 1.0));
-  hit.v = static_cast<float>(std::clamp(glm::dot(direction, q) / determinant, 0.0, 1.0 - double{hit.u}));
 }
 
 Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, int kind) const {
@@ -376,7 +376,10 @@ Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, int kind) const
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   RayContext context = make_context(tracer, kind, handles_->still_id);
+  NearestHit nearest;
+  if (handles_->portable) context.exact = {&ray, &tracer.ray_time, nullptr, &nearest};
   intersect(handles_->top, context.embree, found);
+  if (handles_->portable) return nearest.hit;
   Hit hit;
   const bool missed = found.hit.geomID == RTC_INVALID_GEOMETRY_ID;
   hit.t = missed ? -1.0f : found.ray.tfar;
@@ -384,14 +387,14 @@ Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, int kind) const
   hit.v = missed ? 0.0f : found.hit.v;
   hit.instance = missed ? -1 : instance_of(found.hit.geomID, found.hit.instID[0], handles_->still_id);
   hit.triangle = missed ? -1 : static_cast<int>(found.hit.primID);
-  if (handles_->portable) place_exactly(tracer, ray, hit);
   return hit;
 }
 
 bool EmbreeScene::occluded(PathTracer& tracer, const Ray& ray, float length, int kind, int* clear) const {
   RTCRay shadow;
-  set_ray(shadow, ray, length, tracer.ray_time);
+  set_ray(shadow, ray, handles_->portable ? length * kCandidates : length, tracer.ray_time);
   RayContext context = make_context(tracer, kind, handles_->still_id);
+  if (handles_->portable) context.exact = {&ray, &tracer.ray_time, &length};
   occlude(handles_->top, context.embree, shadow);
   if (clear) *clear = context.clear;
   return shadow.tfar < 0.0f;
@@ -409,7 +412,7 @@ bool EmbreeScene::reaches_light(PathTracer& tracer) const {
   return true;
 }
 
-// Embree without AVX-512 checks the rays of unused lanes, too: they are the first ray again.
+// Embree without AVX-512 also checks the rays of unused lanes, so they are copies of the first ray.
 static void set_rays(RTCRay16& out, const RayPacket& packet) {
   for (int i = 0; i < RayPacket::kMost; i++) {
     const int from = i < packet.count ? i : 0;
@@ -421,7 +424,7 @@ static void set_rays(RTCRay16& out, const RayPacket& packet) {
   }
 }
 
-// The alpha of surfaces is decided as for the paths that begin with these rays.
+// Decides the alpha of surfaces as for the paths that begin with these rays.
 static RayContext packet_context(PathTracer& tracer, const RayPacket& packet, uint still) {
   tracer.start_path(packet.rays[0], no_media(), packet.seed, packet.index);
   return make_context(tracer, kPathRay, still);
@@ -432,7 +435,7 @@ static void start_ray(PathTracer& tracer, const RayPacket& packet, int i) {
   tracer.start_path(packet.rays[i], no_media(), packet.seed, packet.index + static_cast<uint>(i));
 }
 
-// Few rays are faster one by one. To the tracer they are the rays of a packet, all the same.
+// A few rays are faster one by one. For the tracer they remain rays of a packet.
 static bool is_small(const RayPacket& packet) {
   return packet.count <= 4;
 }
@@ -454,6 +457,8 @@ void EmbreeScene::closest_hits(PathTracer& tracer, const RayPacket& packet, Hit*
     found.hit.geomID[i] = found.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   RayContext context = packet_context(tracer, packet, handles_->still_id);
+  NearestHit nearest[RayPacket::kMost];
+  if (handles_->portable) context.exact = {packet.rays, packet.times, nullptr, nearest};
   intersect16(valid, handles_->top, context.embree, handles_->coherent, found);
   for (int i = 0; i < packet.count; i++) {
     const bool missed = found.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID;
@@ -462,9 +467,7 @@ void EmbreeScene::closest_hits(PathTracer& tracer, const RayPacket& packet, Hit*
     hits[i].v = missed ? 0.0f : found.hit.v[i];
     hits[i].instance = missed ? -1 : instance_of(found.hit.geomID[i], found.hit.instID[0][i], handles_->still_id);
     hits[i].triangle = missed ? -1 : static_cast<int>(found.hit.primID[i]);
-    if (!handles_->portable) continue;
-    tracer.ray_time = packet.times[i];
-    place_exactly(tracer, packet.rays[i], hits[i]);
+    if (handles_->portable) hits[i] = nearest[i].hit;
   }
 }
 
@@ -481,6 +484,10 @@ void EmbreeScene::occluded(PathTracer& tracer, const RayPacket& packet, bool* hi
   set_rays(shadows, packet);
   for (int i = 0; i < packet.count; i++) valid[i] = packet.lengths[i] > 0.0f ? -1 : 0;
   RayContext context = packet_context(tracer, packet, handles_->still_id);
+  if (handles_->portable) {
+    context.exact = {packet.rays, packet.times, packet.lengths};
+    for (float& farthest : shadows.tfar) farthest *= kCandidates;
+  }
   occlude16(valid, handles_->top, context.embree, shadows);
   for (int i = 0; i < packet.count; i++) hidden[i] = valid[i] == 0 || shadows.tfar[i] < 0.0f;
 }

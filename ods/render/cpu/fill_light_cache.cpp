@@ -15,20 +15,20 @@
 namespace ods {
 namespace {
 
-constexpr int kKeptBounces = 4;        // a path's first surfaces are kept
-constexpr int kPathsAtOnce = 1 << 10;  // one thread's
-constexpr int kRoundPaths = 1 << 14;   // between looks at the cells
-constexpr double kWantedError = 0.2;   // of a cell; what a pixel gathers is the mean of many
+constexpr int kKeptBounces = 4;        // number of first surfaces of a path whose light is stored
+constexpr int kPathsAtOnce = 1 << 10;  // per thread
+constexpr int kRoundPaths = 1 << 14;   // paths between tests of the cells
+constexpr double kWantedError = 0.2;   // relative error of a cell; a pixel gathers the mean of many
 
 // A surface that a path has met.
 struct Vertex {
   CachePlace place;
   vec3 throughput;
-  vec3 radiance;  // found before it
+  vec3 radiance;  // light found before it
 };
 
-// What a path brings to its first surfaces, each as if the path had as many bounces left there as one of the picture
-// has after its first.
+// The light that a path contributes to its first surfaces, each as if the path had as many bounces left there as a path
+// of the picture has after its first.
 class Trail {
  public:
   explicit Trail(int bounces) : found_(static_cast<size_t>(bounces) + kKeptBounces + 1) {}
@@ -48,7 +48,7 @@ class Trail {
       const vec3 t = vertex.throughput;
       const float least = std::min({t.x, t.y, t.z}), most = std::max({t.x, t.y, t.z});
       if (!(vertex.place.cell > 0.0f) || !(least > 1e-3f * most))
-        continue;  // of a colour that is missing nothing is known
+        continue;  // nothing is known about a colour that is missing
       const vec3 all = b + left < count_ ? found_[b + left] : at_end;
       const vec3 light = (all - vertex.radiance) / t;
       if (light.x >= 0.0f && light.y >= 0.0f && light.z >= 0.0f) sums.add({vertex.place, light, odd});
@@ -56,12 +56,12 @@ class Trail {
   }
 
  private:
-  std::vector<vec3> found_;  // by bounce: before the surface there
+  std::vector<vec3> found_;  // by bounce: light found before the surface
   std::array<Vertex, kKeptBounces> vertices_;
   size_t count_ = 0;
 };
 
-// False if the picture is empty there.
+// Returns false if the picture is empty there.
 bool start(Job& job, const std::vector<int>& eyes, uint number) {
   const uint seed = hash_pair(job.options.seed, 0x6c696768u);
   const uint index = number / static_cast<uint>(eyes.size());

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What all paths of a picture have in common, and how each begins and goes on.
+// The data that all paths of a picture share, the start of a path, and the loop that continues it.
 #pragma once
 #include <span>
 
@@ -16,15 +16,15 @@ struct Job {
   const EmbreeScene& embree;
   PathTracer tracer;
   std::span<const Camera>
-      cameras;    // evenly spaced in time from the shutter's opening to its closing; one: a static camera
-  Camera camera;  // the middle one
+      cameras;    // evenly spaced in time from the shutter's opening to its closing; a single one for a static camera
+  Camera camera;  // the one in the middle
   bool shutter;   // every sample has its own time
-  Media media;    // the volumes that the camera is in
+  Media media;    // the media that the camera is in
   RenderOptions options;
   PathSettings settings;
   int filter;
   double unit;  // layer_unit()
-  bool shares;  // paths of one eye bring light to the other
+  bool shares;  // paths of one eye contribute light to the other
 };
 
 inline Camera camera_at_time(const Job& job, float time) {
@@ -32,11 +32,11 @@ inline Camera camera_at_time(const Job& job, float time) {
 }
 
 struct FirstRay {
-  Ray ray;  // direction 0: the picture is empty there
+  Ray ray;  // direction 0 if the picture is empty there
   float time;
 };
 
-// home: the middle of the sample's pixel; uv: the sample's place.
+// home: the centre of the sample's pixel. uv: the sample's position.
 inline FirstRay first_ray(const Job& job, int eye, vec2 home, vec2 uv, uint seed, uint index) {
   const vec2 lens = job.camera.lens_radius > 0.0f ? random_pair(seed, index, kLensPair) : vec2(0.0f);
   const float time = job.shutter ? random_pair(seed, index, kTimePair).x : 0.5f;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A light cache that is filled (ods/kernel/light_cache.h).
+// The filled cells of a light cache (ods/kernel/light_cache.h).
 #pragma once
 #include <vector>
 
@@ -10,8 +10,8 @@
 namespace ods {
 
 struct LightCells {
-  vec3 viewer{0.0f};             // from here on, the farther the larger they are
-  std::vector<CacheCell> table;  // a power of two of slots, or none
+  vec3 viewer{0.0f};             // cells become larger with the distance from here
+  std::vector<CacheCell> table;  // its size is a power of two, or 0
 };
 
 }  // namespace ods

@@ -42,7 +42,7 @@ uint pixel_seed(const Job& job, int eye, int x, int y) {
   return hash_pair(hash_pair(job.options.seed, static_cast<uint>(eye)), pixel);
 }
 
-// What the ray through the pixel's centre hits, with its depth as t; negative: nothing.
+// The hit of the ray through the pixel's centre, with its depth as t; negative if there is none.
 Hit center_hit(Job& job, int eye, int x, int y) {
   Hit hit{-1.0f, 0.0f, 0.0f, -1, -1};
   const Ray ray = camera_ray(job.camera, eye, pixel_center(job, x, y));
@@ -66,20 +66,20 @@ float center_depth(Job& job, int eye, int x, int y) {
   return depth < 0.0f ? kFarDepth : job.tracer.path.caught ? -depth : depth;
 }
 
-// The samples from..to - 1 of all noisy pixels, or the share of them that each block gets.
+// Adds the samples from..to - 1 of all noisy pixels, or each block's share of them.
 struct Pass {
   const SamplingPlan& plan;
   const std::vector<uint8_t>& noisy;
   int from;
   int to;
-  SampleRange whole;  // samples in whose proportion the eyes share paths: those of the pass, or all if no pixel stops
+  SampleRange whole;  // range over which shared paths are balanced: this pass, or all samples if no pixel stops early
 };
 
 bool is_noisy(const Pass& pass, size_t block, int x, int y) {
   return pass.noisy[block] >> class_of(x, y) & 1;
 }
 
-// Of a pixel in the pass; 0 if it is clean.
+// The weight of a pixel's samples in the pass; 0 if it is clean.
 float weight_in(const Pass& pass, int x, int y) {
   const size_t block = block_at(pass.plan, x, y);
   if (!is_noisy(pass, block, x, y)) return 0.0f;
@@ -87,12 +87,12 @@ float weight_in(const Pass& pass, int x, int y) {
                             samples_of(pass.plan, block, pass.whole.begin));
 }
 
-// NaN is no light.
+// NaN counts as 0.
 int64_t fixed(float light) {
   return light > 0.0f ? std::llrint(double{std::min(light, kBrightestSample)} * kLightUnit) : 0;
 }
 
-// Paths of the other eye may bring light to the same pixel at the same time.
+// Atomic, because paths of the other eye may add light to the same pixel at the same time.
 template <typename Number>
 void add(std::vector<Number>& sums, size_t at, Number value) {
   std::atomic_ref(sums[at]).fetch_add(value, std::memory_order_relaxed);
@@ -102,7 +102,8 @@ uint32_t fixed_square(float weight) {
   return static_cast<uint32_t>(std::lrint(weight * weight * kWeightUnit));
 }
 
-// What the paths of a packet found for their own pixel, to which paths of the other eye may be adding, too.
+// The light that the paths of a packet found for their own pixel. It is collected here because paths of the other eye
+// may add to the pixel at the same time.
 struct OwnLight {
   int64_t light[3] = {};
   uint32_t weights = 0;
@@ -115,7 +116,7 @@ void add_own(const OwnLight& own, size_t pixel, EyeSamples& eye) {
   if (!eye.weights.empty()) add(eye.weights, pixel, own.weights);
 }
 
-// What a path found for its own pixel.
+// Adds the light that a path found for its own pixel.
 void add_light(const PathState& path, double unit, size_t pixel, EyeSamples& eye, OwnLight& own) {
   const bool alone = !eye.alone.empty();
   for (size_t c = 0; c < 3; c++) {
@@ -136,27 +137,27 @@ void add_light(const PathState& path, double unit, size_t pixel, EyeSamples& eye
   own.weights += fixed_square(weight);
 }
 
-// What a path of the other eye found for this pixel.
+// Adds the light that a path of the other eye found for this pixel.
 void add_shared(const PathState& path, size_t pixel, EyeSamples& eye) {
   for (size_t c = 0; c < 3; c++) add(eye.light, 3 * pixel + c, fixed(path.other_radiance[static_cast<int>(c)]));
   if (!eye.weights.empty()) add(eye.weights, pixel, fixed_square(1.0f - path.own_share));
 }
 
-// One eye's pixels, and the eye that shares their paths.
+// One eye's pixels, and the pixels of the eye that shares their paths.
 struct Target {
   EyeSamples& eye;
   EyeSamples* other;
 };
 
-// The first rays of a pixel's samples, traced at once, and where the other eye sees what they hit.
+// The first rays of a pixel's samples, traced at once, and the counterparts of their hits in the other eye.
 struct FirstHits {
   RayPacket packet;
   vec2 uv[RayPacket::kMost];
   Hit hits[RayPacket::kMost];
-  Counterpart counterparts[RayPacket::kMost];  // exists: both eyes see the hit
+  Counterpart counterparts[RayPacket::kMost];  // `exists` if both eyes see the hit
 };
 
-// False if the picture is empty at the pixel.
+// Returns false if the picture is empty at the pixel.
 [[gnu::flatten]] bool trace_first_rays(Job& job, int eye, int x, int y, int first, FirstHits& out) {
   const vec2 home = pixel_center(job, x, y);
   RayPacket& packet = out.packet;
@@ -202,7 +203,7 @@ struct FirstHits {
   for (int i = 0; i < back.count; i++) out.counterparts[i].exists &= !hidden[i];
 }
 
-// A path has ended that began in this pixel.
+// Adds a finished path that began in this pixel.
 void add_path(const Job& job, size_t pixel, EyeSamples& eye, OwnLight& own) {
   const PathState& path = job.tracer.path;
   if (job.options.transparent && path.depth < 0.0f) return;  // it hit nothing
@@ -216,8 +217,8 @@ void add_path(const Job& job, size_t pixel, EyeSamples& eye, OwnLight& own) {
   add_light(path, job.unit, pixel, eye, own);
 }
 
-// Traces those of a packet's samples that are within first .. last - 1. False if the picture is empty there. What a ray
-// hits may depend on the others of its packet, where surfaces coincide, so packets are the same whatever the range.
+// Traces the packet's samples in `range`. Returns false if the projection has no ray for the pixel. A ray's hit may
+// depend on the other rays of its packet where surfaces coincide, so packets are the same for every range.
 bool trace_packet(Job& job, const Pass& pass, int x, int y, int packet, SampleRange range, Target target) {
   const size_t width = static_cast<size_t>(job.options.width);
   const size_t pixel = static_cast<size_t>(y) * width + static_cast<size_t>(x);
@@ -263,10 +264,11 @@ void render_block(Job job, const Pass& pass, int block, Target target) {
   }
 }
 
-constexpr double kSliceSeconds = 2.0;  // of work between which the samples can be kept
+constexpr double kSliceSeconds = 2.0;  // seconds of work after which the samples can be stored
 
-// Renders the blocks begin .. end - 1 of a pass, of both eyes. The thread that finishes a block reports what is done of
-// the pass. If a caller keeps the samples, only whole slices are of use.
+// Renders the blocks begin .. end - 1 of a pass, of both eyes. The thread that finishes a block reports the progress of
+// the pass. Cancellation is only checked between slices if the caller keeps the samples, because only whole slices are
+// useful then.
 void render_slice(const Job& job, const Pass& pass, int begin, int end, PictureSamples& samples,
                   const Progress& progress, bool keeps) {
   const int per_eye = static_cast<int>(samples.noisy.size());
@@ -292,7 +294,7 @@ void render_slice(const Job& job, const Pass& pass, int begin, int end, PictureS
   samples.blocks_done = end;
 }
 
-// Renders what is left of the pass that has begun.
+// Renders the rest of a pass.
 void render_pass(const Job& job, const Pass& pass, PictureSamples& samples, const Progress& progress, Keeper& keeper) {
   const int total = static_cast<int>(samples.noisy.size() * samples.eyes.size());
   int slice = keeper.wanted() ? 16 : total;
@@ -312,17 +314,21 @@ void render_pass(const Job& job, const Pass& pass, PictureSamples& samples, cons
   samples.blocks_done = 0;
 }
 
-// What lies out of focus has no place in the other eye's picture, and a catcher carries no light.
+// With depth of field a hit has no single pixel in the other eye, and a shadow catcher has no radiance to share.
 bool can_share(const StereoCamera& camera, const Scene& scene, const RenderOptions& options) {
   return shares_paths(options) && camera.lens_radius == 0.0f && !has_catchers(scene);
 }
 
-// Passes until the picture is clean, has all samples or has no time left.
+// Renders passes until the picture is clean, has all samples or has no time left.
 void render_passes(const Job& job, const SamplingPlan& plan, PictureSamples& samples, const Progress& progress,
                    const KeepSamples& keep) {
   Keeper keeper(keep);
   Passes passes(job.options, samples.done);
-  if (passes.can_judge()) passes.expect(judge_noise(plan, job.options, samples));
+  const auto judge = [&] {
+    if (passes.can_judge()) passes.expect(judge_noise(plan, job.options, samples));
+  };
+  const bool has_begun = samples.pass_to > samples.done;  // an interrupted pass goes to the same blocks as it began
+  if (!has_begun) judge();
   const bool stops = job.options.noise > 0.0f || job.options.time_limit > 0.0;
   while (samples.pass_to > samples.done || passes.next_step(keeper.seconds()) > 0) {
     if (samples.pass_to > samples.done) {
@@ -336,7 +342,7 @@ void render_passes(const Job& job, const SamplingPlan& plan, PictureSamples& sam
     const SampleRange whole = stops ? SampleRange{samples.done, samples.pass_to} : SampleRange{0, job.options.samples};
     render_pass(job, {plan, samples.noisy, samples.done, samples.pass_to, whole}, samples, part, keeper);
     passes.finish_step(keeper.seconds() - began);
-    if (passes.can_judge()) passes.expect(judge_noise(plan, job.options, samples));
+    judge();
   }
   if (progress.report) progress.report(1.0);
 }
@@ -353,7 +359,7 @@ struct CpuRenderer::Parts {
     });
   }
 
-  // Aims at the environment through portals, if the viewer sees it through them.
+  // Samples the environment through portals, if the viewer sees it through them.
   void use_portals(PathTracer& here, vec3 viewer) const {
     if (lights.environment.light < 0) return;
     const auto escapes = [&](vec3 direction) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The animation of a scene: all that set_time() (ods/scene/motion.h) needs to update the scene's records. Everything
+// The animation of a scene: the data from which set_time() (ods/scene/motion.h) updates the scene's records. Everything
 // else is static.
 //
 // Clips contain tracks; a track changes one property of one target over time. Targets are indices into the lists below:
@@ -22,24 +22,24 @@
 namespace ods {
 
 enum class Property {
-  kTranslation,  // of a node: x, y, z
+  kTranslation,  // a node's x, y, z
   kRotation,     //            quaternion x, y, z, w
   kScale,        //            x, y, z
-  kVisible,      //            0 hides it and all below it, other numbers show it
-  kWeights,      // of weights: one number for each morph target
-  kLampColor,    // of a lamp: r, g, b
+  kVisible,      // 0 hides the node and its descendants, other numbers show them
+  kWeights,      // one number for each morph target
+  kLampColor,    // a lamp's r, g, b
   kLampIntensity,
   kLampRange,
   kLampInnerCone,  // radians
   kLampOuterCone,
-  kBaseColor,  // of a material: r, g, b, a
+  kBaseColor,  // a material's r, g, b, a
   kEmission,   //                r, g, b
   kEmissionStrength,
   kMetallic,
   kRoughness,
-  kLayerNumber,  // of a material's layers: target is kLayerNumberCount * material + index in kLayerNumbers
-  kLayerColor,   //                         likewise for kLayerColors: r, g, b
-  kUvOffset,     // of a texture transform: target is kSlotCount * material + slot (kBaseColorSlot ..)
+  kLayerNumber,  // for a material's layers: target is kLayerNumberCount * material + index in kLayerNumbers
+  kLayerColor,   // target is kLayerColorCount * material + index in kLayerColors; r, g, b
+  kUvOffset,     // for a texture transform: target is kSlotCount * material + slot (kBaseColorSlot ..)
   kUvRotation,
   kUvScale,
 };
@@ -52,10 +52,11 @@ inline constexpr Property kProperties[] = {
     Property::kLayerColor,       Property::kUvOffset,      Property::kUvRotation,    Property::kUvScale};
 static_assert(std::size(kProperties) == enumerator_count<Property>());
 
-// The number of values that change together; 0: one per morph target.
+// The number of values that change together; 0 stands for one per morph target.
 size_t property_width(Property property);
 
-// How many consecutive targets of this property belong to one of Animation::materials; 0: it is not a material's.
+// The number of consecutive targets of this property that belong to one of Animation::materials; 0 if it is not a
+// property of materials.
 int targets_per_material(Property property);
 
 struct Track {
@@ -66,13 +67,13 @@ struct Track {
 
 struct Clip {
   std::string name;
-  double end = 0.0;  // seconds: its last key
+  double end = 0.0;  // seconds: time of the last key
   std::vector<Track> tracks;
 };
 
 // A transform that moves, or whose ancestor does. Its world matrix is parent * before * T * R * S.
 struct MovingNode {
-  int parent = -1;  // an earlier node in the list; -1: none, and `before` holds all static ancestors
+  int parent = -1;  // an earlier node in the list; -1 if `before` holds all ancestors, which are static
   glm::dmat4 before{1.0};
   glm::dvec3 translation{0.0};  // at rest
   glm::dvec4 rotation{0.0, 0.0, 0.0, 1.0};
@@ -81,18 +82,18 @@ struct MovingNode {
 };
 
 struct Skin {
-  std::vector<int> joints;  // nodes
+  std::vector<int> joints;  // indices of nodes
   std::vector<glm::dmat4> inverse_bind;
 };
 
 // An instance that moves, or whose mesh deforms. Its matrix is node * local.
 struct MovingInstance {
   int instance = 0;
-  int node = -1;         // -1: none, `local` is its world matrix
-  int deformation = -1;  // of its mesh; -1: none
+  int node = -1;         // -1 if `local` is its world matrix
+  int deformation = -1;  // the deformation of its mesh, or -1
   glm::dmat4 local{1.0};
   vec3 low{0.0f}, high{0.0f};  // the mesh's bounds, if it does not deform
-  int shown_by = -1;           // hidden with this node; -1: none
+  int shown_by = -1;           // the node that hides and shows it, or -1
 };
 
 struct Lamp {
@@ -102,7 +103,7 @@ struct Lamp {
 
 struct MovingLight {
   int light = 0;  // index in the scene
-  int node = -1;  // -1: static; it shines along -Z of its node
+  int node = -1;  // -1 if static; it shines along -Z of its node
   int lamp = 0;
 };
 
@@ -118,7 +119,7 @@ struct UvPlace {
   glm::dvec2 scale{1.0};
 };
 
-// Textures of a material, then those of its layers.
+// The slots of a material's textures, then those of its layers.
 enum { kBaseColorSlot, kMetallicRoughnessSlot, kNormalSlot, kEmissionSlot, kTransmissionSlot, kFirstLayerSlot };
 inline constexpr int kSlotCount = kFirstLayerSlot + kLayerTextureCount;
 
@@ -133,15 +134,15 @@ struct MovingMaterial {
   bool placed[kSlotCount] = {};  // per slot: whether a track animates its texture transform
 };
 
-// Sets the layers' factors at rest.
+// Sets the rest values of the layers' factors.
 void rest_at(MovingMaterial& moving, const MaterialLayers& layers);
 
 struct Animation {
   std::vector<Clip> clips;
-  std::vector<int> playing;  // clips that set_time() plays, later ones take precedence; empty: all is at rest
+  std::vector<int> playing;  // clips that set_time() plays, later ones take precedence; empty if everything is at rest
 
   std::vector<MovingNode> nodes;
-  std::vector<std::vector<double>> weights;  // at rest
+  std::vector<std::vector<double>> weights;  // values at rest
   std::vector<Skin> skins;
   std::vector<Deformation> deformations;
   std::vector<MovingInstance> instances;
@@ -151,11 +152,12 @@ struct Animation {
   std::vector<MovingMaterial> materials;  // at rest
 };
 
-// The last key of the playing clips, in seconds; 0: nothing moves.
+// The last key of the playing clips, in seconds; 0 if nothing moves.
 double length_of(const Animation& animation);
 
-// Selects what plays: the clip of that name or, with an empty name, every clip that does not animate anything an
-// earlier one does (files hold one clip per object, or several takes of one figure). False if no clip has that name.
+// Selects the playing clips: the clip of that name or, with an empty name, every clip that animates nothing that an
+// earlier one does (files contain one clip per object, or several takes of one figure). Returns false if no clip has
+// that name.
 bool play(Animation& animation, const std::string& name);
 
 }  // namespace ods

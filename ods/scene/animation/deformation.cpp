@@ -20,7 +20,7 @@ namespace {
 
 constexpr size_t kVerticesPerTask = 4096;
 
-// The vector normalized, or `before` if it has no direction.
+// Returns the vector normalized, or `before` if it has no direction.
 vec3 unit_or(dvec3 v, vec3 before) {
   return vec3(unit(v, dvec3(before)));
 }

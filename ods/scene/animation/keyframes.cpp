@@ -21,7 +21,7 @@ static void slerp(const float* a, const float* b, double t, std::span<double> ou
   make_unit(to);
   double cosine = 0.0;
   for (size_t i = 0; i < 4; i++) cosine += from[i] * to[i];
-  const double side = cosine < 0.0 ? -1.0 : 1.0;  // q and -q are the same rotation; choose the nearer
+  const double side = cosine < 0.0 ? -1.0 : 1.0;  // q and -q are the same rotation; this selects the closer one
   const double angle = std::acos(std::min(std::abs(cosine), 1.0));
   double share_a = 1.0 - t, share_b = t;
   if (angle > 1e-6) {

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What animations change of MaterialLayers: one row per factor, and per texture that can be moved. A row has its name
-// in glTF below a material's /extensions/, and the range to which values are cut, the same as when a file is read.
+// The members of MaterialLayers that animations can change: one row per factor, and per texture with an animated
+// transform. A row has its name in glTF below a material's /extensions/, and the range to which values are clamped,
+// which is the same as for static values.
 #pragma once
 #include <iterator>
 #include <string_view>
@@ -37,7 +38,7 @@ inline constexpr int kLayerNumberCount = static_cast<int>(std::size(kLayerNumber
 struct LayerColor {
   std::string_view name;
   vec3 MaterialLayers::*member;
-  double high;  // of each channel; the least is 0
+  double high;  // maximum of each channel; the minimum is 0
 };
 
 inline constexpr LayerColor kLayerColors[] = {
@@ -70,7 +71,7 @@ inline constexpr LayerTexture kLayerTextures[] = {
 };
 inline constexpr int kLayerTextureCount = static_cast<int>(std::size(kLayerTextures));
 
-// Every member of MaterialLayers has its row.
+// Every member of MaterialLayers has a row.
 static_assert(sizeof(MaterialLayers) == kLayerNumberCount * sizeof(float) + kLayerColorCount * sizeof(vec3) +
                                             kLayerTextureCount * sizeof(TextureSlot));
 

@@ -14,7 +14,7 @@ namespace ods {
 
 static const float kEyeHeight = 1.6f, kRadius = 5.0f;
 
-// A matrix at an azimuth and elevation (degrees) and a distance from the eyes, facing them.
+// A matrix that places an object at an azimuth and elevation (degrees) and a distance from the eyes, facing them.
 static glm::mat4 facing_viewer(float azimuth, float elevation, float distance) {
   return placed(vec3(0.0f, kEyeHeight, 0.0f), azimuth) * turned(vec3(1, 0, 0), elevation) *
          placed(vec3(0.0f, 0.0f, -distance));
@@ -139,7 +139,7 @@ static void add_poles(Scene& scene) {
 
 Scene make_axis() {
   Scene scene;
-  // One square a metre, lines through the origin.
+  // One square per metre, lines through the origin.
   const int tiles = add_texture(scene, 128, 128, [](vec2 p) {
     const vec2 t = abs(fract(p + 0.5f) - 0.5f);
     return min(t.x, t.y) < 0.012f ? vec3(0.25f) : vec3(0.62f, 0.64f, 0.66f);

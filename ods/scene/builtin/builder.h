@@ -10,8 +10,8 @@
 
 namespace ods {
 
-// Scales, then rotates to the right by yaw degrees (seen from above), then moves.
-// A position at an azimuth, in degrees to the right of the front, and a distance on the floor.
+// around(): a position at an azimuth, in degrees to the right of the front, and a distance on the floor.
+// placed(): scales, then rotates to the right by yaw degrees (seen from above), then moves.
 vec3 around(float azimuth, float distance, float height = 0.0f);
 glm::mat4 placed(vec3 position, float yaw = 0.0f, vec3 scale = vec3(1.0f));
 
@@ -26,17 +26,17 @@ Material matte(vec3 color);
 
 Material metal(vec3 color, float roughness);
 
-// Black and emissive.
+// A black, emissive material.
 Material glow(vec3 radiance);
 
 // Clear solid glass; its mesh must be closed.
 Material glass(float ior);
 
-// A texture of color(u, v), u and v in 0..1 with v down; linear Rec. 709 in, stored as sRGB. Returns its index.
+// Adds a texture of color(u, v), u and v in 0..1 with v down; linear Rec. 709 in, stored as sRGB. Returns its index.
 // Several threads call color() at once.
 int add_texture(Scene& scene, int width, int height, const std::function<vec3(vec2)>& color);
 
-// The material with its base colour multiplied by a texture that repeats every `size` metres.
+// Returns the material with its base colour multiplied by a texture that repeats every `size` metres.
 Material textured(Material material, int texture, vec2 size);
 
 int add_material(Scene& scene, const Material& material, const std::string& name = {});

@@ -22,7 +22,7 @@ struct BuiltinScene {
 
 std::span<const BuiltinScene> builtin_scenes();
 
-// nullptr if there is none of that name.
+// Returns nullptr if there is no scene of that name.
 const BuiltinScene* find_builtin(std::string_view name);
 
 // "furnace": inside a closed box of Lambert surfaces with albedo 0.5 and emitted radiance 0.25. Every pixel is the

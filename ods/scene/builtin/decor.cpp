@@ -55,7 +55,7 @@ void add_lantern(Scene& scene, const Finishes& f, const glm::mat4& place, float 
   add(scene, make_tube({{0.0f, 0.0f, 0.0f}, {0.0f, -drop + radius, 0.0f}}, 0.004f, 10), f.iron, place);
   add(scene, make_cylinder(0.05f, 0.03f, 32), f.iron, place * placed(vec3(0.0f, -0.015f, 0.0f)));
   const glm::mat4 middle = place * placed(vec3(0.0f, -drop, 0.0f));
-  // A hoop on every ring hides how few triangles the paper has.
+  // A hoop on every ring hides the small number of triangles in the paper.
   const int rings = 6;
   std::vector<vec2> paper;
   Shape hoops;
@@ -157,7 +157,7 @@ void add_books(Scene& scene, const Finishes& f, const glm::mat4& place, vec3 siz
     const float front = 0.5f * size.z - 0.035f - 0.02f * random(4);
     const bool at_gap = x > (gap_at - 0.5f) * size.x && x < (gap_at - 0.5f) * size.x + 0.09f;
     if (at_gap && gap_at > 0.45f && x + 0.24f < 0.5f * size.x) {
-      // Three lying books with something on top.
+      // Three books lying flat, with an object on top.
       float y = 0.0f;
       for (int k = 0; k < 3; k++) {
         const float thick = mix(0.02f, 0.045f, random(10 + k));

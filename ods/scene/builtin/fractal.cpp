@@ -26,7 +26,8 @@ static Frame frame_on(vec3 position, vec3 y) {
   return {position, x, y, cross(x, y)};
 }
 
-// A ball with nine smaller ones: six around its equator and three above; none where it touches its parent.
+// Adds a ball with nine smaller ones, six around its equator and three above; none at the point where it touches its
+// parent.
 static void add_flake(Scene& scene, const LevelMeshes& meshes, const Frame& frame, float radius, int level) {
   add_instance(scene, meshes[level], placed(frame.position, 0.0f, vec3(radius)));
   if (level == kLevels) return;
@@ -86,7 +87,7 @@ static void add_flakes(Scene& scene) {
   }
 }
 
-// The 20 of 27 cubes that a Menger sponge keeps, level by level down to the mesh of one cube.
+// Adds the 20 of 27 cubes that a Menger sponge keeps, level by level down to the mesh of one cube.
 static void add_sponge(Scene& scene, int cube, const glm::mat4& place, vec3 corner, float size, int level) {
   if (level == 0) {
     add_instance(scene, cube, place * placed(corner + 0.5f * size, 0.0f, vec3(size)));

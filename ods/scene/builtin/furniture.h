@@ -16,7 +16,7 @@ struct BookMeshes {
 
 BookMeshes add_book_meshes(Scene& scene, int pages_material);
 
-// Materials shared by pieces, as indices into the scene's.
+// Materials shared by several pieces, as indices into the scene's materials.
 struct Finishes {
   int oak, walnut, black_wood, white_paint;
   int sofa, leather, linen, mustard, terracotta, cream, sage;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// "mirrors": reflections in stereo. Behind flat glass things appear as far away as they are, in convex mirrors they
-// shrink and come nearer, in concave ones they hang in the air.
+// "mirrors": reflections in stereo. Objects appear at their real distance behind flat mirrors, smaller and closer in
+// convex ones, and floating in the air in concave ones.
 #include <algorithm>
 #include <iterator>
 

@@ -9,23 +9,23 @@
 
 namespace ods {
 
-// A movable transform; parent -1: the world. Returns its index in Animation::nodes.
+// Adds a movable transform; parent -1 stands for the world. Returns its index in Animation::nodes.
 int add_node(Scene& scene, int parent, vec3 position);
 
 // Attaches a mesh to a node. Returns its index in Scene::meshes.
 int hang(Scene& scene, const Shape& shape, int material, int node, const glm::mat4& local = glm::mat4(1.0f));
 
-// Makes the last attached mesh deformable: its element of Animation::deformations.
+// Makes the last attached mesh deformable, and returns its element of Animation::deformations.
 Deformation& bend_last(Scene& scene);
 
 // Adds an element to Animation::materials with the material's current values.
 int add_moving_material(Scene& scene, int material);
 
-// Keys in the scene's clip. values: property_width() numbers for each time.
+// Adds keys to the scene's clip. values: property_width() numbers for each time.
 void add_keys(Scene& scene, Property property, int target, Interpolation interpolation, std::vector<float> times,
               std::vector<float> values);
 
-// Keys at even times from 0 to `seconds`, both included; value(share) with share 0..1.
+// Adds keys at even times from 0 to `seconds`, both included; value(share) with share 0..1.
 void add_keys(Scene& scene, Property property, int target, Interpolation interpolation, float seconds, int count,
               const std::function<std::vector<float>(float share)>& value);
 

@@ -43,7 +43,7 @@ static float inside(float distance, float edge) {
   return 1.0f - smoothstep(-edge, edge, distance);
 }
 
-// Grain along u: noise that is 16 times longer than wide, with darker year rings.
+// Grain along u: noise that is 16 times longer than wide, with darker growth rings.
 static float grain(vec2 p, uint seed) {
   const float wander = fractal_noise(p * vec2(4.0f, 8.0f), 8, 3, seed);
   const float fibre = fractal_noise(p * vec2(8.0f, 128.0f), 128, 2, seed + 7u);

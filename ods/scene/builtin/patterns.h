@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Procedural colours, linear Rec. 709, as functions of a point p in 0..1 x 0..1 (v down), for add_texture(). Patterns
-// that repeat in reality tile without a seam. Pure hashing: the same bits everywhere.
+// that repeat in reality tile without a seam. They use only hashing, so they have the same bits everywhere.
 #pragma once
 #include "ods/kernel/math.h"
 
 namespace ods {
 
-// 0..1, different for each (x, y, seed).
+// A random number 0..1, different for each (x, y, seed).
 float hash01(int x, int y, uint seed);
 
 // Smooth noise 0..1 that repeats after `period` cells, a power of two; octaves halve in size and weight.

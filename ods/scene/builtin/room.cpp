@@ -246,8 +246,8 @@ static void add_pictures(Scene& scene, const Finishes& f) {
   for (const Hung& p : pictures) add_picture(scene, p.wall * off_the_wall, p.size, paintings[p.painting], p.frame);
 }
 
-// The last light behind hills, a town's lamps below them, stars above. Only what the window can show is bright, so that
-// a renderer that samples the sky looks through the window.
+// The last light behind hills, a town's lamps below them, stars above. Only the part visible through the window is
+// bright, so that a renderer that samples the sky sends its rays through the window.
 static vec3 dusk(vec3 d) {
   const float azimuth = std::atan2(d.x, -d.z), height = d.y;
   const float ridge = 0.01f + 0.13f * noise(vec2(azimuth * 3.0f + 32.0f, 0.5f), 64, 5u) +

@@ -236,7 +236,7 @@ Shape make_tube(const std::vector<vec3>& path, float radius, int segments) {
   float along = 0.0f;
   for (size_t i = 0; i <= last; i++) {
     const vec3 ahead = heading(i);
-    side = normalize(side - dot(side, ahead) * ahead);  // parallel transport, so that the rod never twists
+    side = normalize(side - dot(side, ahead) * ahead);  // parallel transport, so that the rod does not twist
     if (i > 0) along += glm::distance(path[i], path[i - 1]);
     for (int k = 0; k <= segments; k++) {
       const float angle = 2.0f * kPi * float(k % segments) / float(segments);

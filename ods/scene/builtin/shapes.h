@@ -39,7 +39,7 @@ Shape make_quad(vec3 corner, vec3 right, vec3 up);
 // A horizontal rectangle facing +Y, x by z.
 Shape make_floor(float width, float depth);
 
-// Closed.
+// A closed box.
 Shape make_box(vec3 size);
 
 // A box with edges and corners rounded at this radius, in `steps` flat parts per 45 degrees. Closed. Precondition: 0 <

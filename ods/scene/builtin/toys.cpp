@@ -16,7 +16,7 @@ namespace ods {
 
 static const float kLoop = 8.0f;  // seconds
 
-// What is placed there faces the viewer.
+// Places an object so that it faces the viewer.
 static glm::mat4 facing(float azimuth, float distance, float height = 0.0f) {
   return placed(around(azimuth, distance, height), azimuth);
 }
@@ -94,7 +94,7 @@ static void add_snake(Scene& scene, const Finishes& f) {
 
 // --- morph targets
 
-// Where each target moves a point of the unit sphere.
+// The position to which each target moves a point of the unit sphere.
 static vec3 as_cube(vec3 d) {
   const vec3 a = abs(d);
   return d * (0.85f / max(a.x, max(a.y, a.z)));
@@ -278,7 +278,7 @@ static void add_banner(Scene& scene, const Finishes& f) {
            {0, 0, 4, 0});
 }
 
-// Even light, dim enough for the lamps to matter.
+// Uniform light, dim enough for the lamps to matter.
 static vec3 evening(vec3 d) {
   const float azimuth = std::atan2(d.x, -d.z) / (2.0f * kPi);
   const vec3 sky = mix(vec3(0.5f, 0.3f, 0.2f), vec3(0.07f, 0.11f, 0.24f), smoothstep(0.0f, 0.5f, d.y));

@@ -13,13 +13,13 @@
 
 namespace ods {
 
-static const float kTable = 0.74f;  // height of its top
+static const float kTable = 0.74f;  // height of the table top
 
 namespace {
 
 struct Vessel {
   std::vector<vec2> inside;   // radius and height from the axis at the bottom to the rim
-  std::vector<vec2> outside;  // the same from the axis under the foot to the rim
+  std::vector<vec2> outside;  // profile from the axis under the foot to the rim, in the same form
 };
 
 }  // namespace
@@ -220,7 +220,7 @@ static void add_table(Scene& scene) {
   }
 }
 
-// Glass on columns, so that there is something to see on every side.
+// Glass on columns, so that there are objects on every side.
 static void add_columns(Scene& scene, int stone) {
   const int clear = add_material(scene, glass(1.5f));
   Material tinted = glass(1.5f);

@@ -39,7 +39,7 @@ static int component_count(const std::string& type) {
   return type == "MAT4" ? 16 : 0;
 }
 
-// Buffers need not be aligned.
+// Loads a value from an address that may be unaligned.
 template <class T>
 static T load(const unsigned char* data) {
   T value;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Numbers of a glTF file, wherever their bytes are: in a buffer, or decompressed.
+// Numbers of a glTF file, either in a buffer or decompressed.
 #pragma once
 #include <cstddef>
 #include <map>
@@ -23,7 +23,7 @@ struct AccessorView {
   size_t count = 0;
   int components = 0;
 
-  vec4 at(size_t i) const;  // the first four
+  vec4 at(size_t i) const;  // the first four components
   float number_at(size_t i, int component) const;
   uint index_at(size_t i) const;
 
@@ -31,12 +31,12 @@ struct AccessorView {
   size_t stride = 0;
   int component_type = 0;
   bool normalized = false;
-  Storage expanded;  // backs `data` if that is not in a buffer: sparse or compressed
+  Storage expanded;  // owns the memory of `data` if it is not in a buffer: sparse or compressed
 };
 
 // The decoded mesh of a compressed primitive.
 struct DracoMesh {
-  std::vector<uint> corners;  // three for each triangle, whatever the primitive's mode
+  std::vector<uint> corners;  // three for each triangle, for every primitive mode
   size_t vertex_count = 0;
   std::map<std::string, AccessorView> attributes;  // by their names in glTF
 };

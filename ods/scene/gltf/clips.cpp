@@ -13,7 +13,7 @@
 
 namespace ods {
 
-// --- what a channel moves
+// --- targets of channels
 
 namespace {
 
@@ -23,7 +23,7 @@ struct Target {
   List list;
   int index;
   Property property;
-  int slot = 0;  // of a material: its texture slot, or the row of kLayerNumbers or kLayerColors
+  int slot = 0;  // for materials: a texture slot, or a row of kLayerNumbers or kLayerColors
 };
 
 struct PointerForm {
@@ -174,7 +174,7 @@ static std::optional<Interpolation> interpolation_of(const std::string& name) {
   return std::nullopt;
 }
 
-// The channel's keys; nothing if they are invalid. width 0: deduced from the values.
+// The channel's keys. Returns nullopt if they are invalid. width: deduced from the values if 0.
 static std::optional<Keyframes> read_keys(GltfFile& file, const ChannelSource& channel, Property property,
                                           size_t width) {
   const auto interpolation = interpolation_of(channel.interpolation);
@@ -241,7 +241,7 @@ class TargetRows {
   Animation& animation_;
   const Scene& scene_;
   const Places& places_;
-  std::vector<int> lamps_, materials_;  // by the file's indices
+  std::vector<int> lamps_, materials_;  // indexed like the file's lists
 };
 
 }  // namespace

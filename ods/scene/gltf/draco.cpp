@@ -3,8 +3,8 @@
 //
 // https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Khronos/KHR_draco_mesh_compression
 //
-// Draco allocates what its streams state. So its decoders are derived from here: before they allocate, the counts in
-// the stream are read and their memory is deducted from what a file of this size may use.
+// Draco allocates as much as its streams demand. So its decoders are subclassed here: before they allocate, the counts
+// in the stream are read and the memory is deducted from the budget for a file of this size.
 #include <draco/compression/entropy/symbol_decoding.h>
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
@@ -30,7 +30,7 @@ class DracoBudget {
  public:
   DracoBudget(size_t bytes, const std::string& path) : left_(bytes), what_(path + ": decoding its Draco data") {}
 
-  // False if that is too much for the file; throws Error(kMemory) if it is for this machine.
+  // Returns false if that exceeds the file's budget; throws Error(kMemory) if it exceeds the machine's memory.
   bool take(size_t bytes) {
     size_t left = left_;
     do {
@@ -46,24 +46,24 @@ class DracoBudget {
   std::string what_;
 };
 
-// What decoding allocates, roughly, in bytes.
+// Approximate allocation of the decoder, in bytes.
 constexpr size_t kBytesPerFace = 64;           // corners, their opposites, the traversal's lists
-constexpr size_t kBytesPerSeparateCorner = 8;  // of attributes with seams of their own
-constexpr size_t kBytesPerPoint = 4;           // of an attribute: which value it has
+constexpr size_t kBytesPerSeparateCorner = 8;  // for attributes with seams of their own
+constexpr size_t kBytesPerPoint = 4;           // for an attribute's map from points to values
 
-// A decoder of Draco's that stops before it allocates too much.
+// A decoder of Draco that stops before it allocates too much.
 template <class Decoder>
 class LimitedDecoder : public Decoder {
  public:
   explicit LimitedDecoder(DracoBudget& budget) : budget_(budget) {}
 
-  // Whether it has stopped.
+  // Returns whether it has stopped.
   bool refused() const { return refused_; }
 
  protected:
   bool DecodeConnectivity() override {
     stream_ = this->buffer();
-    draco::DecoderBuffer start = *stream_;  // a copy: Draco reads the same again
+    draco::DecoderBuffer start = *stream_;  // a copy: Draco reads the same bytes again
     uint32_t vertices = 0, faces = 0;
     uint8_t separate = 0;
     if constexpr (std::is_same_v<Decoder, draco::MeshEdgebreakerDecoder>) {
@@ -78,20 +78,20 @@ class LimitedDecoder : public Decoder {
     return Decoder::DecodeConnectivity();
   }
 
-  // The attributes are declared, and none is decoded.
+  // The attributes are declared, but not decoded yet.
   bool DecodeAllAttributes() override {
     const draco::PointCloud& cloud = *this->point_cloud();
     for (int i = 0; i < cloud.num_attributes(); i++) {
       const draco::PointAttribute& attribute = *cloud.attribute(i);
       const auto size = static_cast<size_t>(draco::DataTypeLength(attribute.data_type()));
-      // Integers, and what they stand for.
+      // Integers, and the values that they encode.
       if (!take(cloud.num_points() * (kBytesPerPoint + attribute.num_components() * (4 + size)))) return false;
     }
     return Decoder::DecodeAllAttributes();
   }
 
  public:
-  // Draco asks for this when it makes the predictor of an attribute, and has just read the predictor's number.
+  // Draco calls this when it creates the predictor of an attribute, right after reading the predictor's number.
   const draco::MeshAttributeIndicesEncodingData* GetAttributeEncodingData(int id) const override {
     const draco::MeshAttributeIndicesEncodingData* data = Decoder::GetAttributeEncodingData(id);
     if (!data || is_sound(id, static_cast<uint32_t>(data->num_values))) return data;
@@ -105,11 +105,11 @@ class LimitedDecoder : public Decoder {
     return !refused_;
   }
 
-  // The predictor of texture coordinates allocates a bit for each of up to two billion orientations, which the stream
-  // states after the values; no mesh has more of them than corners.
+  // The predictor of texture coordinates allocates a bit for each of up to two billion orientations. Their number is in
+  // the stream after the values; a mesh has at most as many as corners.
   bool is_sound(int id, uint32_t count) const {
     const int method = stream_->data_head()[-2];
-    if (method == draco::MESH_PREDICTION_TEX_COORDS_DEPRECATED) return false;  // which no encoder writes any more
+    if (method == draco::MESH_PREDICTION_TEX_COORDS_DEPRECATED) return false;  // not written by current encoders
     if (method != draco::MESH_PREDICTION_TEX_COORDS_PORTABLE) return true;
     if (this->point_cloud()->attribute(id)->num_components() != 2 || count > corners_) return false;
     draco::DecoderBuffer rest = *stream_;
@@ -152,7 +152,7 @@ static std::string decode_with(DracoBudget& budget, draco::DecoderBuffer& buffer
   return status.ok() ? "" : one_line(status.error_msg_string());
 }
 
-// Returns why it failed; empty if it did not.
+// Returns the reason for a failure; empty on success.
 static std::string decode(Bytes bytes, DracoBudget& budget, draco::Mesh& mesh) {
   draco::DecoderBuffer buffer;
   buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -193,7 +193,7 @@ static int component_type_of(draco::DataType type) {
   }
 }
 
-// All points' values, one after the other; false if one does not exist, or does not fit in the type.
+// Copies the values of all points. Returns false if a value does not exist, or does not fit in the type.
 template <class T>
 static bool copy_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute, bool as_it_is,
                         unsigned char* to) {
@@ -232,7 +232,7 @@ static Copy copy_as(int component_type) {
   }
 }
 
-// An attribute in the component type of its accessor. Returns why it failed.
+// Unpacks an attribute to the component type of its accessor. Returns the reason for a failure; empty on success.
 static std::string unpack(const draco::Mesh& mesh, const draco::PointAttribute* attribute, AccessorView& view) {
   if (!attribute || attribute->num_components() > 4) return "is missing";
   if (attribute->data_type() == draco::DT_BOOL) return "has a type that glTF does not have";
@@ -255,7 +255,7 @@ static void take_attributes(const GltfFile& file, draco::Mesh& mesh, Job& job) {
   for (const JsonValue& id : extension(job.source, "KHR_draco_mesh_compression")["attributes"]) {
     const std::string& name = *id.key;
     const int accessor = index_in(file, job.source["attributes"], name.c_str());
-    if (accessor == -1 || name.starts_with('_')) continue;  // nobody reads it
+    if (accessor == -1 || name.starts_with('_')) continue;  // not read by any renderer code
     const JsonValue& type = record(file, file.accessors, accessor, "accessor");
     AccessorView view;
     view.component_type = integer(file, type, "componentType", 0);
@@ -286,7 +286,7 @@ static void run(const GltfFile& file, DracoBudget& budget, Job& job) {
   try {
     job.fault = decode(job.bytes, budget, mesh);
     if (!job.fault.empty()) return;
-  } catch (const std::length_error& error) {  // of a vector
+  } catch (const std::length_error& error) {  // thrown by a vector
     job.fault = one_line(error.what());
     return;
   }
@@ -320,7 +320,7 @@ static void decode_all(GltfFile& file, std::vector<Job>& jobs) {
   }
 }
 
-// Lists that double while they grow would take more than all that is decoded.
+// Lists that double while they grow would need more memory than the decoded data.
 static void reserve_room(const GltfFile& file, Scene& scene) {
   size_t vertices = 0, corners = 0;
   for (const auto& [attributes, mesh] : file.draco) {
@@ -332,7 +332,7 @@ static void reserve_room(const GltfFile& file, Scene& scene) {
 }
 
 void decode_meshes(GltfFile& file, Scene& scene) {
-  // Draco spends less than a bit on a triangle that it foresees.
+  // Draco spends less than a bit on a predictable triangle.
   constexpr size_t kSmall = size_t{1} << 28, kMostPerByte = 1024;
   file.draco_budget = kSmall + kMostPerByte * file.size;
   std::vector<Job> jobs;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every glTF extension that ods knows, and what becomes of it. The reader, its warnings, `ods info` and the table in
-// docs/scenes.md all follow this list.
+// The glTF extensions known to ods, and their handling. The reader, its warnings, `ods info` and the table in
+// docs/scenes.md all use this list.
 #pragma once
 #include <span>
 #include <string_view>
@@ -13,10 +13,10 @@ namespace ods {
 
 enum class ExtensionState {
   kRendered,      // as the extension defines it
-  kApproximated,  // read; `how` says what differs
-  kNoEffect,      // it changes no picture: not read, and not mentioned when rendering
-  kFallback,      // not read; what the file holds for readers without the extension is rendered
-  kNotRendered,   // not read, and the picture lacks it: a warning
+  kApproximated,  // read; `how` describes the differences
+  kNoEffect,      // it affects no picture: not read, and not mentioned when rendering
+  kFallback,      // not read; the fallback in the file for readers without the extension is rendered
+  kNotRendered,   // not read, and missing in the picture, with a warning
 };
 
 inline constexpr NameRow<ExtensionState> kExtensionStateTable[] = {
@@ -29,19 +29,19 @@ static_assert(has_every_member(kExtensionStateTable));
 struct Extension {
   std::string_view name;
   ExtensionState state;
-  std::string_view how;  // what it is, or how it is rendered
+  std::string_view how;  // its effect, or its treatment by the renderer
 };
 
 // Sorted by name.
 std::span<const Extension> gltf_extensions();
 
-// The row of an extension; one that ods does not know gets kNotRendered.
+// The row of an extension; unknown ones get kNotRendered.
 Extension find_extension(std::string_view name);
 
-// Whether the reader looks at an extension's objects.
+// Returns whether the reader reads an extension's objects.
 bool is_read(std::string_view name);
 
-// Whether a file that requires the extension can be rendered.
+// Returns whether a file that requires the extension can be rendered.
 bool is_supported(ExtensionState state);
 
 }  // namespace ods

@@ -51,12 +51,12 @@ static std::set<std::string> names_in(const GltfFile& file, const char* key) {
   return names;
 }
 
-// Lists in the scene what the file's extensions became.
+// Lists in the scene how each of the file's extensions was handled.
 static void check_extensions(const GltfFile& file, Scene& scene) {
   const std::set<std::string> required = names_in(file, "extensionsRequired");
   std::set<std::string> used = names_in(file, "extensionsUsed");
   used.insert(required.begin(), required.end());
-  used.insert(file.json.extensions.begin(), file.json.extensions.end());  // some files do not list what they use
+  used.insert(file.json.extensions.begin(), file.json.extensions.end());  // some files do not list them
   for (const std::string& name : required) {
     const Extension row = find_extension(name);
     if (is_supported(row.state)) continue;
@@ -103,7 +103,19 @@ static void warn_of_undrawn(const GltfFile& file, Scene& scene) {
                           counted(points, "point"), all == 1 ? " is" : "s are"));
 }
 
-static Scene read_scene(GltfFile& file, const SceneOptions& options) {
+static int chosen_scene(const GltfFile& file, const SceneOptions& options) {
+  if (options.scene_name.empty()) return options.scene;
+  std::vector<std::string> names;
+  for (const JsonValue* each : file.scenes) names.push_back(printable(*(*each)["name"].text));
+  const auto found = std::find(names.begin(), names.end(), options.scene_name);
+  if (found != names.end()) return static_cast<int>(found - names.begin());
+  throw Error(ErrorKind::kUsage, fmt::format("`scene`: '{}' has no scene '{}'{}", file.path, options.scene_name,
+                                             did_you_mean(options.scene_name, names)));
+}
+
+static Scene read_scene(GltfFile& file, const SceneOptions& given) {
+  SceneOptions options = given;
+  options.scene = chosen_scene(file, given);
   Scene scene;
   scene.name = std::filesystem::path(file.path).stem().string();
   check_extensions(file, scene);
@@ -132,8 +144,7 @@ Scene load_gltf_bytes(std::span<const unsigned char> bytes, const std::string& p
   return read_scene(file, options);
 }
 
-// --- what Blender's glTF exporter leaves out, mostly without a word. Source: its add-on io_scene_gltf2, 3.4 to 4.x
-// ----
+// --- losses of Blender's glTF exporter, mostly without a warning. Source: its add-on io_scene_gltf2, 3.4 to 4.x ----
 
 namespace {
 
@@ -155,15 +166,15 @@ std::vector<char> find_joints(const GltfFile& file) {
   return joints;
 }
 
-// Neither a thing nor a group of things.
+// Neither an object nor a group of objects.
 bool is_bare(const GltfFile& file, const JsonValue& node) {
   return node["children"].size() == 0 && index_in(file, node, "mesh") == -1 && index_in(file, node, "camera") == -1 &&
          extension(node, "KHR_lights_punctual").is_null() && !node["name"].text->empty();
 }
 
 struct BareNodes {
-  Names cameras;  // that move, or are called so
-  Names lights;   // all others, but not what Blender calls an empty
+  Names cameras;  // cameras that move, or whose names suggest a camera
+  Names lights;   // all others, except the default names of Blender's empties
 };
 
 BareNodes find_bare_nodes(const GltfFile& file, const AnimatedNodes& animated) {
@@ -180,7 +191,7 @@ BareNodes find_bare_nodes(const GltfFile& file, const AnimatedNodes& animated) {
   return found;
 }
 
-// Materials that say neither a colour nor a texture: their shader nodes are none that the exporter writes.
+// Materials with neither a colour nor a texture: their shader nodes are not supported by the exporter.
 Names find_plain_materials(const GltfFile& file) {
   Names names;
   for (const JsonValue* material : file.materials) {

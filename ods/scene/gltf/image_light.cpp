@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // EXT_lights_image_based: the first level of its cube map becomes a lat-long environment. Its irradiance coefficients
-// and blurred levels are what a renderer without path tracing needs.
+// and blurred levels are only needed without path tracing.
 // https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor/EXT_lights_image_based
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
@@ -24,7 +24,7 @@ namespace {
 struct CubeMap {
   int size = 0;
   std::vector<Texels> faces;  // +X, -X, +Y, -Y, +Z, -Z
-  std::vector<float> linear;  // of each code
+  std::vector<float> linear;  // linear light of each 8-bit value
 
   vec3 radiance_at(size_t face, int x, int y) const;
 };
@@ -36,8 +36,8 @@ struct CubePlace {
 
 }  // namespace
 
-// RGBD: light above 1 is stored divided by alpha. The extension does not say on which curve the colours are; as other
-// colours of glTF, and as Babylon.js writes and reads them, they are taken as sRGB.
+// RGBD: light above 1 is stored divided by alpha. The extension does not define the curve of the colours; they are read
+// as sRGB, like other colours of glTF, and like Babylon.js writes and reads them.
 vec3 CubeMap::radiance_at(size_t face, int x, int y) const {
   const uint32_t texel =
       faces[face].values[static_cast<size_t>(y) * static_cast<size_t>(size) + static_cast<size_t>(x)];
@@ -61,7 +61,7 @@ static CubeMap read_cube(const GltfFile& file, const JsonValue& level) {
   return cube;
 }
 
-// Where OpenGL's cube maps have a direction.
+// Position of a direction in OpenGL's cube maps.
 static CubePlace place_of(vec3 d) {
   const vec3 size = abs(d);
   if (size.x >= size.y && size.x >= size.z) {
@@ -82,7 +82,7 @@ static vec3 light_from(const CubeMap& cube, vec3 direction) {
              mix(texel(low.x, high.y), texel(high.x, high.y), share.x), share.y);
 }
 
-// to_cube: turns a direction in the world into one in the cube map.
+// to_cube: rotates a direction in the world into the cube map's frame.
 static Environment unroll(const CubeMap& cube, const glm::mat3& to_cube) {
   constexpr int kWidest = 4096, kSamples = 2;  // along a texel's side
   Environment environment;

@@ -38,7 +38,7 @@ static constexpr std::array<std::string_view, 18> kRootMembers = {
 
 namespace {
 
-// Receives parser events and appends values, unless they are inside something skipped.
+// Receives parser events and appends values, unless they are inside a skipped value.
 class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
  public:
   JsonBuilder(JsonDocument& document, const std::string& path, const std::function<bool(std::string_view)>& knows)
@@ -49,7 +49,7 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool number_integer(number_integer_t value) override { return add_number(static_cast<double>(value)); }
   bool number_unsigned(number_unsigned_t value) override { return add_number(static_cast<double>(value)); }
   bool number_float(number_float_t value, const string_t&) override { return add_number(value); }
-  bool binary(binary_t&) override { return false; }  // JSON has none
+  bool binary(binary_t&) override { return false; }  // not in JSON
   bool string(string_t& value) override;
   bool start_object(std::size_t) override { return open(JsonValue::Kind::kObject); }
   bool start_array(std::size_t) override { return open(JsonValue::Kind::kList); }
@@ -73,7 +73,7 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool add_number(double number);
   bool open(JsonValue::Kind kind);
   bool close();
-  // Whether the next value is skipped.
+  // Returns whether the next value is skipped.
   bool skips() {
     const bool skip = skip_next_ || skipped_ > 0;
     skip_next_ = false;
@@ -84,9 +84,9 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
   const std::string& path_;
   const std::function<bool(std::string_view)>& knows_;
   std::vector<Open> open_;
-  const std::string* key_ = &kNoText;  // of the next member
+  const std::string* key_ = &kNoText;  // key of the next member
   bool skip_next_ = false;
-  int skipped_ = 0;  // current depth inside something skipped
+  int skipped_ = 0;  // current depth inside a skipped value
 };
 
 }  // namespace
@@ -139,7 +139,7 @@ bool JsonBuilder::string(string_t& text) {
 }
 
 bool JsonBuilder::open(JsonValue::Kind kind) {
-  constexpr size_t kDeepest = 100;  // glTF needs ten levels, extras a few more
+  constexpr size_t kDeepest = 100;  // levels; glTF needs ten, extras a few more
   if (open_.size() + static_cast<size_t>(skipped_) >= kDeepest)
     fail("nests its JSON too deeply; it is not a glTF file");
   if (skips()) {

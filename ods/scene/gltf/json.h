@@ -21,8 +21,8 @@ inline const std::string kNoText;
 // Lookup is linear; no valid glTF object has more members than this.
 inline constexpr size_t kMaxMembers = 256;
 
-// A value of a JsonDocument, valid while that lives. Its contents follow it in the document's list, so a copy of a list
-// or an object is useless.
+// A value of a JsonDocument, valid as long as the document. Its contents follow it in the document's list, so a copy of
+// a list or an object is useless.
 struct JsonValue {
   enum class Kind : unsigned char { kNull, kFalse, kTrue, kNumber, kText, kList, kObject };
 
@@ -38,7 +38,7 @@ struct JsonValue {
 
   Kind kind = Kind::kNull;
   uint32_t length = 1;                // values up to the next sibling: itself and its contents
-  const std::string* key = &kNoText;  // if it is an object's member
+  const std::string* key = &kNoText;  // for members of objects
   const std::string* text = &kNoText;
   double number = 0.0;  // finite
 
@@ -65,14 +65,14 @@ struct JsonDocument {
   std::vector<JsonValue> values;
   std::unordered_set<std::string> keys;
   std::deque<std::string> texts;
-  std::set<std::string> extensions;  // names of those that have objects in it, at most kMaxMembers
+  std::set<std::string> extensions;  // names of the extensions with objects in the document, at most kMaxMembers
 
   const JsonValue& root() const { return values.empty() ? kNoJson : values.front(); }
 };
 
-// Parses the text, skipping what glTF readers ignore: extras, unknown root members, and extensions for which `knows` is
-// false. Throws Error(kInput), naming the path, if the text is not JSON, nests more than 100 levels deep, or has an
-// object with more than kMaxMembers members; Error(kMemory) if the values do not fit in memory.
+// Parses the text, skipping the parts that glTF readers ignore: extras, unknown root members, and extensions for which
+// `knows` is false. Throws Error(kInput), naming the path, if the text is not JSON, nests more than 100 levels deep, or
+// has an object with more than kMaxMembers members; Error(kMemory) if the values do not fit in memory.
 JsonDocument parse_gltf_json(std::span<const unsigned char> text, const std::string& path,
                              const std::function<bool(std::string_view extension)>& knows);
 

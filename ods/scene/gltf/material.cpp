@@ -20,16 +20,16 @@ static vec3 color(const std::vector<double>& values, double high) {
   return result;
 }
 
-// The extension's index 0 requests a Fresnel term of 1, which this index gives: it is so large that a float does not
-// resolve the 1 beside it. Together with the colour of KHR_materials_specular it makes what other programs call
-// specular and glossiness.
+// The extension's index 0 requests a Fresnel term of 1. This index gives it, because it is too large for a float to
+// resolve a difference of 1. Together with the colour of KHR_materials_specular this is the specular-glossiness model
+// of other programs.
 static constexpr float kMirrorIor = 1e8f;
 
 static float factor(const JsonValue& parent, const char* key, double high, double fallback) {
   return clamped(number(parent, key, fallback), 0.0, high, fallback);
 }
 
-// moves: an animation moves a factor, which may be 0 at rest.
+// moves: whether an animation changes a factor, which may be 0 at rest.
 static void read_clearcoat_and_sheen(const JsonValue& source, TextureTable& textures, bool moves,
                                      MaterialLayers& layers) {
   const JsonValue& coat = extension(source, "KHR_materials_clearcoat");
@@ -61,7 +61,7 @@ static void read_anisotropy_and_iridescence(const JsonValue& source, TextureTabl
   const JsonValue& film = extension(source, "KHR_materials_iridescence");
   layers.iridescence = factor(film, "iridescenceFactor", 1.0, 0.0);
   if (moves || layers.iridescence > 0.0f) {
-    constexpr double kThickest = 1e5;  // nanometres; interference is long gone
+    constexpr double kThickest = 1e5;  // nanometres; interference is not visible at much smaller values
     layers.iridescence_slot = textures.slot(film, "iridescenceTexture", false);
     layers.iridescence_ior = clamped(number(film, "iridescenceIor", 1.3), 1.0, 100.0, 1.3);
     layers.iridescence_thinnest = factor(film, "iridescenceThicknessMinimum", kThickest, 100.0);
@@ -70,7 +70,7 @@ static void read_anisotropy_and_iridescence(const JsonValue& source, TextureTabl
   }
 }
 
-// What most materials lack. Extensions whose values change nothing leave the material as it is.
+// Reads the layers, which few materials have. Extensions with neutral values leave the material unchanged.
 static void read_layers(const JsonValue& source, Scene& scene, TextureTable& textures, bool moves, Material& material) {
   const MaterialLayers plain = default_layers();
   MaterialLayers layers = plain;
@@ -134,7 +134,7 @@ static void read_extensions(const JsonValue& source, Scene& scene, TextureTable&
 }
 
 // KHR_materials_pbrSpecularGlossiness, which KHR_materials_specular replaced: with an index of refraction of 0, a
-// dielectric reflects just its specular colour and scatters the rest. read_layers() takes that colour.
+// dielectric reflects just its specular colour and scatters the rest. read_layers() reads that colour.
 static void read_specular_glossiness(const JsonValue& older, TextureTable& textures, Material& material) {
   const std::vector<double> diffuse = numbers(older, "diffuseFactor", {1.0, 1.0, 1.0, 1.0});
   material.base_color = vec4(color(diffuse, 1.0), clamped(diffuse[3], 0.0, 1.0, 1.0));

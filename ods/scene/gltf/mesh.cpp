@@ -63,7 +63,7 @@ static std::vector<uint> read_corners(GltfFile& file, int accessor, size_t verte
   return corners;
 }
 
-// The same of compressed data.
+// Returns the triangle corners of Draco data, like read_corners().
 static std::vector<uint> take_corners(GltfFile& file, DracoMesh& mesh) {
   spend(file, mesh.corners.size());
   for (const uint corner : mesh.corners) {
@@ -150,7 +150,7 @@ struct Geometry {
 
 }  // namespace
 
-// Keeps only vertices that triangles use: many primitives may share one long list.
+// Keeps only vertices that triangles use, because many primitives may share one long list.
 static std::vector<uint> renumber(std::vector<uvec3>& triangles) {
   std::vector<uint> used;
   used.reserve(triangles.size() * 3);
@@ -162,7 +162,8 @@ static std::vector<uint> renumber(std::vector<uvec3>& triangles) {
   return used;
 }
 
-// The same for a list of vertices that is the primitive's own, so that a table of its length costs little.
+// Like renumber(), for a list of vertices that belongs to the primitive alone, so that a table of its length costs
+// little.
 static std::vector<uint> renumber_own(std::vector<uvec3>& triangles, size_t vertex_count) {
   std::vector<uint> places(vertex_count, 0), used;
   for (const uvec3& t : triangles) places[t.x] = places[t.y] = places[t.z] = 1;
@@ -260,8 +261,8 @@ static void make_tangents(std::vector<Vertex>& vertices, const std::vector<uvec3
 
 // --- meshes
 
-// The texture coordinates that a material's tangents follow: those of its normal map, or of its clearcoat's, or of its
-// anisotropy. Null: it needs no tangents.
+// The texture coordinates that a material's tangents follow: those of its normal map, its clearcoat's normal map, or
+// its anisotropy. Null if it needs no tangents.
 static const TextureSlot* slot_of_tangents(const GltfFile& file, const Scene& scene, int index) {
   const Material& material = scene.materials[static_cast<size_t>(index)];
   if (material.normal_slot.texture != -1) return &material.normal_slot;
@@ -273,7 +274,7 @@ static const TextureSlot* slot_of_tangents(const GltfFile& file, const Scene& sc
   return moves || layers.anisotropy > 0.0f ? &layers.anisotropy_slot : nullptr;
 }
 
-// The file's index of a primitive's material, -1: none. The first mapping that names the chosen variant counts.
+// The file's index of a primitive's material, or -1. The first mapping that contains the chosen variant counts.
 static int material_of(GltfFile& file, const JsonValue& primitive) {
   if (file.variant != -1) {
     for (const JsonValue& mapping : extension(primitive, "KHR_materials_variants")["mappings"]) {
@@ -287,13 +288,13 @@ static int material_of(GltfFile& file, const JsonValue& primitive) {
   return index_in(file, primitive, "material");
 }
 
-// Whether a primitive names an accessor that has no elements.
+// Returns whether a primitive refers to an accessor without elements.
 static bool is_empty(const GltfFile& file, const JsonValue& parent, const char* key) {
   const int accessor = index_in(file, parent, key);
   return accessor != -1 && size_in(file, record(file, file.accessors, accessor, "accessor"), "count") == 0;
 }
 
-// Appends the Scene mesh of one primitive and returns it, or -1 if none of it is visible.
+// Appends the Scene mesh of one primitive and returns its index, or -1 if no part of it is visible.
 static int read_primitive(GltfFile& file, Scene& scene, const JsonValue& primitive, const Deformers& bending) {
   const int mode = integer(file, primitive, "mode", kTriangles);
   if (mode < kPoints || mode > kFan) fail(file, fmt::format("primitive mode {} does not exist", mode));

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor/EXT_meshopt_compression. The Khronos extension
-// of that name holds the same streams, and newer ones (version 1) as far as the installed library decodes them.
+// of that name contains the same streams, and newer ones (version 1) if the installed library decodes them.
 #include <fmt/core.h>
 #include <meshoptimizer.h>
 #include <tbb/parallel_for.h>
@@ -26,7 +26,7 @@ struct Stream {
 
 }  // namespace
 
-// What the library would assert.
+// Checks the conditions that the library asserts.
 static bool is_valid(const Stream& stream) {
   const size_t stride = stream.stride;
   if (stream.mode == "TRIANGLES" || stream.mode == "INDICES") {
@@ -81,10 +81,10 @@ static std::string fault_of(const Stream& stream) {
   return fmt::format("the compressed data of buffer view {} is damaged; export the file again", stream.view);
 }
 
-// The streams, checked: the library allocates nothing, so only what they decode to needs limits.
+// Opens and checks the streams. The library allocates nothing, so only the decoded data need limits.
 static std::vector<Stream> open_streams(const GltfFile& file, size_t* total) {
-  // Vertices that do not change take a bit for each 32 bytes; the limit also holds for all streams together, because
-  // several buffer views may share one.
+  // Constant vertices take a bit for each 32 bytes; the limit also holds for all streams together, because several
+  // buffer views may share one.
   constexpr size_t kSmall = size_t{1} << 26, kMostPerByte = 64;
   const size_t most = kSmall + kMostPerByte * file.size;
   std::vector<Stream> streams;

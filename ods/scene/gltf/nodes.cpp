@@ -53,7 +53,7 @@ namespace {
 
 struct Hierarchy {
   std::vector<std::vector<int>> children;
-  std::vector<int> parents;  // -1: a root
+  std::vector<int> parents;  // -1 for a root
   std::vector<int> order;    // all nodes, parents before children
 };
 
@@ -86,7 +86,7 @@ static Hierarchy read_hierarchy(const GltfFile& file) {
   return tree;
 }
 
-// What every root node stands in: glTF's world has y up.
+// The parent transform of every root node: glTF's world has y up.
 static dmat4 root_matrix(const SceneOptions& options) {
   if (!options.z_up) return dmat4(1.0);
   return dmat4(dvec4(1, 0, 0, 0), dvec4(0, 0, -1, 0), dvec4(0, 1, 0, 0), dvec4(0, 0, 0, 1));
@@ -105,7 +105,7 @@ static std::vector<dmat4> evaluate_nodes(const GltfFile& file, const Hierarchy& 
 }
 
 // The nodes of one scene, in tree order; -1 for the file's default scene, or all nodes if it has no scenes. Some
-// exporters list children among the roots: their parents place them all the same, and each is there once.
+// exporters list children among the roots; these are placed by their parents as usual, and only once.
 static std::vector<int> nodes_of_scene(const GltfFile& file, const Hierarchy& tree, int chosen, Scene& scene) {
   const Records& scenes = file.scenes;
   const bool is_asked_for = chosen != -1;
@@ -133,14 +133,14 @@ static std::vector<int> nodes_of_scene(const GltfFile& file, const Hierarchy& tr
   return nodes;
 }
 
-// --- what is hidden
+// --- hidden nodes
 
 // KHR_node_visibility.
 static bool starts_visible(const JsonValue& node) {
   return extension(node, "KHR_node_visibility")["visible"].kind != JsonValue::Kind::kFalse;
 }
 
-// Per node: whether it, or an ancestor, is hidden at all times.
+// For each node, whether it or an ancestor is always hidden.
 static std::vector<char> find_hidden(const GltfFile& file, const Hierarchy& tree, const std::vector<char>& blinks) {
   std::vector<char> hidden(tree.order.size(), 0);
   for (const int node : tree.order) {
@@ -152,7 +152,7 @@ static std::vector<char> find_hidden(const GltfFile& file, const Hierarchy& tree
   return hidden;
 }
 
-// --- what moves
+// --- moving nodes
 
 // Adds the file's moving nodes to Animation::nodes, including all descendants of a moving one.
 static std::vector<int> read_moving_nodes(const GltfFile& file, const Hierarchy& tree, const std::vector<dmat4>& world,
@@ -182,7 +182,7 @@ static std::vector<int> read_moving_nodes(const GltfFile& file, const Hierarchy&
   return rows;
 }
 
-// --- what stands at a node
+// --- objects at a node
 
 namespace {
 
@@ -275,7 +275,7 @@ const Placer::LoadedMeshes& Placer::load_mesh(int index) {
   return *loaded;
 }
 
-// row: the node's index in Animation::nodes; -1: static.
+// row: the node's index in Animation::nodes; -1 if static.
 void Placer::place(const LoadedMesh& mesh, int row, const dmat4& world, const dmat4& local) {
   spend(file_, 1);
   const int instance = static_cast<int>(scene_.instances.size());
@@ -325,7 +325,7 @@ std::vector<dmat4> Placer::instance_matrices(const JsonValue& node) {
   return matrices;
 }
 
-// ODS_unseen (docs/scenes.md): of the instances from `first` on.
+// ODS_unseen (docs/scenes.md), for the instances from `first` on.
 void Placer::set_role(const JsonValue& node, size_t first) {
   const JsonValue& unseen = extension(node, "ODS_unseen");
   if (unseen.is_null()) return;
@@ -408,7 +408,7 @@ void Placer::place_camera(int index, const dmat4& world) {
   scene_.view_points.push_back(view);
 }
 
-// Whether nodes that the user names are to be view points, as no camera has that name.
+// Returns whether nodes with the name that the user gave become view points, because no camera has that name.
 static bool camera_is_missing(const GltfFile& file, const std::string& wanted) {
   return !wanted.empty() && std::ranges::none_of(file.nodes, [&](const JsonValue* each) {
     return index_in(file, *each, "camera") != -1 && printable(*(*each)["name"].text) == wanted;

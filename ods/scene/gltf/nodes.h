@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The glTF reader's second half, as parts.h is its first: what stands where, and how it moves.
+// The second half of the glTF reader; parts.h is the first. It places the objects of the file and reads their motion.
 #pragma once
 #include <vector>
 
@@ -11,7 +11,7 @@
 namespace ods {
 
 // --- nodes.cpp
-// Where the file's objects are in the Scene, for animation. -1: nowhere.
+// Indices of the file's objects in the Scene, for animation; -1 if they are not in it.
 struct Places {
   struct PlacedLight {
     int light;  // index in the Scene
@@ -19,7 +19,7 @@ struct Places {
     int node;
   };
   std::vector<int> nodes;    // per node: its index in Animation::nodes
-  std::vector<int> weights;  // per node: its mesh's index in Animation::weights
+  std::vector<int> weights;  // per node: the index of its mesh in Animation::weights
   std::vector<PlacedLight> lights;
 };
 

@@ -13,7 +13,7 @@
 //   bend      morph targets and skins of primitives -> deformations
 //   nodes     the hierarchy -> instances, lights, view points (nodes.h)
 //   clips     animations -> clips and their targets (nodes.h)
-//   losses    what the program that wrote the file has left out (nodes.h)
+//   losses    data that the program that wrote the file has left out (nodes.h)
 // Every function here throws Error(kInput), naming the file, if the file is inconsistent.
 #pragma once
 #include <cstddef>
@@ -35,7 +35,7 @@ namespace ods {
 
 struct ImageSource {
   std::string uri;   // empty if the picture is in the buffer view
-  std::string name;  // the file that it means: resolve_uri()
+  std::string name;  // the file that it refers to: resolve_uri()
   int view = -1;
   size_t first = 0;  // the first image with the same source, the only one read
 };
@@ -46,7 +46,7 @@ struct ChannelSource {
   int values = -1;
   std::string interpolation;
   int node = -1;
-  std::string path;  // of a node: translation, ...; for KHR_animation_pointer a JSON pointer, which starts with '/'
+  std::string path;  // a node's translation, ...; for KHR_animation_pointer a JSON pointer, which starts with '/'
 };
 
 struct ClipSource {
@@ -64,22 +64,22 @@ struct GltfFile {
   JsonDocument json;
   Records accessors, buffer_views, cameras, image_lights, lights, materials, meshes, nodes, samplers, scenes, skins,
       textures;
-  std::shared_ptr<ZipArchive> archive;         // that the scene is in; null: it is a file on the disk
-  std::string folder;                          // of the scene in the archive
-  std::map<std::string, std::string> renamed;  // files that are not called what the scene calls them
-  int searches = 0;                            // for files that are not called what the scene calls them
-  std::vector<Bytes> buffers;                  // empty: without data
+  std::shared_ptr<ZipArchive> archive;         // archive that contains the scene; null for a file on the disk
+  std::string folder;                          // folder of the scene in the archive
+  std::map<std::string, std::string> renamed;  // files whose names differ from their names in the scene
+  int searches = 0;                            // for such files
+  std::vector<Bytes> buffers;                  // empty if they have no data
   std::vector<ImageSource> images;
   std::vector<ClipSource> clips;
-  std::vector<Storage> storage;                 // owns what `buffers` point into
-  std::vector<Storage> decoded_views;           // for each buffer view its bytes, if it is compressed
-  std::map<const JsonValue*, DracoMesh> draco;  // by the attributes of their primitives
+  std::vector<Storage> storage;                 // owns the memory of `buffers`
+  std::vector<Storage> decoded_views;           // decoded bytes of each compressed buffer view
+  std::map<const JsonValue*, DracoMesh> draco;  // indexed by the attributes of their primitives
   size_t size = 0;                              // bytes of the file and its buffers
   size_t draco_budget = 0;                      // bytes that decoding may still use
   size_t budget = 0;                            // remaining corners and instances, in proportion to the file's size
-  std::vector<char> moving_layers;              // per material: whether an animation moves a factor of its layers
-  int variant = -1;                             // the chosen one of KHR_materials_variants; -1: none
-  std::set<const JsonValue*> points, lines;     // primitives that were met and not read
+  std::vector<char> moving_layers;              // per material: whether an animation changes a factor of its layers
+  int variant = -1;                             // index of the chosen variant of KHR_materials_variants, or -1
+  std::set<const JsonValue*> points, lines;     // primitives of the file that are not read
 };
 
 [[noreturn]] void fail(const GltfFile& file, const std::string& what);
@@ -93,7 +93,7 @@ auto& element(const GltfFile& file, List& list, int index, const char* what) {
   return list[static_cast<size_t>(index)];
 }
 
-// Element `index` of a list of objects, likewise.
+// Element `index` of a list of objects; `what` names the list in the error message.
 inline const JsonValue& record(const GltfFile& file, const Records& list, int index, const char* what) {
   return *element(file, list, index, what);
 }
@@ -104,7 +104,7 @@ std::string printable(const std::string& text);
 // Adds a warning about an unsupported feature, without duplicates.
 void warn(Scene& scene, const std::string& what);
 
-// Deducts from the budget, so that a small file cannot request gigabytes by naming one accessor a million times.
+// Deducts from the budget, so that a small file cannot request gigabytes by referring to one accessor a million times.
 void spend(GltfFile& file, size_t count);
 
 // --- accessor.cpp
@@ -112,8 +112,8 @@ void spend(GltfFile& file, size_t count);
 AccessorView open_accessor(GltfFile& file, int accessor);
 
 // --- draco.cpp
-// Decode primitives with KHR_draco_mesh_compression into file.draco, in parallel: of all meshes, and of a mesh those
-// that are not there. read_mesh() takes them out again.
+// Decode primitives with KHR_draco_mesh_compression into file.draco, in parallel: of all meshes, or of one mesh those
+// that are missing. read_mesh() takes them out again.
 void decode_meshes(GltfFile& file, Scene& scene);
 void decode_mesh(GltfFile& file, int mesh);
 
@@ -126,11 +126,11 @@ void read_materials(GltfFile& file, Scene& scene);
 MovingMaterial read_moving_material(const GltfFile& file, const Scene& scene, int material);
 
 // --- clips.cpp
-// Per material of the file: whether an animation moves a factor of its MaterialLayers.
+// For each material of the file, whether an animation changes a factor of its MaterialLayers.
 std::vector<char> find_moving_layers(const GltfFile& file);
 
 // --- mesh.cpp
-// What deforms a node's mesh: indices into Scene::animation.
+// The deformation of a node's mesh: indices into Scene::animation.
 struct Deformers {
   int skin = -1;
   int weights = -1;
@@ -153,7 +153,7 @@ struct PrimitiveSource {
   const std::vector<uint>& order;  // for each vertex of the mesh its index in the file
 };
 
-// Whether the primitive deforms.
+// Returns whether the primitive deforms.
 bool bends(const PrimitiveSource& primitive, const Deformers& bending);
 
 // Appends to Animation::deformations for a Scene mesh in its stored pose.

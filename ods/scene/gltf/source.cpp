@@ -89,7 +89,7 @@ static Records records(const GltfFile& file, const JsonValue& parent, const char
   return found;
 }
 
-// A buffer without data, because all its buffer views are compressed and have theirs elsewhere.
+// A buffer without data, because all its buffer views are compressed and have their data elsewhere.
 static bool is_fallback(const JsonValue& buffer) {
   return extension(buffer, "EXT_meshopt_compression")["fallback"].is_true() ||
          extension(buffer, "KHR_meshopt_compression")["fallback"].is_true();
@@ -98,7 +98,7 @@ static bool is_fallback(const JsonValue& buffer) {
 static void take_buffers(GltfFile& file, Bytes binary) {
   const Records sources = records(file, file.json.root(), "buffers");
   std::vector<std::string> names(sources.size());
-  std::map<std::string, size_t> lengths;  // how much of each file is needed
+  std::map<std::string, size_t> lengths;  // required length of each file
   for (size_t i = 0; i < sources.size(); i++) {
     const JsonValue& uri = (*sources[i])["uri"];
     if (!uri.is_text() || is_fallback(*sources[i])) continue;
@@ -227,7 +227,7 @@ static void parse(GltfFile& file, Bytes bytes) {
   decode_views(file);
 }
 
-// A binary container states its length; anything else must be an archive or look like JSON before it is read.
+// A binary container contains its length; anything else must be an archive or look like JSON before it is read.
 static std::vector<unsigned char> read_scene_file(const GltfFile& file) {
   constexpr size_t kLongestText = size_t(1) << 30;
   return ConfinedFile(file.path, file.confine).read([&](const std::string& opened) {
@@ -261,7 +261,7 @@ static std::string scene_in(const GltfFile& file) {
                          scenes.size() > kMax ? ", ..." : ""));
 }
 
-// bytes: of the file, an archive or not; they live as long as `file`.
+// bytes: the file or archive; they must outlive `file`.
 static void open_bytes(GltfFile& file, Bytes bytes) {
   if (!is_zip(bytes)) return parse(file, bytes);
   file.archive = std::make_shared<ZipArchive>(bytes, file.path);
@@ -275,7 +275,7 @@ std::vector<std::string> gltf_files(const std::string& path, const std::string& 
   GltfFile file;
   file.path = path, file.confine = confine;
   const std::vector<unsigned char> bytes = read_scene_file(file);
-  if (is_zip(bytes)) return {};  // it holds them all
+  if (is_zip(bytes)) return {};  // the archive contains all files
   const JsonDocument json = parse_gltf_json(split_container(file, bytes).json, path, is_read);
   std::set<std::string> names;
   for (const char* list : {"buffers", "images"}) {

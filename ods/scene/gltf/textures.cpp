@@ -30,7 +30,7 @@ static int wrap_of(int mode) {
   return mode == kMirroredRepeat ? kWrapMirror : kWrapRepeat;
 }
 
-// The image of a texture; -1: none that can be read. What has been compressed for graphics cards is the last choice.
+// The image of a texture; -1 if none can be read. Images that are compressed for graphics cards are the last choice.
 int TextureTable::image_of(const JsonValue& texture) const {
   const int plain = index_in(file_, texture, "source");
   const int compressed = index_in(file_, extension(texture, "KHR_texture_basisu"), "source");

@@ -16,15 +16,15 @@ namespace ods {
 
 struct GltfFile;
 
-// How a picture becomes texels.
+// The conversion of a picture to texels.
 enum class TexelForm {
-  kPlain,       // as they are
+  kPlain,       // unchanged
   kNormal,      // a normal map: in kTexelNormal if the picture has more than 8 bits per channel
-  kGlossiness,  // green becomes a roughness, 1 - glossiness * alpha, the others 0: for a roughness slot
+  kGlossiness,  // green becomes a roughness, 1 - glossiness * alpha, the others 0, for a roughness slot
 };
 
 struct TexelSource {
-  size_t image = 0;  // the file's
+  size_t image = 0;  // index in the file
   TexelForm form = TexelForm::kPlain;
   float glossiness = 1.0f;
 
@@ -42,7 +42,7 @@ struct Texels {
 // size can.
 std::vector<Texels> decode_pictures(const GltfFile& file, const std::vector<TexelSource>& sources);
 
-// Textures are created when a material first uses them, because the use decides on their form.
+// Creates textures when a material first uses them, because the use determines their form.
 class TextureTable {
  public:
   TextureTable(const GltfFile& file, Scene& scene) : file_(file), scene_(scene) {}
@@ -50,7 +50,7 @@ class TextureTable {
   // The texture that a member of a material or of its extensions refers to.
   TextureSlot slot(const JsonValue& parent, const char* key, bool srgb);
   TextureSlot normal_slot(const JsonValue& parent, const char* key);
-  // From KHR_materials_pbrSpecularGlossiness: a texture with glossiness in alpha, for a slot of roughness.
+  // A texture of KHR_materials_pbrSpecularGlossiness with glossiness in alpha, for a roughness slot.
   TextureSlot glossiness_slot(const JsonValue& parent, const char* key, float glossiness);
 
   void decode_images();
@@ -70,7 +70,7 @@ class TextureTable {
 
   const GltfFile& file_;
   Scene& scene_;
-  std::map<std::pair<int, Use>, int> made_;  // (the file's texture, its use) -> the Scene's
+  std::map<std::pair<int, Use>, int> made_;  // (the file's texture, its use) -> index in the Scene
   std::vector<TexelSource> sources_;         // for each of the Scene's textures
 };
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace ods {
 
-// --- what a URI says
+// --- the parts of a URI
 
 bool is_data_uri(const std::string& uri) {
   return uri.starts_with("data:");
@@ -35,7 +35,7 @@ static std::string decode_percent(const std::string& uri) {
   return text;
 }
 
-// RFC 3986: whether it starts with a scheme, as "file:" and "https:".
+// Returns whether a URI starts with a scheme, such as "file:" and "https:" (RFC 3986).
 static bool has_scheme(const std::string& uri) {
   const size_t colon = uri.find_first_of(":/?#%");
   return colon != std::string::npos && uri[colon] == ':';
@@ -49,7 +49,7 @@ static bool is_relative(const std::string& name) {
   return !name.empty() && name.find('\0') == std::string::npos && !name.starts_with('/');
 }
 
-// --- where its file is
+// --- the file of a URI
 
 static std::string path_of(const GltfFile& file, const std::string& name) {
   return (fs::path(file.path).parent_path() / name).string();
@@ -69,8 +69,8 @@ static bool exists(const GltfFile& file, const std::string& name) {
   }
 }
 
-// The first entry of the folder with this name in any letter case; the name itself if there is none, or if the folder
-// must not be read.
+// The first entry of the folder with this name in any letter case; the name itself if there is none, or if reading the
+// folder is not allowed.
 static fs::path entry_in(const GltfFile& file, const fs::path& folder, const fs::path& name) {
   std::error_code error;
   if (fs::exists(folder / name, error)) return name;
@@ -85,7 +85,7 @@ static fs::path entry_in(const GltfFile& file, const fs::path& folder, const fs:
   return found.empty() ? name : found;
 }
 
-// The name with the letter case of the file that exists; empty if there is none.
+// The name in the letter case of the existing file; empty if there is none.
 static std::string find_ignoring_case(const GltfFile& file, const std::string& name) {
   if (file.archive) {
     const std::string found = file.archive->find_ignoring_case(name_in_archive(file, name));
@@ -99,8 +99,8 @@ static std::string find_ignoring_case(const GltfFile& file, const std::string& n
   return exists(file, found.generic_string()) ? found.generic_string() : "";
 }
 
-// What programs mean by a URI, likeliest first: percent codes as they should be, none at all, twice; each also with
-// the slashes of Windows.
+// Possible meanings of a URI, the most likely first: with percent codes decoded once, not at all, or twice; each also
+// with the slashes of Windows.
 static std::vector<std::string> readings(const std::string& uri) {
   const std::string decoded = decode_percent(uri);
   std::vector<std::string> names;
@@ -119,7 +119,7 @@ std::string resolve_uri(GltfFile& file, const std::string& uri) {
   if (is_data_uri(uri)) return uri;
   const std::string plain = decode_percent(uri);
   if (!is_relative(plain) || has_scheme(uri) || exists(file, plain)) return normal(plain);
-  constexpr int kMostSearches = 1000;  // each may list a folder, and a file can name a million others
+  constexpr int kMostSearches = 1000;  // each may list a folder, and a file may contain a million URIs
   if (++file.searches > kMostSearches) return normal(plain);
   const std::vector<std::string> names = readings(uri);
   std::string found;
@@ -134,7 +134,7 @@ std::string resolve_uri(GltfFile& file, const std::string& uri) {
   return found;
 }
 
-// --- its bytes
+// --- the bytes of a URI
 
 static Storage read_data_uri(const GltfFile& file, const std::string& uri) {
   const size_t comma = uri.find(";base64,");
@@ -166,7 +166,7 @@ Storage read_uri(const GltfFile& file, const std::string& uri, const std::string
   try {
     return std::make_shared<std::vector<unsigned char>>(read_neighbour(file, name, most));
   } catch (const Error& error) {
-    if (!file.confine.empty() && !file.archive) {  // reveals nothing about files outside the folder
+    if (!file.confine.empty() && !file.archive) {  // must reveal nothing about files outside the folder
       if (error.kind() != ErrorKind::kInput) throw;
       fail(file, fmt::format("refers to {}, which does not exist, lies outside the folder that scenes are confined "
                              "to, or cannot be read",

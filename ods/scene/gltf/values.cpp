@@ -12,7 +12,7 @@
 
 namespace ods {
 
-// The integer that a value holds.
+// The integer in a value.
 static double whole(const GltfFile& file, const JsonValue& value) {
   if (!value.is_number() || value.number != std::floor(value.number)) {
     fail(file, fmt::format("has a value of {} that is not a whole number; the file is damaged", printable(*value.key)));

@@ -21,7 +21,7 @@ enum ComponentType {
   kUnsignedInt = 5125,
   kFloat = 5126
 };
-bool is_unsigned(int component_type);       // whether indices may have this type
+bool is_unsigned(int component_type);       // returns whether indices may have this type
 size_t component_size(int component_type);  // in bytes; 0 if there is no such type
 
 // An integer, which may be written as a real; the fallback if absent. Fails if it is anything else. Clamped to the
@@ -33,7 +33,7 @@ int index_in(const GltfFile& file, const JsonValue& object, const char* key);
 size_t size_in(const GltfFile& file, const JsonValue& object, const char* key);
 // A real number, or the fallback if absent or of another type.
 double number(const JsonValue& object, const char* key, double fallback);
-// As many real numbers as the fallback has, or the fallback.
+// Real numbers, as many as the fallback has; or the fallback.
 std::vector<double> numbers(const JsonValue& object, const char* key, const std::vector<double>& fallback);
 // All indices in a list; empty if absent. Fails if it is anything else.
 std::vector<int> indices(const GltfFile& file, const JsonValue& object, const char* key);

@@ -11,7 +11,7 @@ namespace ods {
 
 static float repaired(float value) {
   constexpr float kBrightest = 65504.0f;
-  if (!(value > 0.0f)) return 0.0f;  // NaN too
+  if (!(value > 0.0f)) return 0.0f;  // also for NaN
   return std::isinf(value) ? kBrightest : std::min(value, 1e9f);
 }
 

@@ -16,9 +16,10 @@ namespace ods {
 
 Scene load_scene(const std::string& name, const SceneOptions& options) {
   if (const BuiltinScene* builtin = find_builtin(name)) {
-    if (options.scene > 0) {
+    if (options.scene > 0 || !options.scene_name.empty()) {
       throw Error(ErrorKind::kUsage,
-                  fmt::format("`scene`: '{}' has no scene {}: a built-in scene has only one", name, options.scene));
+                  fmt::format("`scene`: '{}' has no scene {}: a built-in scene has only one", name,
+                              options.scene_name.empty() ? std::to_string(options.scene) : options.scene_name));
     }
     if (!options.variant.empty()) {
       throw Error(ErrorKind::kUsage, fmt::format("`variant`: '{}' is a built-in scene, which has no variants", name));
@@ -29,7 +30,7 @@ Scene load_scene(const std::string& name, const SceneOptions& options) {
     return scene;
   }
   std::error_code error;
-  // Confined, load_gltf() gives the same message whether or not a file outside exists.
+  // If confined, load_gltf() gives the same message whether or not a file outside exists.
   if (options.confine.empty() && !std::filesystem::exists(name, error)) {
     throw Error(ErrorKind::kInput, fmt::format("{}: no such file, and no built-in scene{}", name,
                                                did_you_mean(name, names_of(builtin_scenes()))));

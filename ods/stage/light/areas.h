@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How much surface a scene has.
+// Measures the surface area of a scene.
 #pragma once
 #include <vector>
 
@@ -9,8 +9,8 @@
 
 namespace ods {
 
-// The area of every instance's surface in the world; 0 if it is hidden. An instance that is stretched counts by the
-// mean of its scale.
+// The area of every instance's surface in the world; 0 if it is hidden. For a stretched instance, the mean of its scale
+// is used.
 std::vector<double> instance_areas(const Scene& scene);
 
 }  // namespace ods

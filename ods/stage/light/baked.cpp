@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kBlack = 0.02f;
 
-// Whether what it emits is what it is painted with.
+// Returns whether the emission is the surface's painted colour.
 bool paints_by_emission(const Material& material) {
   if (!is_emissive(material)) return false;
   if (luminance(vec3(material.base_color)) < kBlack) return true;
@@ -33,7 +33,7 @@ bool has_only_color(const Material& material) {
          luminance(vec3(material.base_color)) > kBlack;
 }
 
-// Whether "bake" stands there as a word of its own: not bakery, nor bakelite.
+// Returns whether the name contains "bake" as a separate word, as opposed to "bakery" or "bakelite".
 bool has_word_bake(const std::string& name) {
   for (size_t at = name.find("bake"); at != std::string::npos; at = name.find("bake", at + 1)) {
     const auto is_letter = [&](size_t i) {
@@ -50,7 +50,7 @@ bool name_says_baked(const Scene& scene, size_t material) {
   return name.find("baked") != std::string::npos || name.find("lightmap") != std::string::npos || has_word_bake(name);
 }
 
-// How the triangles of one texture cover it.
+// Measures how the triangles that use one texture cover it.
 class Coverage {
  public:
   void add(vec2 a, vec2 b, vec2 c) {
@@ -97,7 +97,7 @@ vec2 place_of(const TextureSlot& slot, const Vertex& vertex) {
   return slot.offset + slot.axis_u * uv.x + slot.axis_v * uv.y;
 }
 
-// The share of the area whose texture is used once.
+// The fraction of the area whose texels are used only once.
 double unique_area(const Scene& scene, const std::vector<double>& areas) {
   std::map<int, std::pair<Coverage, double>> textures;
   for (size_t i = 0; i < areas.size(); i++) {
@@ -160,7 +160,7 @@ void show_paint(Scene& scene) {
   for (Material& material : scene.materials) {
     if (paints_by_emission(material)) {
       material.base_color = vec4(material.emission, material.base_color.w);
-      // The alpha stays with the base colour's own texture.
+      // The alpha remains in the base colour's own texture.
       if (material.alpha_mode == kAlphaOpaque || material.base_color_slot.texture < 0) {
         material.base_color_slot = material.emission_slot;
       }

@@ -14,10 +14,10 @@ namespace {
 
 constexpr vec3 kUp(0.0f, 1.0f, 0.0f);
 constexpr int kAround = 32;
-constexpr float kDrop = 0.04f;     // below the ceiling, as a share of the room's height
-constexpr float kSize = 0.1f;      // radius, as a share of the height above the floor
-constexpr float kFloor = 0.4f;     // radiance of a white floor beneath
-constexpr float kFarthest = 1e4f;  // of a wall that counts; metres
+constexpr float kDrop = 0.04f;     // below the ceiling, relative to the room's height
+constexpr float kSize = 0.1f;      // radius, relative to the height above the floor
+constexpr float kFloor = 0.4f;     // radiance of a white floor below
+constexpr float kFarthest = 1e4f;  // metres: maximum distance of a wall that counts
 
 vec3 around(int i) {
   const float angle = 2.0f * kPi * (static_cast<float>(i) + 0.5f) / kAround;
@@ -35,7 +35,7 @@ float nearest_wall(vec3 place, const Clearance& clearance) {
   return std::ranges::min(walls_around(place, clearance));
 }
 
-// From a place to the middle of what is visible from there at its height.
+// The vector from a place to the middle of the space that is visible from there at its height.
 vec3 to_middle(vec3 place, const Clearance& clearance) {
   const std::vector<float> walls = walls_around(place, clearance);
   vec3 sum(0.0f);
@@ -48,7 +48,7 @@ vec3 to_middle(vec3 place, const Clearance& clearance) {
   return area > 0.0f ? sum / area : vec3(0.0f);
 }
 
-// The middle of the room, as far as one gets there from `place` without coming closer to walls than at the start.
+// The middle of the room, as far as it can be reached from `place` without coming closer to walls than at the start.
 vec3 middle_of(vec3 place, const Clearance& clearance) {
   float room = nearest_wall(place, clearance);
   for (int step = 0; step < 4; step++) {
@@ -92,7 +92,7 @@ CeilingLamp lamp_at(vec3 position, const Clearance& clearance) {
 }
 
 void add_lamp(Scene& scene, const CeilingLamp& lamp) {
-  // A disc of radiance L brings pi L sin^2 of the angle that its radius fills.
+  // A disc of radiance L gives pi L times the sine squared of the angle under which its radius is seen.
   const float reach = lamp.radius * lamp.radius + lamp.height * lamp.height;
   const vec3 color(1.0f, 0.96f, 0.9f);
   Material material = glow(color * (kFloor / luminance(color) * reach / (lamp.radius * lamp.radius)));

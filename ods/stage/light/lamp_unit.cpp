@@ -4,18 +4,35 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <numbers>
 
 #include "ods/scene/motion.h"
 
 namespace ods {
 
+static float brightest(const PunctualLight& light) {
+  return std::max({light.intensity.x, light.intensity.y, light.intensity.z});
+}
+
+// Whether it has a number of watts with at most three digits, times what Blender multiplies it by. By chance, one lamp
+// in some thousands does.
+static bool has_round_watts(const PunctualLight& light) {
+  const double sphere = light.kind == kLightDirectional ? 1.0 : 4.0 * std::numbers::pi;
+  const double watts = double{brightest(light)} * sphere / kLumensPerWatt;
+  if (!(watts > 0.0)) return false;
+  const double digit = std::pow(10.0, std::floor(std::log10(watts)) - 2.0);
+  return std::abs(watts / digit - std::round(watts / digit)) < 1e-6 * watts / digit;
+}
+
 bool lamps_are_in_watts(const Scene& scene) {
   constexpr float kCandela = 100.0f, kLux = 50.0f;
-  if (scene.generator.find("Blender I/O") == std::string::npos) return false;
+  const bool is_blenders = scene.generator.find("Blender I/O") != std::string::npos ||
+                           (!scene.lights.empty() && std::ranges::all_of(scene.lights, has_round_watts));
+  if (!is_blenders) return false;
   if (!std::ranges::any_of(scene.materials, is_emissive)) return false;
   return std::ranges::any_of(scene.lights, [](const PunctualLight& light) {
-    const float most = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
-    return most > (light.kind == kLightDirectional ? kLux : kCandela);
+    return brightest(light) > (light.kind == kLightDirectional ? kLux : kCandela);
   });
 }
 

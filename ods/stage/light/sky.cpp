@@ -19,9 +19,9 @@ constexpr double kGround = 6360.0;
 constexpr double kTop = 6460.0;
 constexpr double kViewer = kGround + 0.01;
 constexpr double kSunRadius = 0.004654;  // radians
-// A clear day: aerosol has an optical depth of 0.06 straight up, of which it absorbs a tenth.
+// A clear day: aerosol has a vertical optical depth of 0.06, of which it absorbs a tenth.
 constexpr double kAerosol = 0.9 * 0.06 / 1.2;  // scattering per kilometre at sea level
-constexpr double kAerosolHeight = 1.2;         // over which it becomes e times thinner
+constexpr double kAerosolHeight = 1.2;         // scale height of its density
 constexpr double kAirHeight = 8.0;
 constexpr double kForward = 0.76;  // mean cosine of aerosol's scattering
 constexpr double kGroundAlbedo = 1.0 / 3.0;
@@ -58,12 +58,12 @@ Density density_at(double radius) {
   return density;
 }
 
-// Along a ray that starts at this radius, at this cosine from straight up, to a sphere outside of it.
+// The distance along a ray that starts at this radius, at this cosine from straight up, to a sphere outside.
 double distance_to(double sphere, double radius, double up) {
   return -radius * up + std::sqrt(std::max(0.0, radius * radius * (up * up - 1.0) + sphere * sphere));
 }
 
-// The cosine from straight up under which the horizon lies.
+// The cosine from straight up of the direction to the horizon.
 double horizon_at(double radius) {
   const double share = kGround / radius;
   return -std::sqrt(std::max(0.0, 1.0 - share * share));
@@ -82,7 +82,7 @@ dvec3 transmittance_to_top(double radius, double up, int steps) {
   return glm::exp(-depth);
 }
 
-// A table of numbers between which it interpolates; x and y are 0..1.
+// A table of numbers with interpolation; x and y are 0..1.
 struct Table {
   Table(int width, int height) : columns(width), rows(height), texels(static_cast<size_t>(width * height)) {}
   dvec3& at(int x, int y) { return texels[static_cast<size_t>(y * columns + x)]; }
@@ -116,7 +116,7 @@ class Transmittance {
     }
   }
 
-  // Of the sun's light, at this cosine from straight up; the planet hides it as it sets.
+  // Transmittance of the sun's light, at this cosine from straight up; the planet hides the sun as it sets.
   dvec3 to_sun(double radius, double up) const {
     const double horizon = horizon_at(radius);
     const double risen = glm::smoothstep(-kSunRadius, kSunRadius, up - horizon);
@@ -132,17 +132,17 @@ class Transmittance {
   Table table_;
 };
 
-// What a ray gathers of a sun of irradiance 1, still without the scattering functions.
+// Light that a ray collects from a sun of irradiance 1, still without the phase functions.
 struct Gathered {
   dvec3 by_air{0.0};
   dvec3 by_aerosol{0.0};
-  dvec3 by_any{0.0};  // of light that was scattered before
-  dvec3 evenly{0.0};  // if light of radiance 1 came from everywhere
+  dvec3 by_any{0.0};  // from light that was scattered before
+  dvec3 evenly{0.0};  // from light of radiance 1 in all directions
   dvec3 transmittance{1.0};
 };
 
-// Along a ray from this radius, of this length. direction: Y is up; sun: unit vector. again: radiance of light that was
-// scattered before, by height and by the sun's cosine from straight up; none: not yet known.
+// Integrates along a ray from this radius, of this length. direction: Y is up. sun: unit vector. again: radiance of
+// light that was scattered before, by height and by the sun's cosine from straight up; null if not yet known.
 Gathered gather(const Transmittance& transmittance, const Table* again, double radius, dvec3 direction, dvec3 sun,
                 double length, int steps) {
   Gathered sum;
@@ -168,8 +168,8 @@ Gathered gather(const Transmittance& transmittance, const Table* again, double r
   return sum;
 }
 
-// Radiance that arrives after two or more scatterings, equal from all sides: the second order from a sphere of
-// directions, and the sum of a geometric series for all that follow.
+// Radiance after two or more scatterings, equal from all sides: the second order from a sphere of directions, and the
+// sum of a geometric series for all higher orders.
 dvec3 scattered_again(const Transmittance& transmittance, double radius, double sun_up) {
   constexpr int kRings = 8;
   const dvec3 sun(std::sqrt(std::max(0.0, 1.0 - sun_up * sun_up)), sun_up, 0.0);
@@ -199,7 +199,7 @@ dvec3 scattered_again(const Transmittance& transmittance, double radius, double 
 Table scattered_again_table(const Transmittance& transmittance) {
   Table table(32, 24);
   for (int y = 0; y < table.rows; y++) {
-    // The very top has no air, and rays upwards from it no length.
+    // The very top has no air, and upward rays from there have no length.
     const double radius = glm::mix(kGround, kTop, std::min(y / (table.rows - 1.0), 0.999));
     for (int x = 0; x < table.columns; x++) {
       table.at(x, y) = scattered_again(transmittance, radius, 2.0 * x / (table.columns - 1.0) - 1.0);
@@ -208,7 +208,7 @@ Table scattered_again_table(const Transmittance& transmittance) {
   return table;
 }
 
-// 4 pi times the share that is scattered by this angle is 1 on average.
+// Normalized so that 4 pi times the value is 1 on average.
 double air_phase(double cosine) {
   return 3.0 / (16.0 * pi) * (1.0 + cosine * cosine);
 }
@@ -265,8 +265,8 @@ class Dome {
 constexpr int kWidth = 1024;
 constexpr int kHeight = 512;
 
-// The solid angle over which a texel of this row spreads by interpolation, each direction by its weight. Past the first
-// and the last row's centre the row is as it is.
+// The solid angle over which interpolation spreads a texel of this row, with each direction's weight. Beyond the
+// centres of the first and the last row, the row is constant.
 double spread_of_row(int row) {
   constexpr int kSteps = 64;
   double sum = 0.0;
@@ -284,7 +284,7 @@ dvec3 irradiance_at_sea_level(double elevation) {
   return transmittance_to_top(kGround, std::sin(elevation), 1000) * double{kSunAboveAir};
 }
 
-// Adds the part of the disc that is above the horizon; returns the irradiance on the ground.
+// Adds the part of the disc that is above the horizon. Returns the irradiance on the ground.
 dvec3 add_sun(double azimuth, double elevation, std::vector<dvec3>& texels) {
   constexpr int kRings = 64, kSpokes = 256;
   const dvec3 irradiance = irradiance_at_sea_level(elevation);
@@ -293,7 +293,7 @@ dvec3 add_sun(double azimuth, double elevation, std::vector<dvec3>& texels) {
     const double away = kSunRadius * std::sqrt((ring + 0.5) / kRings);
     for (int spoke = 0; spoke < kSpokes; spoke++) {
       const double around = 2.0 * pi * (spoke + 0.5) / kSpokes;
-      // A point of the disc: from the sun's centre upwards and to the right.
+      // A point of the disc, relative to the sun's centre: up and to the right.
       const double higher = away * std::cos(around), right = away * std::sin(around);
       const dvec3 place(std::cos(elevation) - higher * std::sin(elevation),
                         std::sin(elevation) + higher * std::cos(elevation), right);

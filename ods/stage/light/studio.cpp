@@ -16,7 +16,7 @@ struct SoftBox {
   float azimuth;  // clockwise from the viewer's line of sight
   float elevation;
   vec2 half_size;  // across and upwards, to the middle of the soft edge
-  float soft;      // half the width of that edge
+  float soft;      // half the width of the soft edge
   vec3 radiance;
 };
 
@@ -24,15 +24,15 @@ const SoftBox kBoxes[] = {
     {-135.0f, 48.0f, {19.0f, 14.0f}, 8.0f, vec3(15.0f, 14.6f, 14.0f)},  // key
     {118.0f, 22.0f, {34.0f, 26.0f}, 20.0f, vec3(0.95f, 0.98f, 1.04f)},  // fill
     {36.0f, 50.0f, {13.0f, 20.0f}, 9.0f, vec3(5.6f, 5.8f, 6.2f)},       // rim
-    {-48.0f, 44.0f, {8.0f, 24.0f}, 7.0f, vec3(3.6f, 3.7f, 3.9f)},       // the other rim
+    {-48.0f, 44.0f, {8.0f, 24.0f}, 7.0f, vec3(3.6f, 3.7f, 3.9f)},       // second rim
 };
 
 constexpr vec3 kStudioFloor(0.184f, 0.18f, 0.176f);
-constexpr vec3 kHorizon(0.27f);  // what the floor's own tone comes to, more or less
+constexpr vec3 kHorizon(0.27f);  // approximately the floor's own radiance
 constexpr float kWallToFloor = 1.9f;
 constexpr int kStudioWidth = 512;
 
-// The direction relative to the box's centre: degrees to its right and above it.
+// The direction relative to the box's centre: degrees to the right of it and above it.
 vec2 seen_from(const SoftBox& box, vec3 direction) {
   const float azimuth = glm::radians(box.azimuth);
   const vec3 forward = direction_of(azimuth, glm::radians(box.elevation));
@@ -42,7 +42,7 @@ vec2 seen_from(const SoftBox& box, vec3 direction) {
   return glm::degrees(vec2(std::atan2(dot(direction, right), ahead), std::atan2(dot(direction, up), ahead)));
 }
 
-// 1 inside of a box with rounded soft edges, 0 outside.
+// 1 inside a box with rounded soft edges, 0 outside.
 float cover(const SoftBox& box, vec3 direction) {
   const vec2 past = abs(seen_from(box, direction)) - box.half_size + box.soft;
   const float distance = length(max(past, vec2(0.0f))) + min(max(past.x, past.y), 0.0f);
@@ -53,8 +53,8 @@ float elevation_of(vec3 direction) {
   return glm::degrees(std::asin(clamp(direction.y, -1.0f, 1.0f)));
 }
 
-// From the floor's tone at the horizon, without a line there, through a brighter band, against which glass and dark
-// things stand out, to a dark ceiling.
+// A gradient without a line at the horizon: from the floor's radiance there through a brighter band, against which
+// glass and dark objects stand out, to a dark ceiling.
 vec3 wall(vec3 horizon, vec3 direction) {
   const float elevation = elevation_of(direction);
   const vec3 lit = horizon * mix(1.0f, kWallToFloor, smoothstep(0.0f, 8.0f, elevation));
@@ -66,7 +66,7 @@ vec3 with_lights(vec3 light, vec3 direction) {
   return light;
 }
 
-// The radiance of the floor under all that light.
+// The radiance of the floor under all these lights.
 vec3 floor_radiance() {
   constexpr int kRows = 90, kColumns = 180;
   glm::dvec3 sum(0.0);

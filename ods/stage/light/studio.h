@@ -10,19 +10,19 @@
 
 namespace ods {
 
-// 512 x 256 texels. yaw: the viewer's, degrees to the right: the lights stand around that line of sight. A white
-// Lambert surface that faces the viewer has a radiance of about 1.
+// Makes the studio, 512 x 256 texels. yaw: the viewer's, degrees to the right; the lights are placed around that line
+// of sight. A white Lambert surface that faces the viewer has a radiance of about 1.
 Environment make_studio(float yaw = 0.0f);
 
-// The same walls and floor without the lights, for Scene::background.
+// Makes the same walls and floor without the lights, for Scene::background.
 Environment make_studio_walls();
 
 // The albedo of the studio's floor.
 vec3 studio_floor();
 
-// Adds a horizontal disc to the scene that catches the object's shadow. Over an environment whose ground looks like it,
-// as those of the studio and of make_sky() do, its edge cannot be seen: fading it out would only add noise there. It
-// faces up; seen from below it is invisible.
+// Adds a horizontal disc to the scene that catches the object's shadow. Over an environment with matching ground, such
+// as make_studio() and make_sky(), its edge is invisible: fading it out would only add noise. It faces up and is
+// invisible from below.
 // Precondition: radius > 0.
 void add_ground(Scene& scene, vec3 center, float radius, vec3 albedo);
 

@@ -15,13 +15,13 @@
 namespace ods {
 namespace {
 
-// Dimmer emission than this is an indicator lamp on a gadget: it does not light a place. A lamp of a tenth of a square
-// metre and a radiance of 5 in a room with 250 square metres of surface is as bright.
+// Dimmer emission is an indicator lamp of a device, which does not light a place. A lamp of a tenth of a square metre
+// and a radiance of 5 in a room with 250 square metres of surface has this level.
 constexpr float kLitPlace = 0.002f;
-// An object that glows less than this is seen by the light around it.
+// Objects with less emission are seen by the light around them.
 constexpr float kLitObject = 0.5f;
 
-// The mean luminance of a texture, of at most some thousand texels.
+// The mean luminance of a texture, from at most a few thousand texels.
 float mean_luminance(const Scene& scene, int index) {
   const Texture& texture = scene.textures[static_cast<size_t>(index)];
   const std::vector<float> decoded = linear_from_encoded(255);
@@ -58,7 +58,8 @@ bool is_within(const Bounds& bounds, vec3 point) {
   return all(greaterThanEqual(point, bounds.low)) && all(lessThanEqual(point, bounds.high));
 }
 
-// Whether the scene's lamps or its environment do. Light from far away reaches nobody behind walls without windows.
+// Returns whether the scene's lamps or its environment light the viewer. Distant light does not pass walls without
+// windows.
 bool lamps_reach(const SceneRays& rays, const Survey& survey, float windows) {
   const Scene& scene = rays.scene();
   const bool shut = survey.kind == SceneKind::kClosedRoom && windows < kWindows;
@@ -85,14 +86,14 @@ void judge_light(const SceneRays& rays, const Survey& survey, bool may_be_painte
   plan.has_light = glows && plan.paint == Paint::kLit;
 }
 
-// Of the environment, if the user did not choose one and the scene has no light.
+// The environment to add if the user did not choose one and the scene has no light.
 std::optional<Surround> missing_surround(const Survey& survey, const LightPlan& plan) {
   switch (survey.kind) {
-    case SceneKind::kNothing:  // things that appear later
+    case SceneKind::kNothing:  // objects that appear later
     case SceneKind::kObject:
       return Surround::kStudio;
     case SceneKind::kOpenPlace:
-      if (!survey.stand->floor) return Surround::kStudio;  // the sky has a ground, and nothing here stands on one
+      if (!survey.stand->floor) return Surround::kStudio;  // the sky has a ground, and no object here stands on one
       return Surround::kSky;
     case SceneKind::kClosedRoom:
       break;
@@ -102,7 +103,7 @@ std::optional<Surround> missing_surround(const Survey& survey, const LightPlan& 
 }
 
 std::string place_text(vec3 p) {
-  const auto rounded = [](float x) { return std::round(100.0f * x) / 100.0f + 0.0f; };  // no -0
+  const auto rounded = [](float x) { return std::round(100.0f * x) / 100.0f + 0.0f; };  // avoids -0
   return fmt::format("{:g},{:g},{:g}", rounded(p.x), rounded(p.y), rounded(p.z));
 }
 
@@ -138,7 +139,7 @@ std::string note_for(const Survey& survey, const LightPlan& plan, const LightWis
   return "an open place without light of its own: sun and sky light it (" + sky;
 }
 
-// The material that emits most; empty if it has no name.
+// The name of the material with the most emission; empty if it has none.
 std::string brightest_material(const Scene& scene) {
   const std::vector<double> areas = instance_areas(scene);
   std::vector<double> power(scene.materials.size(), 0.0);
@@ -150,8 +151,8 @@ std::string brightest_material(const Scene& scene) {
   return most < scene.material_names.size() ? scene.material_names[most] : "";
 }
 
-// The share of the glowing surfaces around the viewer that have nothing but the open air behind them: panes that stand
-// for the sky.
+// The fraction of the emissive surfaces around the viewer that have only open air behind them: panes that represent the
+// sky.
 float glowing_panes(const SceneRays& rays, vec3 eye) {
   constexpr int kDirections = 2048;
   int glowing = 0, panes = 0;
@@ -161,7 +162,7 @@ float glowing_panes(const SceneRays& rays, vec3 eye) {
     if (sight.leaves()) continue;
     const auto mesh = static_cast<size_t>(scene.instances[static_cast<size_t>(sight.instance)].mesh);
     if (!is_emissive(scene.materials[static_cast<size_t>(scene.meshes[mesh].material)])) continue;
-    constexpr float kThickest = 0.05f;  // metres, of a pane
+    constexpr float kThickest = 0.05f;  // thickness of a pane, metres
     glowing++;
     if (rays.is_open(eye + direction * (sight.distance + kThickest), direction)) panes++;
   }
@@ -201,7 +202,7 @@ float emission_level(const Scene& scene) {
 SkyOptions best_sun(const SceneRays& rays, vec3 eye) {
   constexpr float kStep = 15.0f;  // degrees
   const SkyOptions usual;
-  std::vector<std::pair<vec3, vec3>> seen;  // places just in front of surfaces, and their normals
+  std::vector<std::pair<vec3, vec3>> seen;  // points just in front of surfaces, and their normals
   for (const vec3& direction : sphere_directions(512)) {
     const Sight sight = rays.look(eye, direction);
     if (!sight.leaves()) seen.emplace_back(eye + direction * (sight.distance * 0.999f), sight.normal);
@@ -216,7 +217,7 @@ SkyOptions best_sun(const SceneRays& rays, vec3 eye) {
         return dot(place.second, sun) > 0.0f && rays.is_open(place.first, sun);
       };
       const int lit = static_cast<int>(std::ranges::count_if(seen, is_lit));
-      // Only what is clearly better is worth another sun.
+      // Another sun must be clearly better.
       if (lit * 4 <= most * 5) continue;
       most = lit;
       best = {elevation, azimuth};
@@ -258,7 +259,7 @@ void apply_light(Scene& scene, const Survey& survey, const LightPlan& plan, cons
   const size_t before = scene.instances.size();
   if (plan.surround == Surround::kStudio) {
     scene.environment = make_studio(wishes.yaw);
-    const bool floats = survey.stand && !survey.stand->floor;  // with neither a floor below nor a wall behind
+    const bool floats = survey.stand && !survey.stand->floor;  // without a floor below or a wall behind
     scene.background = floats ? Environment{} : make_studio_walls();
   }
   if (plan.surround == Surround::kSky) scene.environment = make_sky(plan.sky);
@@ -266,7 +267,7 @@ void apply_light(Scene& scene, const Survey& survey, const LightPlan& plan, cons
   if (plan.ground) {
     const vec3 size = survey.core.high - survey.core.low, middle = 0.5f * (survey.core.low + survey.core.high);
     const float largest = std::max({size.x, size.y, size.z});
-    // Just below the object, whose own underside may be flat.
+    // Slightly below the object, whose own underside may be flat.
     const vec3 center(middle.x, survey.bounds.low.y - 0.001f * largest, middle.z);
     add_ground(scene, center, 7.0f * largest, plan.surround == Surround::kStudio ? studio_floor() : sky_ground());
   }

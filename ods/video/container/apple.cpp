@@ -8,7 +8,7 @@
 
 namespace ods {
 
-constexpr uint32_t kQuarter = 0x40000000;  // of 2^32
+constexpr uint32_t kQuarter = 0x40000000;  // a quarter of 2^32
 constexpr std::array<uint32_t, 4> kFrontHalf = {0, 0, kQuarter, kQuarter};
 
 namespace {
@@ -73,7 +73,7 @@ Box hfov_box(const SphericalMetadata& metadata) {
   return box;
 }
 
-// Adds the children that `old` has and `box`, which is open, lacks.
+// Adds the children of `old` that `box`, which is open, lacks.
 static void take_over(Box& box, const Box& old, std::initializer_list<BoxType> but) {
   for (const Box& child : old.children) {
     const bool is_ours = std::find(but.begin(), but.end(), child.type) != but.end();
@@ -99,7 +99,7 @@ Box updated_vexu(Box old, const SphericalMetadata& metadata) {
 
 // --- reading ---------------------------------------------------------------------------------------------------------
 
-// The number in a nested box; nothing if it is missing.
+// The number in a nested box. Returns nullopt if it is missing.
 static std::optional<uint64_t> find_number(Box& vexu, BoxType outer, BoxType inner, size_t bytes) {
   Box* holder = find_child(vexu, outer);
   if (holder == nullptr) return std::nullopt;

@@ -6,8 +6,8 @@
 // Profile" (proj, pack).
 //
 //   vexu { eyes { stri, hero, cams { blin } }, proj { prji }, pack { pkin } }    hfov
-// stri: 1 has a left eye, 2 has a right one, 8 the right one comes first; hero: 1 left, 2 right; blin: eye distance in
-// micrometres; prji: equi, hequ (the front half), rect; pkin: side, over; hfov: thousandths of a degree.
+// stri: bits for 1 has a left eye, 2 has a right eye, 8 the right eye comes first; hero: 1 left, 2 right; blin: eye
+// distance in micrometres; prji: equi, hequ (the front half), rect; pkin: side, over; hfov: thousandths of a degree.
 //
 // Opt-in: FFmpeg 7.1 and later prefers vexu to V2 but does not read `pack`, so FFmpeg and programs based on it report
 // such a video as stereo of unknown layout.
@@ -20,26 +20,26 @@ namespace ods {
 // half. It has no angles: players show such a video without rotation.
 bool fits_vexu(const SphericalMetadata& metadata);
 
-// Precondition: fits_vexu(). Without an ipd, or with one of kilometres, there is no blin.
+// Precondition: fits_vexu(). Without an ipd, or with one too large for the field, the box has no blin.
 Box vexu_box(const SphericalMetadata& metadata);
 Box hfov_box(const SphericalMetadata& metadata);
 
-// The vexu for this metadata, keeping everything else in `old`: the eye for flat displays, disparities. Precondition:
-// fits_vexu(). Throws MalformedFile.
+// The vexu for this metadata, keeping everything else in `old`, for example the eye for flat displays and disparities.
+// Precondition: fits_vexu(). Throws MalformedFile.
 Box updated_vexu(Box old, const SphericalMetadata& metadata);
 
-// Parses the boxes of a sample entry; nothing if there is no vexu, or one that describes layers of the stream rather
-// than packing. Throws MalformedFile.
+// Parses the boxes of a sample entry. Returns nullopt if there is no vexu, or one that describes layers of the stream
+// instead of packing. Throws MalformedFile.
 std::optional<SphericalMetadata> parse_vexu(const Box& sample_entry);
 
-// The eyes of a stream that has each as a layer (MV-HEVC).
+// The eyes of a stream that stores each as a layer (MV-HEVC).
 struct EyeLayers {
-  // Of frames that have these eyes side by side.
+  // The metadata of frames that have these eyes side by side.
   SphericalMetadata beside = {.stereo = VideoStereo::kSideBySide, .projection = VideoProjection::kFlat};
   bool right_first = false;  // the first layer, which every decoder shows, is the right eye
-  std::optional<float> fov;  // of a flat picture, in degrees across
+  std::optional<float> fov;  // horizontal field of view of a flat picture, degrees
 };
-// Parses the boxes of a sample entry; nothing if it has no lhvC, which holds the layers' parameters. Throws
+// Parses the boxes of a sample entry. Returns nullopt if it has no lhvC, which contains the layers' parameters. Throws
 // MalformedFile.
 std::optional<EyeLayers> parse_layers(const Box& sample_entry);
 

@@ -82,7 +82,7 @@ void move_offsets(Box& sample_table, const Move& move) {
 
 // --- fragments -------------------------------------------------------------------------------------------------------
 
-// tfhd, if it has a base offset: otherwise offsets count from the fragment, which moves as a whole.
+// Moves tfhd if it has a base offset; without one, offsets count from the fragment, which moves as a whole.
 static void move_fragment(Box& moof, const Move& move) {
   open_box(moof, 0);
   for (Box& track : moof.children) {
@@ -95,7 +95,7 @@ static void move_fragment(Box& moof, const Move& move) {
   }
 }
 
-// The sizes of consecutive pieces, counted from the end of the box plus an offset.
+// Updates an index of sizes of consecutive pieces, counted from the end of the box plus an offset.
 static void move_index(Box& sidx, const FileBox& place, const Move& move) {
   const size_t width = get_number(sidx.body, 0, 1) == 0 ? 4 : 8;
   const size_t first = 12 + width;
@@ -159,9 +159,9 @@ class ItemLocations {
   }
 
   void move_item() {
-    take(version_ < 2 ? 2 : 4);                                // its number
+    take(version_ < 2 ? 2 : 4);                                // its item number
     const uint64_t method = version_ == 0 ? 0 : take(2) & 15;  // 0: in the file
-    const bool in_this_file = take(2) == 0 && method == 0;     // no data reference
+    const bool in_this_file = take(2) == 0 && method == 0;     // without a data reference
     const size_t base_at = at_;
     const uint64_t base = take(base_width_);
     const uint64_t extents = take(2);

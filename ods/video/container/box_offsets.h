@@ -15,20 +15,20 @@ struct Move {
   uint64_t begin = 0;
   uint64_t end = 0;
   int64_t growth = 0;
-  uint64_t file_size = 0;  // of the old file
+  uint64_t file_size = 0;  // size of the old file
 
   // The new offset of a byte of the old file. Throws MalformedFile if that byte is replaced or beyond the
   // end of the file.
   uint64_t operator()(uint64_t offset) const;
 };
 
-// The offsets of a track: stco, co64 and saio in an opened stbl. widen_offsets() turns a stco that cannot hold the new
-// offsets into a co64 with the old ones and returns true: the header has grown, so recompute `move` and call it again.
-// Throws MalformedFile.
+// The offsets of a track: stco, co64 and saio in an opened stbl. widen_offsets() converts a stco that is too narrow for
+// the new offsets to a co64 with the old ones and returns true: the header has grown, so recompute `move` and call it
+// again. Throws MalformedFile.
 bool widen_offsets(Box& sample_table, const Move& move);
 void move_offsets(Box& sample_table, const Move& move);
 
-// A top-level box other than moov that may contain offsets: moof, sidx, mfra, meta. `place` is its place in the old
+// A top-level box other than moov that may contain offsets: moof, sidx, mfra, meta. `place` is its position in the old
 // file. Throws MalformedFile.
 bool may_have_offsets(BoxType type);
 void move_offsets(Box& box, const FileBox& place, const Move& move);

@@ -48,7 +48,7 @@ void set_projection(SphericalMetadata& metadata, const ProjectionSetting& projec
 
 static FormatHint as_picture(const SphericalMetadata& known) {
   FormatHint metadata;
-  if (known.stereo) {  // kAlone: one eye, or stereo that pictures do not support
+  if (known.stereo) {  // kAlone for one eye, or for stereo that pictures do not support
     const EyeArrangement eyes = arrangement_of(*known.stereo);
     metadata.layout = eyes.is_halves() ? layout_with(eyes) : Layout::kSeparate;
   }
@@ -75,7 +75,7 @@ std::optional<SphericalMetadata> said_metadata(const VideoTrack& track) {
   if (!said) return said;
   said->stereo = said->stereo.value_or(VideoStereo::kOneView);
   said->projection = said->projection.value_or(VideoProjection::kFlat);
-  said->yaw = std::remainder(said->yaw, 360.0);  // a heading of V1 may be 270
+  said->yaw = std::remainder(said->yaw, 360.0);  // V1 may store a heading of 270
   said->ipd = track.vexu ? track.vexu->ipd : 0.0;
   return said;
 }
@@ -146,7 +146,7 @@ bool is_told_by_shape(const SphericalMetadata& known, const VideoTrack& track, c
 
 // --- contradictions --------------------------------------------------------------------------------------------------
 
-// Squeezed eyes are square, or as wide as the decoders of headsets like it.
+// Squeezed eyes are square, or have the width that headsets' decoders prefer.
 std::string shape_fault(const SphericalMetadata& metadata, Extent size) {
   if (metadata.projection != VideoProjection::kEquirect || metadata.is_partial() || size.height == 0) return {};
   const double aspect = static_cast<double>(size.width) / size.height;
@@ -164,7 +164,8 @@ static std::optional<VideoStereo> stereo_of(std::optional<Layout> layout) {
   return eyes.is_halves() ? stereo_with(eyes) : std::nullopt;
 }
 
-// Whether a video may be named after this projection: a cubemap or most of a sphere is 360, a mesh may be anything.
+// Returns whether a video with this metadata may have this projection in its name: a cubemap or most of a sphere may be
+// called 360, a mesh anything.
 static bool may_be_called(const SphericalMetadata& metadata, const ProjectionSetting& called) {
   if (metadata.projection == VideoProjection::kMesh || metadata.projection == VideoProjection::kOther) return true;
   const double cut = (1.0 * metadata.bounds[2] + metadata.bounds[3]) / 4294967296.0;
@@ -230,7 +231,7 @@ std::vector<MetadataConflict> find_conflicts(const SphericalMetadata& known, con
   try {
     compare_with_names(known, *said, found_format({}, track, path), path, conflicts);
   } catch (const Error&) {
-    // An unreadable sidecar says nothing.
+    // An unreadable sidecar has no information.
   }
   const std::string fault = shape_fault(*said, track.size);
   if (known.stereo || known.projection || !conflicts.empty() || fault.empty()) return conflicts;

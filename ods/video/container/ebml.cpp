@@ -19,14 +19,14 @@ namespace {
 struct ElementHeader {
   uint32_t id = 0;
   size_t size_width = 0;
-  uint32_t length = 0;  // of id and size together
+  uint32_t length = 0;  // length of id and size together
   uint64_t body = 0;
   bool is_endless = false;
 };
 
 }  // namespace
 
-// The length of a number, from its first byte; throws MalformedFile if that is 0.
+// The length of a number, from its first byte. Throws MalformedFile if that is 0.
 static size_t length_of(uint64_t first) {
   if (first == 0) throw MalformedFile("a size in it is invalid");
   return static_cast<size_t>(std::countl_zero(static_cast<uint8_t>(first))) + 1;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Elements, the building blocks of mkv and webm files: an id, a size and a body, which may contain elements. Source:
-// RFC 8794 (EBML). As in boxes.h, sizes are checked, callers open the elements that they know, and everything is
-// written back byte for byte.
+// RFC 8794 (EBML). As in boxes.h, sizes are checked, callers open the elements that they know, and unchanged elements
+// are written back byte for byte.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -25,7 +25,7 @@ struct Element {
 // Throws MalformedFile.
 void open_element(Element& element);
 
-// The first child with this id; null if there is none.
+// The first child with this id, or null.
 Element* find_child(Element& element, uint32_t id);
 const Element* find_child(const Element& element, uint32_t id);
 
@@ -36,7 +36,7 @@ double float_of(const Element& element);
 
 Element number_element(uint32_t id, uint64_t value);
 Element float_element(uint32_t id, double value);
-// Keeps the element's width if the value fits, else widens it.
+// Sets a number. Keeps the element's width if the value fits, else widens it.
 void set_number(Element& element, uint64_t value);
 
 uint64_t element_size(const Element& element);
@@ -54,13 +54,13 @@ struct FileElement {
   uint32_t header = 0;
   uint64_t offset = 0;
   uint64_t size = 0;        // including its header
-  bool is_endless = false;  // of unknown size: extends to the end of its parent
+  bool is_endless = false;  // has an unknown size and extends to the end of its parent
   size_t size_width = 1;
   uint64_t end() const { return offset + size; }
   uint64_t body() const { return offset + header; }
 };
 
-// The element at `offset`, which must end by `end`. Throws MalformedFile.
+// Reads the header of the element at `offset`, which must end by `end`. Throws MalformedFile.
 FileElement scan_element(const FileInput& file, uint64_t offset, uint64_t end);
 
 // Reads an element into memory. Throws MalformedFile if it has more than 256 MiB.

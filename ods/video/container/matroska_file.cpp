@@ -23,7 +23,7 @@ namespace {
 struct Matroska {
   Element head;  // the EBML element
   FileElement head_place, segment;
-  std::vector<FileElement> parts;    // of the segment
+  std::vector<FileElement> parts;    // parts of the segment
   std::map<size_t, Element> opened;  // the parts that may change
 };
 
@@ -68,7 +68,7 @@ static Matroska open_matroska(const FileInput& file) {
   for (at = video.segment.body(); at < video.segment.end();) {
     video.parts.push_back(scan_element(file, at, video.segment.end()));
     const FileElement& part = video.parts.back();
-    // Only its contents tell where such a part ends.
+    // The end of such a part is only known from its contents.
     if (part.is_endless) throw MalformedFile("it is a live recording; remux it with mkvmerge first");
     at = part.end();
     if (video.parts.size() > kMax) throw MalformedFile("it contains more than a million elements");
@@ -96,7 +96,7 @@ static std::optional<SphericalMetadata> v1_of(const Matroska& video, const Eleme
   return std::nullopt;
 }
 
-// What is read as a track, and what is tagged.
+// Returns whether an entry is a track of this type.
 static bool is_track_of_type(const Element& part, const Element& entry, uint64_t type) {
   return part.id == kTracks && entry.id == kTrackEntry && child_number(entry, kTrackType) == type;
 }
@@ -159,7 +159,7 @@ static void tag_tracks(Matroska& video, uint64_t number, const std::optional<Sph
   }
 }
 
-// Projection came with version 4.
+// Projection was introduced with version 4.
 static void raise_version(Element& head, const std::optional<SphericalMetadata>& metadata) {
   Element* version = find_child(head, kDocTypeVersion);
   if (metadata && version != nullptr && number_of(*version) < 4) set_number(*version, 4);
@@ -167,7 +167,7 @@ static void raise_version(Element& head, const std::optional<SphericalMetadata>&
 
 namespace {
 
-// The new place of each part, relative to the start of the segment's data.
+// The new position of each part, relative to the start of the segment's data.
 struct Places {
   std::vector<uint64_t> offsets;
   std::vector<uint64_t> sizes;
@@ -178,7 +178,7 @@ struct Places {
 
 static Places place_parts(const Matroska& video, const std::map<size_t, Element>& parts) {
   Places places;
-  int64_t growth = 0;  // of the parts in memory
+  int64_t growth = 0;  // growth of the parts in memory
   for (size_t i = 0; i < video.parts.size(); i++) {
     const auto part = parts.find(i);
     places.sizes.push_back(part == parts.end() ? video.parts[i].size : element_size(part->second));
@@ -202,7 +202,7 @@ static Places place_parts(const Matroska& video, const std::map<size_t, Element>
   return places;
 }
 
-// The new position of the part that starts at this old position.
+// The new position of the part that was at this old position.
 static uint64_t moved(const Matroska& video, const Places& places, uint64_t position) {
   const uint64_t offset = video.segment.body() + position;
   const auto after = std::upper_bound(video.parts.begin(), video.parts.end(), offset,
@@ -221,7 +221,7 @@ static void move_positions(Element& element, const Matroska& video, const Places
   }
 }
 
-// Positions may need more bytes than before, and then everything moves again.
+// Positions may need more bytes than before, which moves everything again.
 static std::map<size_t, Element> move_parts(const Matroska& video, Places& places) {
   places = place_parts(video, video.opened);
   constexpr int kRounds = 16;  // each field can widen only a few times

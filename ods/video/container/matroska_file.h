@@ -4,9 +4,9 @@
 // Reads and tags Matroska videos: mkv and webm. Sources: RFC 9559 (Matroska); ods/video/container/spherical.h.
 //
 // Tags are StereoMode and Projection in the track's Video element, Matroska's equivalent of V2. Elements that already
-// have the right values keep their bytes. A V1 in the tags gets new angles, and is removed if it contradicts. If the
-// header grows, it uses up a Void before the clusters; otherwise everything moves, and the segment's size, SeekHead,
-// Cues, cluster positions and checksums are updated.
+// have the right values keep their bytes. V1 metadata in the tags gets new angles, and is removed if it contradicts. If
+// the header grows, it uses the space of a Void before the clusters; if that is too small, everything moves, and the
+// segment's size, SeekHead, Cues, cluster positions and checksums are updated.
 #pragma once
 #include <optional>
 
@@ -17,10 +17,11 @@ namespace ods {
 
 bool is_matroska(std::string_view first_bytes);
 
-// Throws MalformedFile, Error(kInput).
+// Reads a video. Throws MalformedFile, Error(kInput).
 VideoFile read_matroska(const FileInput& file);
 
-// Throws MalformedFile, also for live recordings, whose clusters have no size; Error(kInput), Error(kOutput).
+// Writes a video with this metadata. Throws MalformedFile, also for live recordings, whose clusters have no size;
+// Error(kInput), Error(kOutput).
 TagResult tag_matroska(const FileInput& file, AtomicFile& to, uint64_t track,
                        const std::optional<SphericalMetadata>& metadata);
 

@@ -87,7 +87,7 @@ static Element projection_element(const SphericalMetadata& metadata) {
 namespace {
 
 struct Share {
-  uint64_t across = 1, down = 1;  // eyes
+  uint64_t across = 1, down = 1;  // number of eyes
 };
 
 }  // namespace

@@ -64,18 +64,18 @@ std::string child_text(const Element& element, uint32_t id);
 
 // Parses StereoMode and Projection of an opened Video element. Throws MalformedFile.
 std::optional<SphericalMetadata> parse_video(const Element& video);
-// The private data of a mesh projection, which is the body of an mshp box; empty if it has another projection.
+// The private data of a mesh projection, which is the body of an mshp box. Empty if it has another projection.
 std::string find_mesh(const Element& video);
 
-// Sets, or removes, both elements. Elements that already match stay, apart from their angles. The display size becomes
-// one eye's. Throws MalformedFile.
+// Sets, or removes, both elements. Elements that already match are kept, apart from their angles. The display size
+// becomes one eye's. Throws MalformedFile.
 void tag_video(Element& video, const std::optional<SphericalMetadata>& metadata);
 
-// Whether a SimpleTag holds a V1.
+// Returns whether a SimpleTag contains V1 metadata.
 bool is_v1_tag(const Element& tag);
 
-// Updates the angles of each V1 in an opened Tag and removes those that contradict the metadata.
-// Adds none. Throws MalformedFile.
+// Updates the angles of all V1 metadata in an opened Tag and removes contradictory ones. Adds none. Throws
+// MalformedFile.
 void tag_v1(Element& tag, const std::optional<SphericalMetadata>& metadata);
 
 }  // namespace ods::matroska

@@ -35,7 +35,7 @@ static std::string inflated(std::string_view packed) {
 
 namespace {
 
-// Reads numbers of any count of bits, the highest first.
+// Reads numbers with any number of bits, most significant bit first.
 class Bits {
  public:
   explicit Bits(std::string_view bytes) : bytes_(bytes) {}
@@ -56,10 +56,10 @@ class Bits {
   size_t at_ = 0;  // bits
 };
 
-// An index as its difference to the one before: 0, -1, 1, -2 .. as 0, 1, 2, 3 ..
+// Decodes an index as its difference from the previous one: 0, -1, 1, -2 .. are stored as 0, 1, 2, 3 ..
 class Indices {
  public:
-  // Below `count`, of which there is at least one.
+  // Indices below `count`, which is at least 1.
   explicit Indices(size_t count) : count_(count), bits_(static_cast<int>(std::bit_width(2 * count - 1))) {}
 
   size_t next(Bits& bits) {
@@ -161,9 +161,10 @@ ProjectionMeshes parse_mesh_box(std::string_view body) {
 
 // --- eyes ------------------------------------------------------------------------------------------------------------
 
-// Whether all image positions of a mesh are in this half: their coordinate, times 2, is within `from` and from + 1.
+// Returns whether all image positions of a mesh are in this half: their coordinate, times 2, is within `from` and from
+// + 1.
 static bool is_in_half(const TextureMesh& mesh, int coordinate, float from) {
-  const float kNear = 0.02f;  // circles may reach a little beyond
+  const float kNear = 0.02f;  // circles may extend slightly beyond
   return std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [&](const TextureMesh::Vertex& vertex) {
     const float at = 2.0f * vertex.uv[coordinate] - from;
     return at >= -kNear && at <= 1.0f + kNear;

@@ -30,7 +30,7 @@ struct Mp4 {
 constexpr BoxType kSampleTables[] = {box_type("moov"), box_type("trak"), box_type("mdia"), box_type("minf"),
                                      box_type("stbl")};
 
-// Other kinds of file begin like an mp4.
+// The name of another kind of file that begins like an mp4.
 static std::string without_header(const FileInput& file, const std::vector<FileBox>& boxes) {
   constexpr std::pair<std::string_view, std::string_view> kOthers[] = {{"crx ", "a raw photo of a Canon camera (CR3)"},
                                                                        {"jxl ", "a JPEG XL picture"},
@@ -89,7 +89,7 @@ static double number_at(std::string_view bytes, size_t at) {
   return static_cast<double>(get_number(bytes, at, 4));
 }
 
-// The rate from the sample durations; if fragments hold all samples, from their default duration.
+// The rate from the sample durations, or if all samples are in fragments, from their default duration.
 static double rate_of(Box& track, Box& moov) {
   const Box* header = find_child(open_child(track, box_type("mdia")), box_type("mdhd"));
   const Box* times = find_child(sample_table(track), box_type("stts"));
@@ -117,7 +117,7 @@ static bool is_v1(const Box& box) {
   return box.type == box_type("uuid") && box.body.starts_with(kV1Id);
 }
 
-// An unreadable vexu is ignored: it serves only one vendor's players.
+// An unreadable vexu is ignored, because it is used only by one vendor's players.
 static std::optional<SphericalMetadata> read_vexu(const Box& entry) {
   try {
     return parse_vexu(entry);
@@ -126,7 +126,7 @@ static std::optional<SphericalMetadata> read_vexu(const Box& entry) {
   }
 }
 
-// MV-HEVC. A vexu that says nothing of its layers says nothing at all.
+// MV-HEVC. A vexu without information about its layers is ignored.
 static std::optional<EyeLayers> read_layers(const Box& entry) {
   try {
     return parse_layers(entry);
@@ -190,7 +190,7 @@ bool is_mp4(std::string_view first_bytes) {
 
 static Container container_of(const FileInput& file, const std::vector<FileBox>& boxes) {
   const FileBox& first = boxes.front();
-  if (first.type != box_type("ftyp")) return Container::kMov;  // QuickTime files may lack it
+  if (first.type != box_type("ftyp")) return Container::kMov;  // QuickTime files may have no ftyp
   if (first.size < first.header + 4) throw MalformedFile("it does not state its kind of mp4 (ftyp)");
   return file.read(first.offset + first.header, 4) == "qt  " ? Container::kMov : Container::kMp4;
 }
@@ -212,7 +212,7 @@ VideoFile read_mp4(const FileInput& file) {
 
 // --- writing ---------------------------------------------------------------------------------------------------------
 
-// The first box of this type; removes further ones, which nobody reads.
+// The first box of this type; removes further ones, which are not read by players.
 static Box* only_child(Box& entry, BoxType type) {
   bool is_first = true;
   std::erase_if(entry.children, [&](const Box& box) { return box.type == type && !std::exchange(is_first, false); });
@@ -235,7 +235,7 @@ static void put_child(Box& entry, BoxType type, const std::optional<Box>& box) {
   }
 }
 
-// Keeps boxes that already match byte-identical, apart from angles and source.
+// Keeps matching boxes byte-identical, apart from angles and source.
 static void tag_v2(Box& entry, const SphericalMetadata& metadata) {
   const std::optional<SphericalMetadata> old = parse_v2(entry);
   const bool has_sphere = find_child(entry, box_type("sv3d")) != nullptr;
@@ -256,8 +256,8 @@ static bool same_ipd(double a, double b) {
   return std::llround(a * 1e6) == std::llround(b * 1e6);
 }
 
-// Returns whether there is a vexu for this metadata. An unreadable one stays unless a new one is requested. If the eyes
-// are layers of the stream (MV-HEVC), vexu describes those and stays as it is.
+// Returns whether there is a vexu for this metadata. An unreadable one is kept unless a new one is requested. If the
+// eyes are layers of the stream (MV-HEVC), vexu describes them and is kept unchanged.
 static bool tag_vexu(Box& entry, const SphericalMetadata& metadata) {
   if (has_layers(entry)) return false;
   const std::optional<SphericalMetadata> old = read_vexu(entry);
@@ -285,7 +285,8 @@ static void untag_entry(Box& entry) {
   put_child(entry, box_type("hfov"), std::nullopt);
 }
 
-// Updates the first V1 if it can express the metadata; otherwise removes it, and writes a new one if possible.
+// Updates the first V1 metadata if it can express this metadata; otherwise removes it, and writes new V1 metadata if
+// possible.
 static bool tag_v1(Box& track, const std::optional<SphericalMetadata>& metadata, bool has_new_source) {
   const auto first = std::find_if(track.children.begin(), track.children.end(), is_v1);
   const std::string old = first == track.children.end() ? "" : first->body.substr(kV1Id.size());
@@ -334,7 +335,7 @@ static void tag_sound(Box& track, const Ambisonics& sound) {
   }
 }
 
-// Offsets into other files must not be moved.
+// Rejects tracks with data in other files, whose offsets must not be moved.
 static void refuse_other_files(Box& track) {
   Box& media = open_child(open_child(track, box_type("mdia")), box_type("minf"));
   Box* information = find_child(media, box_type("dinf"));
@@ -354,7 +355,7 @@ namespace {
 struct Plan {
   Move move;
   bool uses_free = false;  // shrinks or grows the box after the header
-  uint64_t free = 0;       // bytes left in it
+  uint64_t free = 0;       // bytes left in the box
 };
 
 }  // namespace

@@ -15,16 +15,16 @@
 
 namespace ods {
 
-// Of a `trak` box. Throws MalformedFile.
+// The id of a `trak` box. Throws MalformedFile.
 uint64_t track_id(const Box& track);
 
 bool is_mp4(std::string_view first_bytes);
 
-// Throws MalformedFile, Error(kInput).
+// Reads a video. Throws MalformedFile, Error(kInput).
 VideoFile read_mp4(const FileInput& file);
 
-// Throws MalformedFile, Error(kInput), Error(kOutput). The header keeps its place; a `free` box after it is shrunk or
-// grown before any data is moved.
+// Writes a video with this metadata. The header keeps its place; a `free` box after it is shrunk or grown before any
+// data is moved. Throws MalformedFile, Error(kInput), Error(kOutput).
 TagResult tag_mp4(const FileInput& file, AtomicFile& to, uint64_t track,
                   const std::optional<SphericalMetadata>& metadata, const OtherTags& other = {});
 

@@ -17,7 +17,8 @@ enum Descriptor : uint64_t { kStream = 3, kDecoder = 4, kSpecific = 5 };
 
 }  // namespace
 
-// Enters a descriptor of this kind: skips its tag and its size, which has 7 bits per byte.
+// Enters a descriptor of this kind: skips its tag and its size, which has 7 bits per byte. Returns false for another
+// kind.
 static bool enter(std::string_view& bytes, Descriptor tag) {
   if (get_number(bytes, 0, 1) != tag) return false;
   size_t at = 1;

@@ -11,8 +11,8 @@ namespace ods {
 // Opens the boxes of the entry, after QuickTime's description of one of three lengths. Throws MalformedFile.
 void open_sound_entry(Box& entry);
 
-// The channels of an opened entry; 0: unknown. For AAC in mp4 from the esds,
-// because the entry's own number is always 2.
+// The number of channels of an opened entry; 0 if unknown. For AAC in mp4 from the esds, because the entry's own number
+// is always 2.
 int count_channels(const Box& entry);
 
 }  // namespace ods

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "ods/base/quote.h"
 #include "ods/image/format/xmp.h"
 
 namespace ods {
@@ -94,7 +95,7 @@ std::string v1_xml(const SphericalMetadata& metadata) {
   };
   element("Spherical", "true");
   element("Stitched", "true");
-  element("StitchingSoftware", xml_escaped(metadata.source));
+  element("StitchingSoftware", xml_text(metadata.source));
   element("ProjectionType", "equirectangular");
   element("StereoMode", v1_stereo(stereo_of(metadata)));
   for (const V1Angle& angle : kV1Angles) {
@@ -155,7 +156,7 @@ bool can_update_v1(const SphericalMetadata& v1, const SphericalMetadata& metadat
   return v1.projection == VideoProjection::kEquirect && same_sphere(v1, metadata) && has_v1_stereo(metadata);
 }
 
-// Sets an element, adding it if missing. False if the XML cannot be parsed.
+// Sets an element, adding it if missing. Returns false if the XML cannot be parsed.
 static bool set_v1_word(std::string& xml, const std::string& name, const std::string& value) {
   const std::string open = "<GSpherical:" + name + ">", close = "</GSpherical:" + name + ">";
   if (const size_t from = xml.find(open); from != std::string::npos) {
@@ -184,7 +185,7 @@ std::optional<std::string> updated_v1(const std::string& xml, const SphericalMet
     if (std::abs(std::remainder(value - (*old).*angle.value, 360.0)) >= 1.0)
       set(angle.name, std::to_string(std::lround(value)));
   }
-  if (has_new_source && old->source != metadata.source) set("StitchingSoftware", xml_escaped(metadata.source));
+  if (has_new_source && old->source != metadata.source) set("StitchingSoftware", xml_text(metadata.source));
   return is_understood ? std::optional(updated) : std::nullopt;
 }
 

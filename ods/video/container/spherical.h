@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The metadata of 360 videos: how the eyes share a frame and what part of the sphere it shows, and their encoding.
+// The metadata of 360 videos: how the eyes share a frame and which part of the sphere it shows, and their encoding.
 // Sources: google/spatial-media, "Spherical Video RFC" (V1) and "Spherical Video V2 RFC"; "Spatial Audio RFC". Angles
 // in degrees, as in V2: yaw turns the picture to the left, pitch up, roll clockwise.
 #pragma once
@@ -21,15 +21,15 @@ enum class VideoStereo {
   kOneView,
   kTopBottom,   // the left eye on top
   kSideBySide,  // the left eye on the left
-  kCustom,      // as the mesh defines it
+  kCustom,      // as defined by the mesh
   kRightLeft,   // the right eye on the left
   kBottomTop,   // the right eye on top: only Matroska supports it
   kOther,       // Matroska's other modes: interleaved, anaglyph
 };
 struct VideoStereoRow {
   VideoStereo member;
-  std::string_view name;  // by layout.h, where it has one
-  EyeArrangement eyes;    // kMixed: in a way that we do not know
+  std::string_view name;  // as in layout.h, if it has one
+  EyeArrangement eyes;    // kMixed for an unknown arrangement
 };
 inline constexpr VideoStereoRow kVideoStereoTable[] = {
     {VideoStereo::kOneView, "mono", {EyePacking::kAlone}},
@@ -48,14 +48,14 @@ constexpr std::string_view stereo_name(VideoStereo stereo) {
 constexpr EyeArrangement arrangement_of(VideoStereo stereo) {
   return row_in(kVideoStereoTable, stereo).eyes;
 }
-// Of eyes squeezed or not. None: videos have no word for it.
+// Ignores squeezing. Returns nullopt if video metadata cannot express it.
 std::optional<VideoStereo> stereo_with(EyeArrangement eyes);
 
 enum class VideoProjection {
   kFlat,
   kEquirect,
-  kCubemap,  // right, left, up over down, front, back; front is at the top of up, back at that of down
-  kMesh,     // as the mesh defines it
+  kCubemap,  // right, left, up over down, front, back; the top edge of up is at the front, that of down at the back
+  kMesh,     // as defined by the mesh
   kOther,
 };
 inline constexpr NameRow<VideoProjection> kVideoProjectionTable[] = {
@@ -72,12 +72,12 @@ constexpr std::string_view projection_name(VideoProjection projection) {
 }
 
 struct SphericalMetadata {
-  std::optional<VideoStereo> stereo;          // none: unspecified
-  std::optional<VideoProjection> projection;  // likewise
+  std::optional<VideoStereo> stereo;          // not set if unspecified
+  std::optional<VideoProjection> projection;  // not set if unspecified
   // kEquirect: the fractions of the sphere cropped at top, bottom, left and right, in units of 2^-32.
   std::array<uint32_t, 4> bounds{};
   double yaw = 0.0, pitch = 0.0, roll = 0.0;
-  double ipd = 0.0;        // metres between the eyes; 0: unspecified. Only vexu stores it
+  double ipd = 0.0;        // metres between the eyes; 0 if unspecified. Only vexu stores it
   bool for_apple = false;  // also write vexu; see apple.h for the drawback
   std::string source{};    // the program that wrote it
 
@@ -88,9 +88,9 @@ struct SphericalMetadata {
 // "top-bottom, lat-long", "side-by-side, lat-long 180x180", "mono, flat".
 std::string metadata_text(const SphericalMetadata& metadata);
 
-// Whether both show the same part of the sphere, and arrange the eyes alike. As players do, counts a missing projection
-// as flat, and missing stereo as mono. Bounds that differ by less than a thousandth of the sphere count as equal,
-// because V1 stores them in pixels.
+// same_sphere() returns whether both show the same part of the sphere, and arrange the eyes alike. Like in players, a
+// missing projection counts as flat, and missing stereo as mono. Bounds that differ by less than a thousandth of the
+// sphere count as equal, because V1 stores them in pixels.
 VideoStereo stereo_of(const SphericalMetadata& metadata);
 bool same_sphere(const SphericalMetadata& a, const SphericalMetadata& b);
 bool same_stereo(const SphericalMetadata& a, const SphericalMetadata& b);
@@ -102,26 +102,26 @@ inline constexpr std::string_view kV1Id = "\xff\xcc\x82\x63\xf8\x55\x4a\x93\x88\
 // view, in whole degrees, as FFmpeg reads them.
 bool fits_v1(const SphericalMetadata& metadata);
 std::string v1_xml(const SphericalMetadata& metadata);
-// Nothing if the XML is about something else.
+// Parses V1 metadata. Returns nullopt if the XML is about something else.
 std::optional<SphericalMetadata> parse_v1(const std::string& xml);
 
-// Whether `v1` can be updated to `metadata`: both show the same part of the sphere, possibly one that fits_v1()
+// Returns whether `v1` can be updated to `metadata`: both show the same part of the sphere, possibly one that fits_v1()
 // rejects, and V1 can express the eyes.
 bool can_update_v1(const SphericalMetadata& v1, const SphericalMetadata& metadata);
 // The XML with only those elements changed that differ from `metadata`: StereoMode, angles that differ by a degree, and
-// the software if `has_new_source`. Nothing if can_update_v1() is false or the XML cannot be parsed.
+// the software if `has_new_source`. Returns nullopt if can_update_v1() is false or the XML cannot be parsed.
 std::optional<std::string> updated_v1(const std::string& xml, const SphericalMetadata& metadata, bool has_new_source);
 
-// V2 has no kBottomTop and no kOther; a kMesh is never written.
+// V2 has no kBottomTop and no kOther; kMesh is never written.
 bool fits_v2(const SphericalMetadata& metadata);
 // Preconditions: V2 can express the stereo of `metadata`, and its projection, which is not flat.
 Box st3d_box(const SphericalMetadata& metadata);
 Box sv3d_box(const SphericalMetadata& metadata);
-// Updates the angles and the source of an sv3d box; all else stays byte-identical. Throws MalformedFile.
+// Updates the angles and the source of an sv3d box; all other bytes are unchanged. Throws MalformedFile.
 void update_sv3d(Box& sphere, const SphericalMetadata& metadata);
-// Parses the boxes of a sample entry; nothing if it has neither st3d nor sv3d. Throws MalformedFile.
+// Parses the boxes of a sample entry. Returns nullopt if it has neither st3d nor sv3d. Throws MalformedFile.
 std::optional<SphericalMetadata> parse_v2(const Box& sample_entry);
-// The body of a sample entry's mshp box (mesh_box.h); empty if there is none. Throws MalformedFile.
+// The body of a sample entry's mshp box (mesh_box.h). Empty if there is none. Throws MalformedFile.
 std::string find_mesh(const Box& sample_entry);
 
 // The body of an equi or cbmp box including version and flags, which is Matroska's ProjectionPrivate.
@@ -133,7 +133,7 @@ void parse_projection_body(const std::string& body, SphericalMetadata& metadata)
 struct Ambisonics {
   uint32_t order = 1;
   uint32_t channels = 4;
-  bool has_head_locked = false;  // plus stereo that does not turn with the head
+  bool has_head_locked = false;  // plus stereo that is not rotated with the head
 };
 std::optional<Ambisonics> parse_sa3d(const std::string& body);
 // Channels in ACN order with SN3D normalization.

@@ -21,7 +21,7 @@ bool has_user_data(const std::string& path) {
   return is_mp4({reinterpret_cast<const char*>(start.data()), start.size()});
 }
 
-// A udta that cannot be opened, as some cameras write them, is left out.
+// A udta that cannot be opened, as some cameras write it, is left out.
 static void take(const std::vector<Box>& boxes, std::initializer_list<BoxType> types, std::vector<Box>& to) {
   for (const Box& box : boxes) {
     if (std::find(types.begin(), types.end(), box.type) == types.end() || has_offsets(box)) continue;

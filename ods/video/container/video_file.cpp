@@ -28,7 +28,7 @@ static Error unusable(const std::string& path, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot use '{}': {}", path, why));
 }
 
-// Which of the two container families; throws if neither.
+// Returns whether the file is of the Matroska family; if not, it is of the mp4 family. Throws for other files.
 static bool is_of_matroska(const FileInput& file) {
   const std::string start = first_bytes(file);
   if (is_matroska(start)) return true;

@@ -36,19 +36,19 @@ inline bool has_boxes(Container container) {
 struct VideoTrack {
   uint64_t id = 0;
   std::string codec;                      // avc1, hvc1, V_VP9: as the container names it
-  Extent size;                            // of a frame
-  double fps = 0.0;                       // 0: unknown
+  Extent size;                            // size of a frame
+  double fps = 0.0;                       // 0 if unknown
   std::optional<SphericalMetadata> v1;    // Spherical Video V1
   std::optional<SphericalMetadata> v2;    // Spherical Video V2, in Matroska StereoMode and Projection
   std::optional<SphericalMetadata> vexu;  // the vexu for Apple's players
-  std::string mesh;                       // of v2: the body of its mshp box (mesh_box.h); empty: none
-  std::optional<EyeLayers> layers;        // its eyes are layers of the stream (MV-HEVC), which its vexu describes
+  std::string mesh;                       // the body of the mshp box of v2 (mesh_box.h); empty if it has none
+  std::optional<EyeLayers> layers;        // set if the eyes are layers of the stream (MV-HEVC), which vexu describes
 };
 
 struct SoundTrack {
   uint64_t id = 0;
   std::string codec;
-  int channels = 0;  // 0: unknown, as in mkv and webm
+  int channels = 0;  // 0 if unknown, as in mkv and webm
   std::optional<Ambisonics> ambisonics;
 };
 
@@ -59,14 +59,14 @@ struct VideoFile {
   std::vector<SoundTrack> sound;
 };
 
-// By the file's first bytes, whatever its name: mp4, mov, mkv, webm.
+// Returns whether a file is a video by its first bytes, regardless of its name: mp4, mov, mkv, webm.
 bool is_video(const std::string& path);
 
-// Throws Error(kInput): another kind of file, truncated, damaged.
+// Reads a file's tracks and metadata. Throws Error(kInput) for other kinds of files, and truncated or damaged ones.
 VideoFile read_video_file(const std::string& path);
 
-// The track with this id; without one, the track with the largest pictures. Throws Error(kUsage): no such id;
-// Error(kInput): no track at all, or two are the largest.
+// The track with this id; without one, the track with the largest pictures. Throws Error(kUsage) if there is no such
+// id; Error(kInput) if there is no track at all, or two are the largest.
 const VideoTrack& choose_track(const VideoFile& video, std::optional<int> id, const std::string& path);
 
 struct TagResult {
@@ -76,18 +76,18 @@ struct TagResult {
   bool moved = false;  // everything after the header was moved and its offsets updated
 };
 
-// What else tag_video() writes into an mp4 or mov. In Matroska, Opus describes its own channels, and libavformat writes
-// all tags.
+// Other data that tag_video() writes into an mp4 or mov. In Matroska, Opus describes its own channels, and libavformat
+// writes all tags.
 struct OtherTags {
-  std::vector<std::optional<Ambisonics>> sound;  // of the sound tracks, in their order; none: stays as it is
-  UserData user;                                 // added to what the file has
+  std::vector<std::optional<Ambisonics>> sound;  // for the sound tracks, in order; not set for unchanged ones
+  UserData user;                                 // added to the file's own
 };
 
 // Writes the video with this metadata to `to`, which may be `path` itself: the complete new file then replaces it.
 // Without metadata, removes it. Boxes that already match stay byte-identical, even of kinds that we never write (a
-// mesh, a padded cubemap); with the result of complete_metadata(), only what was asked for changes. Samples stay
+// mesh, a padded cubemap); with the result of complete_metadata(), only the requested properties change. Samples stay
 // bit-identical. Throws Error(kInput), also if the container cannot express the metadata; Error(kOutput). `progress`
-// reports the share copied.
+// reports the fraction copied.
 TagResult tag_video(const std::string& path, const std::string& to, uint64_t track,
                     const std::optional<SphericalMetadata>& metadata, const OtherTags& other = {},
                     const std::function<void(double done)>& progress = {});

@@ -53,8 +53,8 @@ static std::vector<Node> gauss_legendre(int count) {
   return nodes;
 }
 
-// Harmonics are orthogonal: the matrix is the mean over all directions of those of the turned direction times those of
-// the direction, over the mean of their squares, 1 / (2 l + 1). The rule is exact for their products.
+// Harmonics are orthogonal, so the matrix is the mean, over all directions, of the harmonics of the turned direction
+// times those of the direction, over the mean of their squares, 1 / (2 l + 1). The rule is exact for their products.
 std::vector<double> ambisonic_turn(int order, const glm::dmat3& turn) {
   const auto channels = static_cast<size_t>((order + 1) * (order + 1));
   std::vector<double> matrix(channels * channels, 0.0);

@@ -9,12 +9,11 @@
 
 namespace ods {
 
-// The order of a sound field with so many channels, (order + 1)^2; 0 if there is no such order.
+// The order of a sound field with this number of channels, (order + 1)^2; 0 if there is no such order.
 int ambisonic_order(int channels);
 
-// The square matrix, row by row, by which the channels of a turned field follow from the old ones: a source that was in
-// direction d is in direction turn * d afterwards. Directions are those of a camera: x right, y up, z back.
-// Precondition: a rotation.
+// The square matrix, row by row, that computes the channels of a turned field from the old ones: a source in direction
+// d is in direction turn * d afterwards. Directions are a camera's: x right, y up, z back. Precondition: a rotation.
 std::vector<double> ambisonic_turn(int order, const glm::dmat3& turn);
 
 }  // namespace ods

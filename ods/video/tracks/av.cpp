@@ -42,7 +42,7 @@ void Free::operator()(AVFormatContext* context) const {
 }
 
 // The library's last log message, captured instead of printed. Without the sender's name and address, so that the same
-// failure gives the same text.
+// error gives the same text.
 static std::mutex complaint_mutex;
 static std::string complaint;
 
@@ -58,9 +58,9 @@ void keep_complaints() {
   av_log_set_callback(listen);
 }
 
-// FFmpeg's own text for its codes helps nobody ("Not yet implemented in FFmpeg, patches welcome").
+// FFmpeg's own text for its error codes is not helpful ("Not yet implemented in FFmpeg, patches welcome").
 static std::string reason_of(int code) {
-  constexpr int kLastSystemError = -4095;  // below are FFmpeg's own
+  constexpr int kLastSystemError = -4095;  // smaller values are FFmpeg's own
   switch (code) {
     case AVERROR_INVALIDDATA:
       return "it is damaged, or of a format that FFmpeg does not know";
@@ -104,14 +104,24 @@ int checked_small_input(int code, const std::string& what) {
   throw Error(ErrorKind::kInput, fmt::format("{}: {}", what, words_for(code)));
 }
 
+// Formats of one file, by FFmpeg's names. Others are lists that name files, which FFmpeg would read from anywhere: HLS,
+// DASH, IMF, concat.
+static constexpr const char* kFormats =
+    "mov,matroska,avi,asf,mpeg,mpegts,wav,w64,aiff,caf,au,flac,ogg,mp3,aac,ac3,eac3,truehd,dts,wv,tta,ape,amr,tak,voc";
+
 Owned<AVFormatContext> open_file(const std::string& path, const std::string& what) {
   keep_complaints();
   static_cast<void>(file_size(path));  // throws if it is not a regular file
   AVFormatContext* file = nullptr;
   AVDictionary* only_files = nullptr;
   av_dict_set(&only_files, "protocol_whitelist", "file", 0);
+  av_dict_set(&only_files, "format_whitelist", kFormats, 0);
   const int opened = avformat_open_input(&file, ("file:" + path).c_str(), nullptr, &only_files);
   av_dict_free(&only_files);
+  if (opened == AVERROR(EINVAL)) {  // FFmpeg's code for a format that is not on the list
+    throw Error(ErrorKind::kInput,
+                fmt::format("{}: it is not a sound or video file of a kind that is read here", what));
+  }
   checked_small_input(opened, what);
   Owned<AVFormatContext> owned(file);
   checked_small_input(avformat_find_stream_info(file, nullptr), what);

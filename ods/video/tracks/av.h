@@ -38,15 +38,15 @@ T* made(T* object) {
 // Captures the libraries' log for the next error message instead of printing it.
 void keep_complaints();
 
-// Returns the code if it is zero or above. Otherwise throws Error with `what`, the reason in our own words and what the
-// library logged; out of memory is always kMemory, whatever `kind` is.
+// Returns the code if it is not negative. Otherwise throws Error with `what`, our own text for the reason and the
+// library's log message; out of memory is always kMemory, regardless of `kind`.
 int checked(int code, ErrorKind kind, const std::string& what);
 
-// The same for reads that need little memory, such as a header or sound: if they run out of it, the file makes
-// impossible claims. Throws Error(kInput).
+// Like checked(), for reads that need little memory, such as a header or sound: if they run out of memory, the file
+// makes impossible claims. Throws Error(kInput).
 int checked_small_input(int code, const std::string& what);
 
-// Opens a local file, never a URL, and probes its streams. Throws Error(kInput) that starts with `what`.
+// Opens a local file, never a URL, and probes its streams. Throws Error(kInput) with a message that starts with `what`.
 Owned<AVFormatContext> open_file(const std::string& path, const std::string& what);
 
 }  // namespace ods::av

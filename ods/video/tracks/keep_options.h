@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a video that is made of another one's pictures keeps of it.
+// The parts of an old video that a new video of its pictures keeps.
 #pragma once
 #include <cmath>
 #include <cstdint>
@@ -11,26 +11,26 @@
 
 namespace ods {
 
-// Which part of an old video a new one is.
+// The part of an old video that a new one covers.
 struct TimeCut {
   double start = 0.0;        // the time in the file at which the new video begins, in seconds
-  double length = INFINITY;  // of the new video, in seconds, as far as known
-  bool is_cut = false;       // what is before it, and after the end of the pictures, is dropped
+  double length = INFINITY;  // duration of the new video, in seconds, if known
+  bool is_cut = false;       // drop the data before the start, and after the end of the pictures
 };
 
-// How the view is turned against the old one at a time of the file, in seconds: the matrix that a direction in the old
-// view's frame (x right, y up, z back) is multiplied by.
+// The rotation of the view relative to the old one at a time of the file, in seconds: the matrix that is multiplied by
+// a direction in the old view's frame (x right, y up, z back).
 using SoundTurn = std::function<glm::dmat3(double seconds)>;
 
-// The video whose pictures are encoded anew. What else it has goes into the new one: sound, subtitles, timecode,
+// The video whose pictures are encoded again. Its other contents go into the new one: sound, subtitles, timecode,
 // chapters, tags, covers, attachments.
 struct KeepOptions {
-  std::string path;       // empty: nothing is kept
-  uint64_t track = 0;     // of its pictures, as in video_file.h
-  bool has_sound = true;  // its sound, too
+  std::string path;       // empty to keep nothing
+  uint64_t track = 0;     // track of its pictures, as in video_file.h
+  bool has_sound = true;  // keep its sound, too
   TimeCut cut;
-  SoundTurn turn;  // of ambisonic sound, which is then encoded anew; none: nothing turns
-  std::function<void(const std::string& words)> tell;  // what cannot be kept, one by one, and why. May be empty
+  SoundTurn turn;  // rotation of ambisonic sound, which is then encoded again; null for none
+  std::function<void(const std::string& words)> tell;  // reports each loss and its reason. May be empty
 };
 
 }  // namespace ods

@@ -18,7 +18,7 @@ extern "C" {
 
 namespace ods {
 
-// Tags that are true of the old file alone.
+// Returns whether a tag applies only to the old file.
 static bool is_of_old_file(std::string_view key, bool is_pictures) {
   const auto is = [&](std::string_view name) { return small_letters(std::string(key)) == name; };
   if (key.starts_with("_STATISTICS") || key.starts_with("BPS") || key.starts_with("NUMBER_OF_")) return true;
@@ -26,7 +26,7 @@ static bool is_of_old_file(std::string_view key, bool is_pictures) {
   return is("encoder") || (is_pictures && is("vendor_id"));
 }
 
-// libavformat lists what has a language twice: "title" and "title-eng".
+// libavformat lists tags with a language twice: "title" and "title-eng".
 static bool is_repeated(const AVDictionary* tags, const AVDictionaryEntry& entry) {
   const std::string key = entry.key;
   if (key.size() < 5 || key[key.size() - 4] != '-') return false;
@@ -34,7 +34,7 @@ static bool is_repeated(const AVDictionary* tags, const AVDictionaryEntry& entry
   return plain != nullptr && std::string_view(plain->value) == entry.value;
 }
 
-// Those that are true of the new file, too.
+// The tags that apply to the new file, too.
 static std::vector<const AVDictionaryEntry*> lasting_tags(const AVDictionary* tags, bool is_pictures) {
   std::vector<const AVDictionaryEntry*> lasting;
   const AVDictionaryEntry* entry = nullptr;
@@ -73,13 +73,13 @@ void copy_chapters(const AVFormatContext& from, const TimeCut& cut, AVFormatCont
 
 }  // namespace av
 
-// --- what is lost ----------------------------------------------------------------------------------------------------
+// --- lost tags ----------------------------------------------------------------------------------------------------
 
 static bool has_tag(const AVDictionary* tags, const AVDictionaryEntry& wanted) {
   return av_dict_get(tags, wanted.key, nullptr, 0) != nullptr;
 }
 
-// Of the file. A timecode has become the pictures'.
+// Lost tags of the file. A timecode has become a tag of the pictures.
 static void find_lost(const AVFormatContext& old, const AVFormatContext& made_file, std::vector<std::string>& lost) {
   for (const AVDictionaryEntry* entry : lasting_tags(old.metadata, false)) {
     bool is_there = has_tag(made_file.metadata, *entry);
@@ -91,7 +91,8 @@ static void find_lost(const AVFormatContext& old, const AVFormatContext& made_fi
   }
 }
 
-// Of the streams: what stands in none of the new file's. How programs named their handlers means nothing.
+// Lost tags of the streams: those in none of the new file's streams. The names that programs give to their handlers do
+// not count.
 static void find_lost_of_streams(const AVFormatContext& old, const AVFormatContext& made_file,
                                  std::vector<std::string>& lost) {
   std::set<std::string> values;
@@ -110,7 +111,7 @@ static void find_lost_of_streams(const AVFormatContext& old, const AVFormatConte
   }
 }
 
-// Of an mp4's or mov's user data: what libavformat does not know, so that it cannot become a tag.
+// Lost user data of an mp4 or mov: boxes unknown to libavformat, which cannot become tags.
 static void find_lost_boxes(const KeepOptions& keep, std::vector<std::string>& lost) {
   const std::set<BoxType> kKnown = {box_type("meta"), box_type("loci"), box_type("name"), box_type("titl"),
                                     box_type("auth"), box_type("cprt"), box_type("yrrc"), box_type("perf")};

@@ -29,15 +29,15 @@ using av::checked, av::checked_small_input, av::made, av::Owned;
 
 namespace {
 
-// What becomes of a stream.
+// The handling of a stream.
 enum class Fate { kCopied, kSound, kText, kCover, kAttachment, kCoverAttachment, kElsewhere, kLost };
 
 struct Kept {
   const AVStream* from = nullptr;
   Fate fate = Fate::kLost;
-  std::string why;                  // it is lost, or encoded anew; empty: nothing to say
-  std::optional<Ambisonics> field;  // of sound
-  bool is_field = false;            // it is ambisonic
+  std::string why;                  // the reason why it is lost, or encoded again; else empty
+  std::optional<Ambisonics> field;  // set for ambisonic sound
+  bool is_field = false;            // the sound is ambisonic
   int to = -1;                      // the index of the new stream
   std::unique_ptr<SideTracks> sound;
   std::unique_ptr<TextTrack> text;
@@ -45,7 +45,7 @@ struct Kept {
 
 }  // namespace
 
-// --- what becomes of what --------------------------------------------------------------------------------------------
+// --- handling of the streams -----------------------------------------------------------------------------------------
 
 static std::string tag_of(const AVStream& stream, const char* key) {
   const AVDictionaryEntry* entry = av_dict_get(stream.metadata, key, nullptr, 0);
@@ -73,7 +73,7 @@ static std::string name_of(const AVStream& stream) {
   return text + ")";
 }
 
-// Whether it turns with the view, and so must be encoded anew.
+// Returns whether a track is rotated with the view, and so must be encoded again.
 static bool turns(const KeepOptions& keep, const Kept& kept) {
   return keep.turn && kept.is_field;
 }
@@ -105,7 +105,7 @@ static void decide_sound(const KeepOptions& keep, Container container, Kept& kep
   }
 }
 
-// Text goes over to the container's own kind; drawn subtitles cannot.
+// Text is converted to the container's own kind; drawn subtitles cannot be.
 static void decide_subtitles(Container container, Kept& kept) {
   if (can_hold(container, kept.from->codecpar->codec_id)) {
     kept.fate = Fate::kCopied;
@@ -123,7 +123,7 @@ static void decide_pictures(const KeepOptions& keep, Container container, Kept& 
   if (!is_cover) {
     kept.why = "are lost: a new video has one track of pictures";
   } else if (has_boxes(container) && has_user_data(keep.path)) {
-    kept.fate = Fate::kElsewhere;  // in the user data
+    kept.fate = Fate::kElsewhere;  // stored in the user data
   } else if (container == Container::kMp4 && is_usual) {
     kept.fate = Fate::kCover;
   } else if (container == Container::kMatroska) {
@@ -133,7 +133,7 @@ static void decide_pictures(const KeepOptions& keep, Container container, Kept& 
   }
 }
 
-// Timecode is a tag of the pictures; a track of text that the demuxer does not show holds the chapters' names.
+// Timecode is a tag of the pictures; a text track that the demuxer does not expose contains the chapters' names.
 static void decide_data(Container container, Kept& kept) {
   const uint32_t tag = kept.from->codecpar->codec_tag;
   const bool is_timecode = tag == MKTAG('t', 'm', 'c', 'd'), is_chapters = tag == MKTAG('t', 'e', 'x', 't');
@@ -165,7 +165,7 @@ static void decide(const KeepOptions& keep, Container container, Kept& kept) {
   }
 }
 
-// The pictures that are encoded anew: as VideoDecoder finds them.
+// The pictures that are encoded again, found like in VideoDecoder.
 static const AVStream* pictures_of(AVFormatContext& file, uint64_t track) {
   const AVStream* pictures = nullptr;
   const int best = av_find_best_stream(&file, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
@@ -177,14 +177,14 @@ static const AVStream* pictures_of(AVFormatContext& file, uint64_t track) {
   return pictures;
 }
 
-// Of an mp4's or mov's sound tracks.
+// The ambisonics of the sound tracks of an mp4 or mov.
 static std::vector<std::optional<Ambisonics>> fields_of(const std::string& path) {
   std::vector<std::optional<Ambisonics>> fields;
   for (const SoundTrack& each : read_video_file(path).sound) fields.push_back(each.ambisonics);
   return fields;
 }
 
-// All streams but the pictures, and the sound that is replaced.
+// All streams except the pictures, and the sound if it is replaced.
 static std::vector<Kept> decide_all(AVFormatContext& file, const KeepOptions& keep, Container container) {
   std::vector<Kept> all;
   const AVStream* pictures = pictures_of(file, keep.track);
@@ -204,7 +204,7 @@ static std::vector<Kept> decide_all(AVFormatContext& file, const KeepOptions& ke
 
 // --- timecode --------------------------------------------------------------------------------------------------------
 
-// A part's first picture has a later timecode.
+// Moves the timecode of a part to its first picture.
 static void move_timecode(AVStream& pictures, const TimeCut& cut, double first) {
   const std::string old = tag_of(pictures, "timecode");
   if (old.empty() || !cut.is_cut) return;
@@ -228,7 +228,7 @@ static void set_bytes(AVCodecParameters& facts, const uint8_t* bytes, int size) 
   std::memcpy(facts.extradata, bytes, static_cast<size_t>(size));
 }
 
-// A cover in Matroska is an attachment of that name.
+// A cover in Matroska is an attachment with this name.
 static void describe_cover(const AVStream& from, AVStream& to) {
   const bool is_png = from.codecpar->codec_id == AV_CODEC_ID_PNG;
   to.codecpar->codec_type = AVMEDIA_TYPE_ATTACHMENT;
@@ -265,7 +265,7 @@ class KeptTracks final : public SideTracks {
       if (keep_.tell && !each.why.empty()) keep_.tell(fmt::format("{} {}", name_of(*each.from), each.why));
       if (each.fate != Fate::kLost && each.fate != Fate::kElsewhere) add(each, file);
     }
-    // Boxes that were copied say the same.
+    // The copied boxes contain the same.
     const AVDictionaryEntry* time = av_dict_get(file_->metadata, "creation_time", nullptr, 0);
     if (!has_boxes(container_) || !has_user_data(keep_.path)) av::copy_tags(file_->metadata, &file.metadata, false);
     if (time != nullptr) av_dict_set(&file.metadata, "creation_time", time->value, 0);
@@ -309,7 +309,7 @@ class KeptTracks final : public SideTracks {
     checked(avcodec_parameters_copy(to.codecpar, kept.from->codecpar), ErrorKind::kOutput, what());
     if (to.codecpar->codec_type != AVMEDIA_TYPE_DATA) to.codecpar->codec_tag = 0;  // the old container's
     to.time_base = kept.from->time_base;
-    // What libavformat calls an experiment has been part of mp4 since 2017.
+    // FLAC in mp4, which libavformat calls an experiment, has been standard since 2017.
     if (to.codecpar->codec_id == AV_CODEC_ID_FLAC) file.strict_std_compliance = FF_COMPLIANCE_EXPERIMENTAL;
     if (kept.fate != Fate::kCover) return;
     Owned<AVPacket> packet(made(av_packet_clone(&kept.from->attached_pic)));
@@ -319,7 +319,7 @@ class KeptTracks final : public SideTracks {
     covers_.push_back(std::move(packet));
   }
 
-  // In seconds of the new video.
+  // The time in seconds of the new video.
   double seconds(int64_t ticks, const AVPacket& packet) const {
     if (ticks == AV_NOPTS_VALUE) ticks = packet.dts;
     return ticks == AV_NOPTS_VALUE ? 0.0 : static_cast<double>(ticks) * av_q2d(packet.time_base) - keep_.cut.start;
@@ -332,7 +332,7 @@ class KeptTracks final : public SideTracks {
     return nullptr;
   }
 
-  // Whether any of it belongs to the new video: a subtitle may begin before.
+  // Returns whether any part of a packet belongs to the new video. A subtitle may begin earlier.
   bool is_inside(const AVPacket& packet, const Kept& kept) const {
     if (!keep_.cut.is_cut || seconds(packet.pts, packet) >= 0.0) return true;
     const bool is_shown = kept.from->codecpar->codec_type == AVMEDIA_TYPE_SUBTITLE && packet.duration > 0;
@@ -355,7 +355,7 @@ class KeptTracks final : public SideTracks {
     return packet;
   }
 
-  // The next packet that is kept, in the time base of its old stream.
+  // Reads the next packet that is kept, in the time base of its old stream.
   bool read() {
     while (!ended_) {
       waiting_.reset(made(av_packet_alloc()));
@@ -384,8 +384,8 @@ class KeptTracks final : public SideTracks {
   std::vector<Kept> kept_;
   std::vector<Owned<AVPacket>> covers_;
   Owned<AVPacket> waiting_;
-  int to_ = 0;                // the new stream of the waiting packet
-  bool is_subtitle_ = false;  // likewise
+  int to_ = 0;                // index of the new stream of the waiting packet
+  bool is_subtitle_ = false;  // the waiting packet is a subtitle
   bool ended_ = false;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The tracks of a new video beside its pictures, packet by packet: sound that is encoded anew (sound.h), what is kept
-// of an old video (kept_tracks.h).
+// The tracks of a new video besides its pictures, packet by packet: sound that is encoded again (sound.h), tracks kept
+// from an old video (kept_tracks.h).
 #pragma once
 #include "ods/video/tracks/av.h"
 

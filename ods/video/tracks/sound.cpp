@@ -38,7 +38,7 @@ struct SoundFile {
 
 }  // namespace
 
-// The index of the best stream with sound, and its decoder if asked for.
+// The index of the best stream with sound, and its decoder if `codec` is not null.
 static int find_sound(AVFormatContext& file, const std::string& what, const AVCodec** codec) {
   const int index = av_find_best_stream(&file, AVMEDIA_TYPE_AUDIO, -1, -1, codec, 0);
   if (index == AVERROR_STREAM_NOT_FOUND) {
@@ -61,7 +61,7 @@ static void check_sound(const AVCodecContext& decoder, bool any_channels, const 
   }
 }
 
-// stream: -1 is the best one.
+// stream: -1 for the best one.
 static SoundFile open_sound_file(const std::string& path, int stream, bool any_channels) {
   const std::string what = fmt::format("cannot read the sound of '{}'", path);
   SoundFile sound;
@@ -100,7 +100,7 @@ static const char* usual_encoder(Container container) {
   return container == Container::kMp4 ? "aac" : container == Container::kMov ? "pcm_s24le" : "libopus";
 }
 
-// The one for a codec, by name; null if there is none. libavcodec's own Opus and Vorbis are worse.
+// The name of the encoder for a codec, or null. libavcodec's own Opus and Vorbis are worse.
 static const char* encoder_for(AVCodecID codec) {
   if (codec == AV_CODEC_ID_OPUS) return "libopus";
   if (codec == AV_CODEC_ID_VORBIS) return "libvorbis";
@@ -110,23 +110,23 @@ static const char* encoder_for(AVCodecID codec) {
 
 namespace {
 
-// The sound that an encoder is to take.
+// The sound that an encoder has to accept.
 struct SoundForm {
   AVChannelLayout layout{};  // a copy, without memory of its own
   int rate = kSoundRate;
-  int64_t bit_rate = 0;  // of the usual encoder
+  int64_t bit_rate = 0;  // bit rate of the usual encoder
   AVCodecID own_codec = AV_CODEC_ID_NONE;
-  int64_t own_bit_rate = 0;  // 0: unknown
+  int64_t own_bit_rate = 0;  // 0 if unknown
   bool is_ambisonic = false;
 };
 
 }  // namespace
 
-// Null: this encoder cannot take it, or the container cannot hold it.
+// Returns null if this encoder does not support the sound, or the container does not support the encoder.
 static Owned<AVCodecContext> try_encoder(const char* name, Container container, const SoundForm& form) {
   const AVCodec* codec = name == nullptr ? nullptr : avcodec_find_encoder_by_name(name);
   if (codec == nullptr || !can_hold(container, codec->id)) return nullptr;
-  // AAC of other numbers of channels filters one of them as a subwoofer's.
+  // With other numbers of channels, AAC filters one of them as a subwoofer channel.
   if (form.is_ambisonic && codec->id == AV_CODEC_ID_AAC && form.layout.nb_channels != 4) return nullptr;
   const bool is_opus = codec->id == AV_CODEC_ID_OPUS;
   for (const AVSampleFormat format : {AV_SAMPLE_FMT_FLTP, AV_SAMPLE_FMT_FLT, AV_SAMPLE_FMT_S32, AV_SAMPLE_FMT_S16}) {
@@ -176,7 +176,7 @@ static Owned<AVCodecContext> open_sound_encoder(const SoundSource& source, const
 
 namespace {
 
-// Turns blocks of ambisonic sound, a plane of floats per channel.
+// Rotates blocks of ambisonic sound, a plane of floats per channel.
 class FieldTurn {
  public:
   FieldTurn(const SoundSource& source, int channels)
@@ -185,7 +185,7 @@ class FieldTurn {
 
   explicit operator bool() const { return static_cast<bool>(turn_); }
 
-  // The block lasts from one time of the file to the other.
+  // from, to: times of the file at the start and the end of the block.
   void operator()(AVFrame& block, double from, double to) {
     if (matrix_.empty()) matrix_ = at(from);
     const std::vector<double> last = at(to);
@@ -209,7 +209,7 @@ class FieldTurn {
  private:
   static float* plane(AVFrame& block, size_t channel) { return reinterpret_cast<float*>(block.extended_data[channel]); }
 
-  // Most turns stay what they are.
+  // The matrix at a time. Most rotations are constant.
   const std::vector<double>& at(double seconds) {
     const glm::dmat3 turn = turn_(seconds);
     if (known_.empty() || turn != last_) known_ = ambisonic_turn(order_, turn), last_ = turn;
@@ -219,11 +219,11 @@ class FieldTurn {
   SoundTurn turn_;
   int order_ = 0;
   glm::dmat3 last_{0.0};
-  std::vector<double> known_, matrix_;  // of last_; at the end of the last block
+  std::vector<double> known_, matrix_;  // matrices of last_; at the end of the last block
 };
 
-// A file's sound, decoded and encoded anew. In between it is planes of floats if it is turned, else what the encoder
-// takes.
+// A file's sound, decoded and encoded again. In between it is planes of floats if it is rotated, else in the encoder's
+// format.
 class PackedSound final : public SideTracks {
  public:
   PackedSound(const SoundSource& source, Container container)
@@ -268,7 +268,7 @@ class PackedSound final : public SideTracks {
   Owned<SwrContext> make_converter(AVSampleFormat from, int rate, AVSampleFormat to) const {
     AVCodecContext& out = *encoder_;
     SwrContext* converter = nullptr;
-    // Channels keep their order, whatever layout the file declares.
+    // Channels keep their order, regardless of the layout that the file declares.
     checked_small_input(
         swr_alloc_set_opts2(&converter, &out.ch_layout, to, out.sample_rate, &out.ch_layout, from, rate, 0, nullptr),
         what());
@@ -277,7 +277,7 @@ class PackedSound final : public SideTracks {
     return owned;
   }
 
-  // The next samples up to a position; none at the end. Encoders need full frames except for the last.
+  // The next samples up to a position; null at the end. Encoders need full frames except for the last.
   Owned<AVFrame> samples(int64_t until, bool is_end) {
     const int64_t size = encoder_->frame_size > 0 ? encoder_->frame_size : 1024, most = until - position_;
     if (most < size && !is_end) return nullptr;
@@ -294,7 +294,7 @@ class PackedSound final : public SideTracks {
     return frame;
   }
 
-  // Where the first sample belongs: what is before the video's beginning is dropped.
+  // Positions the first sample: samples before the video's beginning are dropped.
   void begin() {
     is_first_ = false;
     const int64_t first = std::llround((start_ - source_.cut.start) * encoder_->sample_rate);
@@ -333,7 +333,7 @@ class PackedSound final : public SideTracks {
     return out;
   }
 
-  // null: flush the converter.
+  // in: null to flush the converter.
   void convert(const AVFrame* in) {
     const int count = in == nullptr ? 0 : in->nb_samples;
     const Owned<AVFrame> out = make_frame(std::max(swr_get_out_samples(converter_.get(), count), 1), middle_);
@@ -373,12 +373,12 @@ class PackedSound final : public SideTracks {
   SoundFile sound_;
   Owned<AVCodecContext> encoder_;
   FieldTurn turn_;
-  Owned<SwrContext> converter_, packer_;  // to the middle; from there to what the encoder takes
+  Owned<SwrContext> converter_, packer_;  // to the intermediate format; from there to the encoder's
   Owned<AVAudioFifo> fifo_;
   AVSampleFormat middle_ = AV_SAMPLE_FMT_NONE;
-  int index_ = -1;             // of its stream
+  int index_ = -1;             // index of the stream
   int rate_ = 0, format_ = 0;  // the converter's input
-  double start_ = 0.0;         // when the first sample is heard, in seconds of the file
+  double start_ = 0.0;         // time of the first sample, in seconds of the file
   int64_t position_ = 0;
   bool has_begun_ = false, is_first_ = true, ended_ = false;
 };

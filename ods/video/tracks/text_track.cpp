@@ -23,7 +23,7 @@ static AVCodecID kind_of(Container container) {
   return container == Container::kWebm ? AV_CODEC_ID_WEBVTT : AV_CODEC_ID_SUBRIP;
 }
 
-// Null: it cannot be opened.
+// Returns null if it cannot be opened.
 static Owned<AVCodecContext> open_text_decoder(const AVStream& from) {
   const AVCodec* codec = avcodec_find_decoder(from.codecpar->codec_id);
   const AVCodecDescriptor* kind = avcodec_descriptor_get(from.codecpar->codec_id);

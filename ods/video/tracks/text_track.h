@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Subtitles of text, encoded as another container's kind.
+// Text subtitles, encoded as another container's kind.
 #pragma once
 #include <memory>
 
@@ -17,11 +17,11 @@ class TextTrack {
   virtual ~TextTrack() = default;
   // Sets the parameters of the new stream.
   virtual void describe(AVStream& stream) const = 0;
-  // A packet with the same times; null if it shows nothing. Throws Error(kInput).
+  // Returns a packet with the same times; null if it shows nothing. Throws Error(kInput).
   virtual av::Owned<AVPacket> encode(const AVPacket& packet) = 0;
 };
 
-// Null: the stream has no text that this container can hold.
+// Returns null if the stream has no text that this container supports.
 std::unique_ptr<TextTrack> text_track(const AVStream& from, Container container);
 
 }  // namespace ods

@@ -21,7 +21,7 @@
 namespace ods {
 namespace {
 
-// Of a frame's plane, row by row, without what pads the rows.
+// The bytes of a frame's plane, row by row, without padding.
 std::string bytes_of_plane(const Planes& planes, Extent size, size_t plane) {
   const Extent block = plane == 0 ? Extent{1, 1} : chroma_block(planes.chroma);
   const size_t row = static_cast<size_t>(size.width / block.width) * (planes.bits > 8 ? 2 : 1);
@@ -250,8 +250,8 @@ VideoConversion turned_conversion(const Footage& video) {
   return conversion;
 }
 
-// Of a video's pictures, in milliseconds from the first on. Matroska has no times below 0, which sound may begin with,
-// and moves all of them.
+// The times of a video's pictures, in milliseconds from the first on. Matroska has no times below 0, which sound may
+// begin with, and moves all of them.
 std::vector<int> times_of(const std::string& path) {
   VideoDecoder decoder(path, choose_track(read_video_file(path), {}, path).id);
   std::vector<int> times;
@@ -308,11 +308,11 @@ TEST_F(ConvertVideo, UnevenTimesStay) {
     EXPECT_EQ(times_of(convert_file(video, folder.path(to))), times_of(video)) << to;
 }
 
-// What an edit list leaves out stays out, and picture and sound begin as far apart as before.
+// Parts that an edit list leaves out stay out, and picture and sound begin as far apart as before.
 TEST_F(ConvertVideo, EditListsHold) {
   if (!is_installed("ffmpeg")) GTEST_SKIP() << "skipped: ffmpeg is not installed";
   const std::string whole = make("whole.mp4", kPacking, 40), video = folder.path("cut_360_TB.mp4");
-  // The copy begins with a key frame, at 0; an edit list says to show it from 0.2 s on.
+  // The copy begins with a key frame, at 0; an edit list shows it from 0.2 s on.
   ASSERT_EQ(output_of("ffmpeg -v error -ss 0.2 -i " + whole + " -c copy " + video + " 2>&1"), "");
   const std::string old =
       output_of("ffmpeg -v error -i " + video + " -map 0:v -f framemd5 - | grep -v '^#' | cut -d, -f3");
@@ -333,7 +333,7 @@ TEST_F(ConvertVideo, APartIsExactAtBothEnds) {
     Footage old(video, {}), part(made, {});
     const auto before = old.decode(first), after = part.next();
     ASSERT_TRUE(before && after);
-    // Turned by a quarter: the moving waves tell one frame from the next.
+    // Turned by a quarter: the moving waves distinguish the frames.
     double off = 0.0, off_by_one = 0.0;
     const auto next = old.next();
     ASSERT_TRUE(next);

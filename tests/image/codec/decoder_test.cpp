@@ -57,6 +57,16 @@ TEST(ExrDecoder, ReadsEveryPacking) {
   }
 }
 
+// "GB" is not a part of "RGBA".
+TEST(ExrDecoder, PutsRedGreenBlueAndAlphaBeforeOtherChannels) {
+  const TemporaryFolder folder;
+  ExrForm form;
+  form.channels = {"A", "B", "G", "GB", "R", "RG"};
+  write_exr_of(folder.path("a.exr"), form, exr_values(6, 0));
+  EXPECT_EQ(open_exr(picture_on_disk(folder.path("a.exr")))->info.channels,
+            (std::vector<std::string>{"R", "G", "B", "A", "GB", "RG"}));
+}
+
 TEST(ExrDecoder, ReadsTheFirstPart) {
   const TemporaryFolder folder;
   const std::vector<ExrForm> parts(2);
@@ -68,14 +78,14 @@ TEST(ExrDecoder, ReadsTheFirstPart) {
   EXPECT_TRUE(read_all(*decoder) == pixels[0]);
 }
 
-// As compositors and Blender write the two eyes, each with its layers.
+// Two eyes as compositors and Blender write them, each with its layers.
 TEST(ExrDecoder, ReadsThePartsOfBothViews) {
   const TemporaryFolder folder;
   std::vector<ExrForm> parts(5);
   const char* const views[] = {"right", "left", "right", "left", "left"};
   std::vector<Bytes> pixels;
   for (size_t i = 0; i < parts.size(); i++) {
-    if (i >= 2) parts[i].channels = {"Z", "normal.X"};  // the last part says what the fourth does
+    if (i >= 2) parts[i].channels = {"Z", "normal.X"};  // the last part repeats the fourth
     parts[i].tile = i == 1 ? 16 : 0;
     parts[i].prepare = [view = views[i]](Imf::Header& header) { header.setView(view); };
     pixels.emplace_back(bytes_of_pixels(parts[i]));

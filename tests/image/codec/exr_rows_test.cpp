@@ -96,7 +96,7 @@ TEST(ExrRows, LeaveOtherFilesAlone) {
   EXPECT_FALSE(ExrRows::open(folder.path("a.exr"), kLight));
 }
 
-// Whether a file is refused; what is read of one that is damaged may be anything.
+// Returns whether a file is refused; the pixels of a damaged file may be anything.
 bool is_refused(const TemporaryFolder& folder, const std::string& bytes) {
   folder.write("b.exr", bytes);
   const auto exr = ExrRows::open(folder.path("b.exr"), kLight);
@@ -119,7 +119,7 @@ TEST(ExrRows, SurviveDamage) {
   int refused = 0;
   for (int i = 0; i < 400; i++) {
     std::string file = whole;
-    // Of the data window nothing: OpenEXR has judged it when rows are read.
+    // The data window is left out: OpenEXR has checked it when rows are read.
     const size_t start = i % 2 == 0 ? file.size() / 4 : file.find("lineOrder");
     for (int k = 0; k <= i % 4; k++) file[start + random() % (file.size() - start)] = static_cast<char>(random());
     refused += is_refused(folder, file) ? 1 : 0;

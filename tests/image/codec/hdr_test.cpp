@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Radiance pictures, packed here by the words of their description.
+// Radiance pictures, packed here by their description.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +10,7 @@
 #include <random>
 
 #include "ods/base/error.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/codec/encoder.h"
 #include "tests/support/decoded_rows.h"
 #include "tests/support/temporary_folder.h"
@@ -107,7 +108,7 @@ TEST(HdrDecoder, ReadsLongRepetitions) {
   EXPECT_EQ(sample_value(SampleType::kFloat, &pixels[pixels.size() - 4]), value_of(pixel, 2));
 }
 
-// Exposure and colour correction say what was done to the numbers; they are not undone.
+// Exposure and colour correction record changes of the numbers; they are not undone.
 TEST(HdrDecoder, HeadersSayMore) {
   expect_picture(make_hdr(by_component,
                           "#?RGBE\n# a comment\nEXPOSURE=2\nCOLORCORR=1 2 3\nGAMMA=2.2\n"

@@ -153,7 +153,7 @@ TEST(TiffDecoder, ReadsJpegInside) {
   }
 }
 
-// What libtiff makes RGBA of; grey in this one.
+// A picture that libtiff converts to RGBA; grey in this one.
 TEST(TiffDecoder, ReadsOtherColourSpaces) {
   const TemporaryFolder folder;
   TiffForm form;

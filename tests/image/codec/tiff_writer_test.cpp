@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "ods/base/error.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/codec/encoder.h"
 #include "tests/support/temporary_folder.h"
 

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "ods/base/error.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/codec/encoder.h"
 #include "tests/support/decoded_rows.h"
 #include "tests/support/temporary_folder.h"

@@ -18,7 +18,7 @@ std::string number(uint32_t value) {
   return bytes;
 }
 
-// `stated`: the size in the file, if it is not that of the value.
+// `stated`: the size in the file, if it differs from the value's.
 std::string attribute(const std::string& type, const std::string& value, uint32_t stated = 0) {
   return "name" + std::string(1, '\0') + type + std::string(1, '\0') +
          number(stated > 0 ? stated : static_cast<uint32_t>(value.size())) + value;

@@ -40,7 +40,7 @@ CodeImage decode(const Binary& bytes) {
   return decode_ktx2(std::as_bytes(std::span(bytes)), "wood.ktx2");
 }
 
-// What decode_ktx2() says; empty if it takes them.
+// The error of decode_ktx2(); empty if it accepts the bytes.
 std::string fault_of(const Binary& bytes) {
   try {
     decode(bytes);
@@ -54,7 +54,7 @@ void put(Binary& bytes, size_t at, uint64_t value, size_t size) {
   for (size_t i = 0; i < size; i++) bytes.at(at + i) = static_cast<unsigned char>(value >> (8 * i));
 }
 
-// A file of one level, whose descriptor says nothing.
+// A file of one level, whose descriptor is empty.
 Binary make_ktx2(uint32_t vulkan_format, int width, int height, const Binary& level, uint32_t packing = 0) {
   const unsigned char mark[] = {0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb, '\r', '\n', 0x1a, '\n'};
   constexpr size_t kDescriptor = 104, kDescriptorSize = 44;

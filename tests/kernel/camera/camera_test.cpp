@@ -127,7 +127,7 @@ TEST(Camera, UWraps) {
   }
 }
 
-// What other cameras' documentation and source give, at 15 30 45 60 67.5 75 80 85 and 88 degrees.
+// Values from the documentation and source of other cameras, at 15 30 45 60 67.5 75 80 85 and 88 degrees.
 TEST(Camera, PoleMergesAreThoseOfOtherRenderers) {
   const float at[] = {15, 30, 45, 60, 67.5f, 75, 80, 85, 88};
   struct Known {

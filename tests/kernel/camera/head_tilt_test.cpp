@@ -110,7 +110,7 @@ TEST(HeadTilt, ToedInRaysMeetAndTheNeckStaysLevel) {
   EXPECT_LT(length(camera_ray(make_camera(stereo), kRight, uv).origin - level.origin), 1e-9f);
 }
 
-// Over a pole the picture goes on in the other eye's, as without a map.
+// Across a pole the picture continues in the other eye's, as without a map.
 TEST(HeadTilt, GoesOnOverThePolesIntoTheOtherEye) {
   Dice dice(3);
   StereoCamera stereo;
@@ -170,7 +170,7 @@ TEST(HeadTilt, FindsTheRayThatMeetsAPoint) {
   EXPECT_LT(missed, all / 5000) << all;
 }
 
-// What no ray meets is not seen, and nothing is a NaN.
+// Points that no ray hits are not seen, and nothing is a NaN.
 TEST(HeadTilt, PointsThatNoRayMeetsAreNotSeen) {
   StereoCamera stereo;
   for (const float tilt : {0.0f, 0.5f, 0.8f}) {

@@ -47,7 +47,8 @@ TEST(Projections, AgreeWithTheirDefinitionsAndComeBack) {
   }
 }
 
-// Against the area that the exact directions around a place span, over that of another place in the picture.
+// Compared with the area spanned by the exact directions around a place, divided by the area at another place in the
+// picture.
 TEST(Projections, SolidAnglesAreThoseOfTheirDirections) {
   Dice dice(3);
   for (const ProjectionSetting& setting : many_settings(dice)) {
@@ -74,7 +75,7 @@ TEST(Projections, SolidAnglesAreThoseOfTheirDirections) {
   }
 }
 
-// What lies outside is known to: no place is seen whose direction is another.
+// Places outside are recognised: a visible place never has another direction.
 TEST(Projections, KnowWhatTheyDoNotSee) {
   Dice dice(2);
   for (const ProjectionSetting& setting : many_settings(dice)) {
@@ -102,7 +103,7 @@ TEST(Projections, KnowWhatTheyDoNotSee) {
   EXPECT_LT(length(look_of(dome, vec2(0.5f), vec2(0.5f)).direction - vec3(0, 1, 0)), 1e-6f);
 }
 
-// What Cycles calls an equidistant lens is ours; known answers of its defaults, which come close to a lens of 50 mm.
+// Cycles' equidistant lens is ours; known answers of its defaults, which come close to a lens of 50 mm.
 TEST(Projections, APolynomialOfOneTermIsAFisheye) {
   ProjectionSetting lens = find_projection("fisheye-polynomial")->setting;
   lens.sensor = vec2(30.0f, 30.0f);
@@ -159,7 +160,7 @@ TEST(Projections, AnEacFaceIsACellOfEac) {
   EXPECT_FALSE(place_of(make_projection(setting), vec3(-1.0f, 0.0f, 0.0f)).seen) << "behind it";
 }
 
-// A pixel filter reaches over a face's edge: the face goes on there, the neighbour in the picture does not matter.
+// A pixel filter reaches over a face's edge: the face continues there, the neighbour in the picture does not matter.
 TEST(Projections, FacesGoOnBeyondTheirCells) {
   for (int kind = 0; kind < kProjectionCount; kind++) {
     if (!is_cube(kind)) continue;
@@ -255,7 +256,7 @@ TEST(Projections, StraightBehindIsOnTheRim) {
   }
 }
 
-// Where formulas of lenses are most likely to go wrong.
+// Places where formulas of lenses are most likely to go wrong.
 TEST(Projections, StraightBehindIsSeenByWholePicturesOnly) {
   for (const NamedProjection& named : named_projections()) {
     const Projection projection = make_projection(named.setting);

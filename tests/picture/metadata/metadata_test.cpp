@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What other programs find in our files: read with OpenEXR itself, with exiftool, and byte by byte.
+// The metadata that other programs find in our files: read with OpenEXR itself, with exiftool, and byte by byte.
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
@@ -57,7 +57,7 @@ struct ExrFile {
   std::vector<std::string> channels;
   std::vector<std::byte> pixels;  // floats
 
-  // Of the pixel in the middle of a row; -1 where there is no such channel.
+  // The value of the pixel in the middle of a row; -1 if there is no such channel.
   float at(const std::string& channel, int y) const {
     const auto found = std::find(channels.begin(), channels.end(), channel);
     const size_t pixel = static_cast<size_t>(y * size.width + size.width / 2);
@@ -85,7 +85,8 @@ ExrFile save_exr(const Picture& picture, const SaveOptions& options) {
   return file;
 }
 
-// The view that OpenEXR's rules give a channel: bare names are the default view's, otherwise the last word but one.
+// The view that OpenEXR's rules give a channel: bare names are the default view's, otherwise the last component but
+// one.
 std::string view_of(const std::string& channel) {
   const size_t last = channel.rfind('.');
   if (last == std::string::npos) return "left";

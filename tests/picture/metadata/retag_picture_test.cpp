@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures that say something already, and are made to say something else: nothing changes that is not asked for.
+// Pictures that already have metadata, and get others: only the requested ones change.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ Picture gradient(const std::vector<int>& eyes) {
   }
   return picture;
 }
-// As ods inject has it: what is known of the picture, with another yaw.
+// The known format of the picture with another yaw, as in ods inject.
 void turn(const std::string& path, float yaw) {
   std::vector<std::string> guesses;
   PictureTag tag = complete_tag({}, path, guesses);
@@ -60,7 +60,7 @@ TEST(RetagPicture, OnlyWhatIsAskedForChangesInGpano) {
     write_xmp(file, to, make_xmp(crop));
     to.commit();
   }
-  Sidecar sidecar;  // of the whole sphere: the picture knows better
+  Sidecar sidecar;  // of the whole sphere: the picture's own metadata are better
   sidecar.eyes = {kMono};
   save_sidecar(sidecar, folder.path("a.camera.json"));
   const auto properties = [&] {
@@ -111,7 +111,7 @@ TEST(RetagPicture, OnlyWhatIsAskedForChangesInAnExr) {
   }
 }
 
-// What means nothing to the new projection goes.
+// Metadata that do not apply to the new projection are removed.
 TEST(RetagPicture, AnExrLosesTheNumbersOfAnotherLens) {
   const TemporaryFolder folder;
   const std::string path = folder.path("a.exr");

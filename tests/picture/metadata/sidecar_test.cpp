@@ -177,7 +177,7 @@ TEST(Sidecar, NonsenseIsAnErrorOfOneLine) {
   }
 }
 
-// Every value of a whole file in turn. Of all keys only these three have null as a value.
+// Every value of a whole file in turn. Only these three keys allow null.
 TEST(Sidecar, NullAndWrongTypesAreNoDefaults) {
   Dice dice(4);
   const Json good = Json::parse(write_sidecar(random_file(dice, 0)));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a picture's form is found: attributes, sidecars, GPano, names and shapes; and which guesses are reported.
+// The sources of a picture's format: attributes, sidecars, GPano, names and shapes; and the guesses that are reported.
 #include "ods/picture/metadata/stereo_format.h"
 
 #include <gtest/gtest.h>
@@ -137,7 +137,7 @@ TEST(Metadata, AMergeThatIsTheSameAllAroundIsInTheFile) {
   EXPECT_TRUE(lacks_merge_map(read_info(folder.path("b.exr")), without.camera));
 }
 
-// An EXR says that there is a map; the sidecar has it.
+// An EXR names a map; the sidecar has it.
 TEST(Metadata, AHeadTiltMapComesBackFromTheSidecar) {
   const TemporaryFolder folder;
   StereoCamera stereo;
@@ -159,7 +159,7 @@ TEST(Metadata, AHeadTiltMapComesBackFromTheSidecar) {
   }
 }
 
-// A sidecar of an earlier render gives no more than the map that the file says it has.
+// A sidecar of an earlier render supplies only the map that the file names.
 TEST(Metadata, AnExrComesBeforeItsStaleSidecarWithAMap) {
   const TemporaryFolder folder;
   StereoCamera old, stereo;
@@ -372,7 +372,7 @@ TEST(NameFault, IsWhatReadersWouldGetWrong) {
     EXPECT_EQ(name_fault(fine, Layout::kTopBottom, sphere), "") << fine;
   }
   EXPECT_EQ(name_fault("y_180.png", {}, half), "");
-  EXPECT_EQ(name_fault("y_LR.exr", Layout::kMultiview, sphere), "");  // it says so itself
+  EXPECT_EQ(name_fault("y_LR.exr", Layout::kMultiview, sphere), "");  // its metadata record it
 }
 
 struct Guess {

@@ -386,7 +386,7 @@ TEST(TagPicture, AnOrdinaryPhotographBecomesNoSphere) {
   EXPECT_TRUE(is_full_lat_long(complete_tag(known, path, guesses).camera.projection));
 }
 
-// Whoever tells the layout and the projection.
+// The source of the layout and the projection does not matter.
 TEST(TagPicture, AFileThatCannotHaveTheLayoutIsRefused) {
   const TemporaryFolder folder;
   const std::string path = folder.path("a.tif"), named = folder.path("a_360_TB.tif");

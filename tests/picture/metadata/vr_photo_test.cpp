@@ -85,7 +85,7 @@ class Photo : public testing::Test {
     return read_right_eye(path, warnings);
   }
 
-  // What is said of it although it can be read.
+  // The warnings about a file that can be read.
   std::string guesses() const {
     std::string all;
     for (const std::string& guess : open_picture(path).guesses) all += guess + "\n";

@@ -162,7 +162,7 @@ TEST(CachedLight, StrangeScenesAreFinite) {
   }
 }
 
-// Mean light of the cache's picture over that of whole paths.
+// Mean light of the cache's picture divided by the mean with whole paths.
 double cached_over_path(const Scene& scene, const StereoCamera& camera, RenderOptions options) {
   const Picture fast = render_cpu(scene, camera, options);
   for (const float value : fast.eyes[0].radiance.pixels) EXPECT_TRUE(std::isfinite(value));

@@ -45,7 +45,7 @@ RenderOptions catching_render(int width, int samples) {
   return options;
 }
 
-// Where on the floor the middle of a pixel is.
+// The point on the floor that the middle of a pixel shows.
 glm::dvec3 floor_at(int width, int x, int y) {
   const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
                 (static_cast<float>(y) + 0.5f) / static_cast<float>(width / 2));
@@ -152,7 +152,7 @@ TEST(Catcher, AWallTakesHalfOfTheSky) {
   }
 }
 
-// Of a sun and a sky, a small board high up takes the sun.
+// A small board high up blocks the sun, but not the sky.
 TEST(Catcher, SkyAndSunTogether) {
   Scene scene = catching_floor();
   add_sun(scene, vec3(0.0f, -1.0f, 0.0f), 2.0f);
@@ -182,7 +182,7 @@ TEST(Catcher, CatchersCastNoShadowAndHideWhatIsBehind) {
   for (int y = width / 4; y < width / 4 + 6; y++) EXPECT_EQ(*dark.alpha.at(width / 2, y), 0.0f) << y;
 }
 
-// A lamp's far side is behind its near one whoever else is there.
+// A lamp's far side is behind its near side, whatever else is there.
 TEST(Catcher, ALampCastsNoShadowOfItself) {
   Scene scene = catching_floor();
   Material lamp = matte(vec3(0.0f));

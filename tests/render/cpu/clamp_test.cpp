@@ -31,7 +31,7 @@ TEST(Render, ClampLimitsIndirectLight) {
   }
 }
 
-// What the shadow rays find is clamped, too, and both eyes agree.
+// The light found by shadow rays is clamped, too, and both eyes agree.
 TEST(Render, ClampTakesLightFromBothEyesAlike) {
   const Scene scene = load_scene("room");
   RenderOptions options = small_render(48, 64);

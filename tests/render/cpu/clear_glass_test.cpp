@@ -18,7 +18,7 @@ constexpr double kFloor = 0.8;   // its albedo
 constexpr double kBelow = 1.0;   // the floor is this far below the camera,
 constexpr double kAbove = 20.0;  // and the lowest sheet this far above it: too far for light to go to and fro
 
-// What one surface of glass lets through, at the cosine in air.
+// The transmission of one surface of glass, at the cosine in air.
 double let_through(double ior, double cosine) {
   const double beyond = std::sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior));
   const double rs = (cosine - ior * beyond) / (cosine + ior * beyond);
@@ -275,7 +275,7 @@ TEST(ClearGlass, StraightOutOfASolid) {
   EXPECT_NEAR(mean / seen, 1.0, 0.05);
 }
 
-// What is seen through a window is known to denoisers as what it is.
+// Denoisers get the features of the things seen through a window.
 TEST(ClearGlass, LayersShowWhatIsBehind) {
   Scene scene;
   add_plane(scene, -3.0, 300.0, add_material(scene, dull(0.25f)));

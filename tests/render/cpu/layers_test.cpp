@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What stands beside the radiance: layers, variance and number of samples.
+// The layers beside the radiance: features, variance and number of samples.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -36,7 +36,7 @@ TEST(Statistics, OfSamplesThatAreOneOrZero) {
   EXPECT_GT(mixed, 10);
 }
 
-// What a file cannot hold takes no memory, and changes nothing else.
+// Layers that a file cannot store do not take memory, and do not change anything else.
 TEST(Layers, CanBeLeftOut) {
   Scene scene;
   add_box(scene, vec3(-1.0f), vec3(1.0f), add_material(scene, matte(vec3(0.5f))));
@@ -51,7 +51,7 @@ TEST(Layers, CanBeLeftOut) {
   EXPECT_TRUE(bare.eyes[0].depth.pixels.empty() && bare.eyes[0].normal.pixels.empty());
 }
 
-// So denoisers know the edges of what a mirror shows. Its depth is its own: that is where the eyes meet it.
+// So denoisers see the edges in a mirror. Its depth is its own: the eyes meet it there.
 TEST(Layers, MirrorsShowWhatTheyReflect) {
   Scene scene;
   Material mirror = default_material();

@@ -267,7 +267,7 @@ TEST(MotionBlur, FramesOfARunAreThoseAlone) {
   }
 }
 
-// What the depth layer shows, and where it is at another time: the ball's points move by its motion, the floor's stay.
+// The points of the depth layer, and their places at another time: the ball's points move with it, the floor's stay.
 TEST(MotionRender, CenterHitsFollowWhatMoves) {
   Scene scene = make_ball();
   set_time(scene, 0.4);
@@ -300,7 +300,7 @@ TEST(MotionRender, CenterHitsFollowWhatMoves) {
   EXPECT_GT(moved, 5);
 }
 
-// Changes that add up while nobody applies them.
+// Changes that add up until they are applied.
 TEST(MotionRender, TimeMayPassUnseenBetweenFrames) {
   Scene scene = make_ball();
   set_time(scene, 0.2);

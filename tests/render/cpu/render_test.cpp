@@ -184,7 +184,7 @@ TEST(Lamps, Directional) {
   expect_floor(scene, 4, 1e-5, [](glm::dvec3) { return 3.0 * 0.8; });
 }
 
-// The same at a great height, where single precision is coarse and a shadow ray starts well off the floor.
+// The shadow at a great height, where single precision is coarse and a shadow ray starts well off the floor.
 TEST(Lamps, Rectangle) {
   for (float height : {0.0f, 40.0f}) {
     Scene scene = floor_scene(height);

@@ -26,7 +26,7 @@ RenderOptions options_with(int samples, float noise) {
   return options;
 }
 
-// Renders in one go, or is cancelled after every slice, and goes on from what was kept.
+// Renders in one go, or is cancelled after every slice, and resumes from the saved samples.
 Picture render_in_pieces(const Scene& scene, const RenderOptions& options, int& pieces) {
   const CpuRenderer renderer(scene, options.threads);
   const StereoCamera camera;
@@ -54,6 +54,27 @@ TEST(Resume, GivesTheBitsOfARunWithoutInterruption) {
     EXPECT_EQ(digest(render_in_pieces(scene, options, pieces)), whole) << noise;
     EXPECT_GT(pieces, 1) << noise;
   }
+}
+
+// A picture that was clean when shown dark is sampled further when it is shown brighter, to the noise of a picture that
+// was always judged at this exposure.
+TEST(Resume, AtAnotherExposureBlocksAreJudgedAgain) {
+  const Scene scene = load_scene("toys");
+  const CpuRenderer renderer(scene);
+  const StereoCamera camera;
+  const auto sample = [&](PictureSamples& samples, float exposure) {
+    RenderOptions options = options_with(1024, 0.01f);
+    options.noise_exposure = exposure;
+    renderer.sample({&camera, 1}, options, samples);
+    return static_cast<double>(count_samples(samples));
+  };
+  PictureSamples lit = no_samples(options_with(1024, 0.01f));
+  const double wanted = sample(lit, 4.0f);
+  PictureSamples samples = no_samples(options_with(1024, 0.01f));
+  const double dark = sample(samples, -6.0f);
+  EXPECT_LT(dark, 0.8 * wanted) << "else this test shows nothing";
+  EXPECT_EQ(sample(samples, -6.0f), dark);
+  EXPECT_NEAR(sample(samples, 4.0f) / wanted, 1.0, 0.15);
 }
 
 TEST(Parts, AddUpToTheBitsOfOneRun) {

@@ -231,7 +231,7 @@ TEST(SharedPaths, GiveTheSameBitsWhateverTheThreads) {
   EXPECT_EQ(one, digest(render_cpu(scene, StereoCamera{}, options)));
 }
 
-// The variance of pixels of a matt room over many seeds: less than without sharing, and what the statistics say.
+// The variance of pixels of a matt room over many seeds: less than without sharing, and equal to the statistics.
 TEST(SharedPaths, HaveLessNoise) {
   Scene scene;
   add_box(scene, vec3(-1.5f, -1.0f, -2.0f), vec3(1.5f, 1.2f, 2.0f), add_material(scene, matte(vec3(0.7f))));

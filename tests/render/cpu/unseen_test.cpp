@@ -178,7 +178,7 @@ TEST(Unseen, TheLightCacheAgrees) {
   EXPECT_NEAR(means[1] / means[0], 1.0, 0.015);
 }
 
-// Of two instances of one mesh only one is a lamp that nothing meets.
+// Only one of two instances of a mesh is a lamp that rays do not hit.
 TEST(Unseen, InstancesHaveRolesOfTheirOwn) {
   Scene scene;
   add_lamp(scene, 1.0f, 60.0f, kPureLight);

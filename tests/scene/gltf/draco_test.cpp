@@ -114,7 +114,7 @@ TEST(GltfDraco, ValuesHaveTheTypeOfTheirAccessor) {
   color["componentType"] = kFloat;
   color.erase("normalized");
   expect_same(file.load(), make_grid(12).load());
-  color["componentType"] = kUshort;  // of 65535: too dark, but what the file says
+  color["componentType"] = kUshort;  // of 65535: too dark, but as in the file
   color["normalized"] = true;
   EXPECT_FLOAT_EQ(file.load().vertices[1].color.x, 7.0f / 65535.0f);
 }
@@ -187,7 +187,7 @@ TEST(GltfDraco, ManyPrimitives) {
   EXPECT_EQ(scene.triangles.size(), 21u * 18u);
 }
 
-// A flat grid takes next to no bytes, and is no bomb.
+// A flat grid takes hardly any bytes, and is not a decompression bomb.
 TEST(GltfDraco, SmallStreamsMayHoldMuch) {
   GltfBuilder file = make_grid(300);
   file.primitive()["attributes"] = {{"POSITION", file.primitive()["attributes"]["POSITION"]}};

@@ -47,7 +47,7 @@ TEST(Extensions, EachHasANameOfItsOwnAndAnExplanation) {
   }
 }
 
-// What a file says that uses, or requires, an extension follows its state.
+// The message about a file that uses, or requires, an extension follows the extension's state.
 TEST(Extensions, EveryStateIsHeeded) {
   for (const Extension& each : gltf_extensions()) {
     GltfBuilder file = make_triangle();

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Whatever the bytes are: a Scene that keeps its promises (error_of checks that), or one line that names the file.
-#include <fmt/core.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -53,8 +51,8 @@ TEST(GltfBadInput, TheWholeFileIsSound) {
 }
 
 TEST(GltfBadInput, AbsentEmptyAndFolder) {
-  const auto folder = std::filesystem::temp_directory_path() / fmt::format("ods-bad-input-{}", ::getpid());
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder holder;
+  const std::filesystem::path folder = holder.path(".");
   std::ofstream(folder / "empty.glb").flush();
   for (const std::string name : {"absent.glb", "empty.glb", ""}) {
     try {
@@ -65,7 +63,6 @@ TEST(GltfBadInput, AbsentEmptyAndFolder) {
       EXPECT_NE(std::string(error.what()).find((folder / name).string()), std::string::npos) << error.what();
     }
   }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(GltfBadInput, CutAnywhere) {
@@ -93,7 +90,7 @@ TEST(GltfBadInput, NotGltf) {
   }
 }
 
-// Neither absent nor too large: the system says why.
+// Neither absent nor too large: the system's error is reported.
 TEST(GltfBadInput, FilesThatCannotBeReached) {
   GltfBuilder file = make_triangle();
   file.json["buffers"] = {{{"byteLength", file.binary.size()}, {"uri", std::string(300, 'a')}}};
@@ -110,7 +107,7 @@ TEST(GltfBadInput, DeepJson) {
   EXPECT_EQ(error_of_text(R"({"asset": {"version": "2.0"}, "extras": "[[[[" })"), "");
 }
 
-// Each of these breaks one thing of a sound file; the answer must be an Error with these words.
+// Each of these breaks one thing in a valid file; the answer must be an Error with this text.
 struct Breakage {
   const char* path;  // JSON pointer
   const char* value;
@@ -233,7 +230,7 @@ Binary vast_png() {
   return png;
 }
 
-// Five of them are more than 64 million texels and a thousand for each byte; in which order they are read is no matter.
+// Five of them are more than 64 million texels and a thousand for each byte; their order does not matter.
 TEST(GltfBadInput, TexelsThatAFileOfItsSizeCannotHold) {
   GltfBuilder file = make_triangle();
   for (int i = 0; i < 5; i++) {

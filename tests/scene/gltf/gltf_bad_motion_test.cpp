@@ -14,7 +14,7 @@
 
 namespace ods::gltf_bad_motion_test {
 
-// What the reader says; a file that it takes is played.
+// The reader's error; a file that it accepts is played.
 std::string answer(const Binary& bytes) {
   try {
     Scene scene = load_gltf_bytes(bytes, "test.glb");
@@ -66,7 +66,7 @@ TEST(GltfBadMotion, FlippedBits) {
 struct Breakage {
   const char* path;  // JSON pointer
   const char* value;
-  const char* words;  // of the error; empty: the file is read without what is broken
+  const char* words;  // of the error; empty: the file is read without the broken part
 };
 
 class GltfMotionBreakage : public testing::TestWithParam<Breakage> {};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How glTF writes things down: whole numbers as reals, data that is left out, what is skipped, what is too much.
+// JSON as in glTF: whole numbers as reals, absent data, skipped parts, limits.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -132,7 +132,7 @@ TEST(GltfJson, SkipsWhatReadersDoNotKnow) {
             std::string::npos);
 }
 
-// What would take a hundred times the size of the text.
+// JSON that would take a hundred times the size of the text.
 TEST(GltfJson, ExtrasTakeNoMemory) {
   std::string text = R"({"asset": {"version": "2.0"}, "extras": [)";
   for (int i = 0; i < 1'000'000; i++) text += "{},0,";

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What becomes of a file's pictures: normal maps of 16 bits, and cube maps that light the scene.
+// The use of a file's pictures: normal maps of 16 bits, and cube maps that light the scene.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/scene/gltf/gltf.h"
 
-#include <fmt/core.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -16,6 +14,7 @@
 #include "tests/support/gltf_builder.h"
 #include "tests/support/places.h"
 #include "tests/support/scene_check.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ods::gltf_test {
 
@@ -133,7 +132,7 @@ TEST(Gltf, SparseAccessor) {
   expect_near(scene.vertices[2].position, vec3(0, 1, 0));
 }
 
-// Integers of 32 bits are no floats: 16777217 would become 16777216.
+// Integers of 32 bits do not fit into floats: 16777217 would become 16777216.
 TEST(Gltf, SparseIndicesAreExact) {
   GltfBuilder file = make_triangle();
   const int where = file.add<uint8_t>({0, 1, 2}, kUbyte, "SCALAR");
@@ -413,8 +412,9 @@ TEST(Gltf, RequiredExtensionsAreNamed) {
 // --- files
 
 TEST(Gltf, BuffersAndPicturesBesideTheFile) {
-  const auto folder = std::filesystem::temp_directory_path() / fmt::format("ods gltf test {}", ::getpid());
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder holder;
+  const std::filesystem::path folder = holder.path("a b");
+  std::filesystem::create_directory(folder);
   GltfBuilder file = make_triangle();
   auto write = [&](const std::string& name, const Binary& bytes) {
     std::ofstream(folder / name, std::ios::binary)
@@ -433,7 +433,6 @@ TEST(Gltf, BuffersAndPicturesBesideTheFile) {
   EXPECT_EQ(scene.name, "scene");
   std::filesystem::remove(folder / "tile.png");
   EXPECT_THROW(load_gltf((folder / "scene.gltf").string()), Error);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Gltf, BufferInADataUri) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a file offers and hides: material variants and the visibility of nodes.
+// The choices in a file: material variants and the visibility of nodes.
 #include <gtest/gtest.h>
 
 #include "ods/base/error.h"

@@ -135,7 +135,7 @@ TEST(GltfZip, ConfinedAndUnpackedNowhere) {
 
 // --- damage
 
-// Where a file's entry in the list at the end is.
+// The offset of a file's entry in the list at the end.
 size_t entry_of(const Binary& zip, const std::string& name) {
   const std::string text(zip.begin(), zip.end());
   return text.rfind(name) - 46;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What Blender's export leaves out: the nodes and materials here are those that Blender 3.4 writes.
+// The losses of Blender's export: the nodes and materials here are as Blender 3.4 writes them.
 // tests/peers/blender_export_test.cpp has Blender write them.
 #include <gtest/gtest.h>
 

@@ -51,7 +51,7 @@ TEST(MaterialLayers, EveryFactor) {
 }
 
 // Exporters write extensions whose values change nothing: such a material stays plain, which renders faster. The last
-// material is that of primitives without one.
+// material is for primitives without one.
 TEST(MaterialLayers, DefaultsLeaveAMaterialPlain) {
   const Scene scene = with_materials(R"([
       {"extensions": {"KHR_materials_specular": {"specularFactor": 1, "specularColorFactor": [1, 1, 1]}}},

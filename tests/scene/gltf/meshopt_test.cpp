@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whoever reads a compressed buffer view sees its decoded bytes; damaged ones give one line.
+// A reader of a compressed buffer view sees its decoded bytes; damaged ones give one line.
 #include <gtest/gtest.h>
 #include <meshoptimizer.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Names of files as programs write them, whatever the specification says.
+// Names of files as programs write them, even against the specification.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -133,7 +133,7 @@ TEST_F(GltfUri, NothingOutsideIsFoundByAnotherSpelling) {
   }
 }
 
-// Only the first are searched for: a folder that was listed anew for each would outlast the test's time limit.
+// Only the first are searched for: listing a folder again for each would exceed the test's time limit.
 TEST_F(GltfUri, ManyFilesMayBeAbsent) {
   GltfBuilder file = make_triangle();
   for (int i = 0; i < 3000; i++) file.json["images"].push_back({{"uri", "Textures\\" + std::to_string(i) + ".png"}});

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/scene/load/environment.h"
 
-#include <fmt/core.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <limits>
@@ -12,6 +10,7 @@
 #include "ods/base/error.h"
 #include "ods/files/atomic_file.h"
 #include "ods/image/image_file.h"
+#include "tests/support/temporary_folder.h"
 
 namespace ods {
 namespace {
@@ -19,8 +18,8 @@ namespace {
 TEST(Environment, RadianceIsReadAndRepaired) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
   const std::vector<float> values = {1.0f, 2.5f, 1000.0f, nan, -1.0f, infinity};  // two texels
-  const std::string path =
-      (std::filesystem::temp_directory_path() / fmt::format("ods-environment-{}.exr", ::getpid())).string();
+  const TemporaryFolder folder;
+  const std::string path = folder.path("sky.exr");
   FileHeader header;
   header.format = FileFormat::kExr;
   header.width = 2;

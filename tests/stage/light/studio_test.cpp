@@ -11,7 +11,7 @@
 namespace ods {
 namespace {
 
-// What a camera sees in a direction; degrees.
+// The radiance that a camera sees in a direction; degrees.
 double seen(const Scene& scene, vec3 eye, float yaw, float pitch, int samples = 1024, float fov = 2.0f) {
   StereoCamera camera;
   camera.position = eye;

@@ -236,7 +236,7 @@ TEST(Supply, TheSunStandsWhereItLightsWhatIsSeen) {
   EXPECT_EQ(usual.azimuth, SkyOptions().azimuth);
 }
 
-// A room with a window and a lamp of its own gets no sky, and a word on it.
+// A room with a window and a lamp of its own does not get a sky, and a note reports it.
 TEST(Supply, NothingBehindAWindowIsSaid) {
   Scene room = make_walled_room(true);
   PunctualLight lamp;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tagging mkv and webm: whatever had to move, everything that says where something lies goes on being right.
+// Tagging mkv and webm: whatever had to move, all stored positions stay right.
 #include "ods/video/container/matroska_file.h"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ class MatroskaVideo : public ::testing::Test {
   TagResult result;
 };
 
-// What stands at the places that the video's index names: ids, and the words in the clusters.
+// The data at the places in the video's index: ids, and the texts in the clusters.
 void expect_right_places(const std::string& video, bool says_position) {
   const made::Piece segment = made::pieces(video, {kSegment}).at(0);
   const auto number = [&](const made::Piece& piece) {
@@ -211,7 +211,7 @@ TEST_F(MatroskaVideo, CheckSumsAreMadeTrue) {
   element.id = 0x1654ae6b;
   element.children = {{0xbf, 1, "none", {}}, {0x31, 1, "3456789ab", {}}};
   update_crc(element);
-  // Of the bytes 31 89 "3456789ab", by Python's zlib.crc32().
+  // The checksum of the bytes 31 89 "3456789ab", by Python's zlib.crc32().
   EXPECT_EQ(element.children[0].body, std::string("\x7b\xf8\x4e\x74", 4));
 }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Google's mesh projection: what a writer that follows the specification bit by bit has packed comes back, in every
-// kind of triangle list and both encodings; and what no camera would write is refused in words.
+// Google's mesh projection: meshes packed by a writer that follows the specification bit by bit are unpacked, in every
+// kind of triangle list and both encodings; meshes that a camera would not write are refused with a message.
 #include "ods/video/container/mesh_box.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@
 namespace ods {
 namespace {
 
-// Where a fisheye of 180 degrees shows a direction.
+// The place of a direction in a fisheye of 180 degrees.
 vec2 fisheye_uv(vec3 d) {
   const float across = length(vec2(d.x, d.y)), r = atan(across, -d.z) / (0.5f * kPi);
   const float scale = across > 0.0f ? r / across : 0.0f;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tagging mp4 and mov: the samples stay where the offsets say, whatever had to move for it.
+// Tagging mp4 and mov: the offsets still point to the samples, whatever had to move.
 #include "ods/video/container/mp4_file.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ class Mp4Video : public ::testing::Test {
     return read_video_file(folder.path("read.mp4")).tracks.at(track);
   }
 
-  // What it says when a video makes no sense, and that nothing happened to it.
+  // The error for an invalid video, and that the video did not change.
   std::string error_of(const std::string& video) {
     folder.write("bad.mp4", video);
     std::string text;
@@ -187,7 +187,7 @@ TEST_F(Mp4Video, VexuIsReplacedAndRemoved) {
   turned.yaw = 5.0;  // which vexu has no place for: it stays as it is
   EXPECT_EQ(read(tag(tagged, turned)).vexu, read(tagged).vexu);
   SphericalMetadata cube = apples;
-  cube.projection = VideoProjection::kCubemap;  // which vexu cannot say
+  cube.projection = VideoProjection::kCubemap;  // which vexu cannot express
   EXPECT_FALSE(read(tag(tagged, cube)).vexu);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What videos say of themselves, byte for byte, and how it is found: forms, V1, V2, names, shapes, players.
+// The metadata of videos, byte for byte, and their interpretation: forms, V1, V2, names, shapes, players.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -145,7 +145,7 @@ TEST(Apple, EveryFormThatFitsComesBack) {
   EXPECT_EQ(count, 10);  // mono, and left or right first, on top or beside; the whole sphere and half of it
 }
 
-// As cameras of two layers write it, without a packing.
+// Metadata as cameras of two layers write them, without a packing.
 TEST(Apple, LayersAreNoPacking) {
   SphericalMetadata metadata = metadata_of(VideoStereo::kTopBottom, VideoProjection::kEquirect);
   Box entry;
@@ -248,7 +248,7 @@ TEST(SphericalMetadata, HowFarItsEyesAreApartIsItsOwnWordOrItsSidecars) {
 TEST(SphericalMetadata, AnOrdinaryVideoIsNotTakenForASphere) {
   EXPECT_THROW(guess("holiday.mp4", {1920, 1080}), Error);
   EXPECT_THROW(guess("holiday_TB.mp4", {1920, 1080}), Error);
-  EXPECT_THROW(guess("a_cube-3x2.mp4", {300, 200}), Error);  // another order of faces than videos know
+  EXPECT_THROW(guess("a_cube-3x2.mp4", {300, 200}), Error);  // an order of faces that video metadata cannot express
   EXPECT_THROW(guess("a.mp4", {0, 0}), Error);
 }
 

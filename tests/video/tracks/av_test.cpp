@@ -6,6 +6,8 @@
 
 #include <cerrno>
 
+#include "tests/support/temporary_folder.h"
+
 namespace ods {
 namespace {
 
@@ -44,6 +46,27 @@ TEST(Av, FfmpegsOwnErrorsSayMoreThanItsTexts) {
   EXPECT_EQ(error_of(tag('P', 'A', 'W', 'E')),
             "cannot read 'a.mp4': this machine's FFmpeg does not support that; try another codec, format or size, or a "
             "newer FFmpeg");
+}
+
+// Whatever the name of a list, FFmpeg recognises it by its first bytes, and would read the files that it names.
+TEST(Av, NoFileNamesAnother) {
+  const TemporaryFolder folder;
+  const auto number = [](uint32_t value, int bytes) {
+    return std::string(reinterpret_cast<const char*>(&value), static_cast<size_t>(bytes));
+  };
+  const std::string samples(8000, '\0');
+  folder.write("good.wav", "RIFF" + number(36 + 8000, 4) + "WAVEfmt " + number(16, 4) + number(1, 2) + number(1, 2) +
+                               number(8000, 4) + number(8000, 4) + number(1, 2) + number(8, 2) + "data" +
+                               number(8000, 4) + samples);
+  EXPECT_NE(av::open_file(folder.path("good.wav"), "cannot read it"), nullptr);
+  const std::string hls =
+      "#EXTM3U\n#EXT-X-TARGETDURATION:9\n#EXTINF:1,\n" + folder.path("good.wav") + "\n#EXT-X-ENDLIST\n";
+  folder.write("list.m3u8", hls);
+  folder.write("list.wav", hls);
+  folder.write("concat.wav", "ffconcat version 1.0\nfile good.wav\n");
+  for (const char* list : {"list.m3u8", "list.wav", "concat.wav"}) {
+    EXPECT_THROW(av::open_file(folder.path(list), "cannot read it"), Error) << list;
+  }
 }
 
 TEST(Av, ErrorsOfTheSystemKeepTheirWords) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a video has beside its pictures, as FFmpeg writes it and as FFmpeg and ExifTool find it in the new one.
+// The other tracks of a video, as FFmpeg writes them and as FFmpeg and ExifTool find them in the new one.
 #include "ods/video/tracks/kept_tracks.h"
 
 #include <fmt/format.h>
@@ -122,7 +122,7 @@ TEST_F(KeptTracksTest, BoxesKeepAllThatBoxesHave) {
   }
 }
 
-// What libavformat does not know, a maker's note, an XMP packet and a cover, goes over box by box.
+// Boxes that libavformat does not support, a maker's note, an XMP packet and a cover, are copied box by box.
 TEST_F(KeptTracksTest, UnknownBoxesGoOver) {
   if (!is_installed("exiftool")) GTEST_SKIP() << "skipped: exiftool is not installed";
   const std::string old = source("old.mp4", "stereo.wav", "-c:a aac -c:s mov_text");
@@ -155,7 +155,7 @@ TEST_F(KeptTracksTest, MatroskaKeepsFontsAndCovers) {
   }
   EXPECT_NE(text(made, 1).find("World"), std::string::npos);
 
-  keep(old, "new.mp4");  // where there is no place for some of it
+  keep(old, "new.mp4");  // a format without a place for some of it
   for (const char* words : {"font.ttf) is lost", "tag DIRECTOR (Grace)", "title (Comments) of stream 2"}) {
     EXPECT_NE(told.find(words), std::string::npos) << words << " in " << told;
   }
@@ -190,7 +190,7 @@ TEST_F(KeptTracksTest, APartHasItsOwnTimes) {
   EXPECT_NE(probe(made, "-show_entries stream_tags=timecode").find("01:00:00:3"), std::string::npos);
 }
 
-// How much of the first channel each channel has.
+// The share of the first channel in each channel.
 std::vector<double> levels(const std::string& video) {
   const std::string bytes = output_of("ffmpeg -v error -i " + video + " -map 0:a:0 -f f32le -");
   std::vector<double> sums(4, 0.0);

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/convert/plan_conversion.h"
+
+#include "cli/console/console.h"
+#include "cli/options/eye_options.h"
+#include "cli/options/projection_options.h"
+#include "ods/video/container/video_file.h"
+
+using ods::Eyes, ods::StereoCamera;
+
+namespace {
+
+StereoCamera base_camera(const ods::StoredPicture& header, const ConvertOptions& options) {
+  StereoCamera camera = header.camera;
+  const bool becomes_stereo = !options.depth.path.empty() && header.eyes.size() == 1 && !header.has_ipd;
+  if (becomes_stereo) camera.top = camera.bottom = ods::kUsualMerge;
+  return camera;
+}
+
+std::vector<int> wished_eyes(const ods::StoredPicture& header, const ConvertOptions& options) {
+  const std::optional<Eyes> given = options.form.given_eyes();
+  if (options.mono || given == Eyes::kMonoEye) return {ods::kMono};
+  if (given) return ods::eye_list(*given);
+  const bool makes_two = !options.depth.path.empty() && header.eyes.size() == 1;
+  return makes_two ? std::vector<int>{ods::kLeft, ods::kRight} : same_format(header).eyes;
+}
+
+// A mono picture is one of the existing eyes, wherever the eyes are to move.
+bool moves_one_eye(const ods::StoredPicture& header, const ods::ConvertTarget& target, bool merges_by_depth) {
+  StereoCamera wished = target.camera;
+  const StereoCamera& own = header.camera;
+  wished.yaw = own.yaw, wished.pitch = own.pitch, wished.roll = own.roll;
+  return target.eyes[0] == ods::kMono && (merges_by_depth || !ods::same_eyes(wished, own));
+}
+
+}  // namespace
+
+ConversionPlan plan_conversion(const ods::StoredPicture& header, const ConvertOptions& options) {
+  ConversionPlan plan;
+  const CameraOptions& by = options.camera;
+  ods::ConvertTarget& target = plan.target;
+  StereoCamera& stereo = target.camera = changed(base_camera(header, options), by.changes);
+  turn(stereo, by.yaw.value_or(0.0f), by.pitch.value_or(0.0f), by.roll.value_or(0.0f));
+  target.holes = options.holes;
+  target.right = options.right;
+  target.eyes = wished_eyes(header, options);
+  if (options.form.given_eyes() == Eyes::kRightEye) target.mono_from = ods::kRight;
+  if (moves_one_eye(header, target, by.changes.merge_limit.has_value())) {
+    plan.notes.emplace_back("--ipd, --merge, --head-tilt-map and --eye-to-neck have no effect on one eye");
+  }
+  plan.save.sidecar = options.sidecar;
+  save_as_it_was(header, stereo.projection, options.output, options.form.given_layout(), options.display, plan.save);
+  if (options.display.exposure && keeps_light(options.output)) {
+    plan.notes.emplace_back("--exposure does not affect .exr and .hdr");
+  }
+  target.eye = ods::fitting_extent(header, stereo.projection);
+  if (const int width = options.form.given_width().value_or(0); width > 0) {
+    target.eye = {width, options.form.given_height().value_or(0)};
+  }
+  finish_projection(stereo.projection, target.eye.width, target.eye.height);
+  return plan;
+}

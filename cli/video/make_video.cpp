@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/video/make_video.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+
+#include "cli/console/console.h"
+#include "cli/console/long_job.h"
+#include "cli/frames/disk_room.h"
+#include "cli/frames/waiting.h"
+#include "cli/render/first_look.h"
+#include "cli/render/forecast.h"
+#include "cli/render/plan.h"
+#include "cli/render/render_frames.h"
+#include "cli/slits/stitch_frames.h"
+#include "ods/sequence/identity.h"
+#include "ods/sequence/render_video.h"
+
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+ods::EncodeOptions check_encoding(const VideoJob& job, const ods::VideoPlan& expected) {
+  const ods::EncodeOptions options = encode_options(job.video, expected.size, job.render.render.threads);
+  ods::check_packing(expected, options.packing);
+  say_what_players_need(job.video, expected, options);
+  return options;
+}
+
+ods::VideoJournal open_journal(const VideoJob& job, const ods::Settings& identity) {
+  const RenderJob& render = job.render;
+  return {job.video.output, identity, job.restart,
+          render.time.only.empty() ? ods::JournalUse::kAlone : ods::JournalUse::kShared,
+          std::chrono::seconds(static_cast<int>(render.wait))};
+}
+
+void announce_video(const VideoJob& job, const ods::VideoPlan& plan, const ods::EncodeOptions& options, size_t frames,
+                    Clock::time_point start) {
+  announce_file(job.video.output);
+  note(fmt::format("{}: {}, in {}", job.video.output, video_text(plan, options, frames),
+                   duration_text(seconds_since(start))));
+  if (job.keep_frames) note(fmt::format("the frames are in {}.frames", job.video.output));
+}
+
+void report_rendering(ProgressLines& lines, Clock::time_point begin, double done, const ProgressStep& step) {
+  lines.report(ods::kRenderingShare * done, seconds_since(begin), step);
+}
+
+std::function<void(double done)> report_encoding(const VideoJob& job, ProgressLines& lines, Clock::time_point begin,
+                                                 size_t frames) {
+  return [&job, &lines, begin, frames](double done) {
+    lines.report(ods::kRenderingShare + (1.0 - ods::kRenderingShare) * done, seconds_since(begin),
+                 video_step("encode", done, frames, job.video.output));
+  };
+}
+
+// Notes what is known before the first frame. Throws ods::Error(kOutput) if the disk cannot hold the frames.
+void say_start(const RenderJob& job, const ods::VideoStart& start, size_t own) {
+  const std::vector<size_t>& missing = start.missing;
+  const bool shared = !job.time.only.empty();
+  say_existing(own - missing.size(), own);
+  if (!missing.empty()) say_where(job, start.renderer, start.all.front());
+  say_look(job, start.renderer.options(), start.look);
+  if (missing.empty()) return;
+  if (!shared) warn_of_strain(job, start.renderer, start.all);
+  note(fmt::format("to render: {} frame{}, {}x{} per eye, at most {} samples per pixel", missing.size(),
+                   missing.size() == 1 ? "" : "s", job.render.width, job.render.height, job.render.samples));
+  if (shared) return say_disk_room(job.output, missing.size(), largest_frame(job.output, job.render, job.save));
+  std::vector<ods::SequenceFrame> frames;
+  for (const size_t index : missing) frames.push_back(start.all[index]);
+  say_forecast(job, start.renderer, frames);
+}
+
+void render_scene(const VideoJob& job, ProgressLines& lines) {
+  const auto begin = Clock::now();
+  RenderJob render = job.render;
+  ods::VideoOptions video;
+  video.encode =
+      check_encoding(job, expect_video(render.save.layout, ods::eye_list(render.render.eyes).size(),
+                                       {render.render.width, render.render.height}, render.camera.stereo.projection));
+  ods::VideoJournal journal = open_journal(job, frame_identity(identified(render)));
+  render.output = journal.pattern();
+  check_outputs(render);
+  ods::Scene scene = open_lit_scene(render.scene, render.render.transparent);
+  const TimeOptions time = video_time(render, scene);
+  video.frames = video_frames(time);
+  const std::vector<int> own = own_frames(time.only, video.frames);
+  if (!time.only.empty()) video.only = own;
+  video.raw = render.raw;
+  if (gives(render, "--tone")) video.tone = job.display.tone;
+  video.keep_frames = job.keep_frames;
+  video.wait = render.wait;
+  ods::VideoProgress progress;
+  progress.late = say_late("frame", render.wait);
+  progress.start = [&](const ods::VideoStart& start) {
+    say_start(render, start, own.size());
+    if (!video.only) say_length_of_sound(video.encode, video.frames.size());
+  };
+  progress.frames.report = [&](double done, const ods::FrameAtWork& at) {
+    report_rendering(lines, begin, done, {"render", at.place, at.count, at.path});
+  };
+  progress.frames.saved = [&](const ods::Rendered& frame) {
+    if (video.only) std::ranges::for_each(frame.files, announce_file);
+  };
+  progress.frames.waiting = say_waiting("frame");
+  progress.encoding = report_encoding(job, lines, begin, video.frames.size());
+  const auto made = ods::render_video(journal, scene, plan(render, time).sequence, video, progress);
+  lines.clear();
+  if (made) announce_video(job, *made, video.encode, video.frames.size(), begin);
+}
+
+// Stitches the frames from the views of a rig.
+void stitch_views(const VideoJob& job, ProgressLines& lines) {
+  const auto begin = Clock::now();
+  const RenderJob& render = job.render;
+  const ods::SlitRig rig = open_rig(job.rig);
+  StitchJob stitch;
+  const ods::Layout layout = render.form.given_layout().value_or(rig.layout);
+  const ods::EncodeOptions options =
+      check_encoding(job, expect_video(layout, rig.eyes.size(), rig.eye, rig.camera.projection));
+  ods::VideoJournal journal = open_journal(job, stitch_identity(job.rig, render.scene.name, layout));
+  stitch.views.names = render.scene.name;
+  stitch.output = journal.pattern();
+  stitch.save = render.save;
+  stitch.save.layout = layout;
+  stitch.layout = layout;
+  stitch.skip_existing = true;
+  stitch.claims = stitch.says_files = !render.time.only.empty();  // else the video has the claim
+  if (render.time.frames.empty()) throw UsageError("--rig needs --frames: the numbers of the views' folders");
+  stitch.frames = render.time.frames;
+  stitch.only = render.time.only;
+  const std::vector<int> numbers = ods::parse_frames(stitch.frames);
+  journal.plan(numbers, own_frames(stitch.only, numbers));
+  const std::vector<int> frames = stitch_frames(stitch, rig, [&](double done, const ProgressStep& step) {
+    journal.check();
+    report_rendering(lines, begin, done, step);
+  });
+  if (!stitch.only.empty()) return lines.clear();
+  say_length_of_sound(options, frames.size());
+  const ods::DisplayTransform display{render.exposure.value_or(render.brighter), job.display.tone};
+  const ods::VideoPlan plan = ods::encode_frames(journal, frames, display, options, job.keep_frames,
+                                                 {report_encoding(job, lines, begin, frames.size()), {}});
+  lines.clear();
+  announce_video(job, plan, options, frames.size(), begin);
+}
+
+}  // namespace
+
+void make_video(const VideoJob& job, ProgressLines& lines) {
+  job.rig.empty() ? render_scene(job, lines) : stitch_views(job, lines);
+}
