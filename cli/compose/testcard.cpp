@@ -46,7 +46,8 @@ TestcardJob parse_testcard(Options& options) {
   options.group("Picture");
   options.text("-o,--output", ValueKind::output_file(), job.output,
                "output file: .png .jpg .tif .webp .hdr .exr, or a video; %V in the name writes one file per eye");
-  add_picture_options(options, job.form, job.save.sidecar, "4096");
+  job.form.usual_width = 4096;
+  add_picture_options(options, job.form, job.save.sidecar);
   add_sceneless_camera_options(options, job.camera);
   add_testcard_video_options(options, job.video);
   options.group("Console");
@@ -92,7 +93,7 @@ void draw(const TestcardJob& job, const ods::StereoCamera& stereo, ods::Extent e
 }
 
 void testcard(TestcardJob job) {
-  use_form(job.form, 4096, job.camera, job.picture, job.save);
+  use_form(job.form, job.camera, job.picture, job.save);
   const ods::StereoCamera stereo = place_camera(job.camera);
   const ods::Extent eye{job.picture.width, job.picture.height};
   const std::vector<int> eyes = ods::eye_list(job.picture.eyes);

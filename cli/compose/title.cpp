@@ -66,7 +66,7 @@ void save(const TitleJob& job, const ods::Title& title, const ods::StereoCamera&
 }
 
 void title(TitleJob job) {
-  use_form(job.form, 4096, job.camera, job.picture, job.save);
+  use_form(job.form, job.camera, job.picture, job.save);
   const ods::StereoCamera stereo = place_camera(job.camera);
   const ods::Extent eye{job.picture.width, job.picture.height};
   const std::vector<int> eyes = ods::eye_list(job.picture.eyes);

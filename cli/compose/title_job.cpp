@@ -93,7 +93,8 @@ TitleJob parse_title(Options& options) {
   options.group("Picture");
   options.text("-o,--output", ValueKind::output_file(), job.output,
                "output file: .exr .png .tif .webp; %V in the name writes one file per eye");
-  add_picture_options(options, job.form, job.save.sidecar, "4096");
+  job.form.usual_width = 4096;
+  add_picture_options(options, job.form, job.save.sidecar);
   add_sceneless_camera_options(options, job.camera);
   options.group("Console");
   add_console_options(options);

@@ -50,9 +50,9 @@ void add_size_option(Options& options, PictureForm& form) {
   options.offer("--size", ods::names_of(ods::named_sizes()));
 }
 
-void add_picture_options(Options& options, PictureForm& form, bool& sidecar, const std::string& usual_width) {
+void add_picture_options(Options& options, PictureForm& form, bool& sidecar) {
   add_size_option(options, form);
-  options.number("--width", form.width, 1, 32768, "width of one eye in pixels", usual_width);
+  options.number("--width", form.width, 1, 32768, "width of one eye in pixels", fmt::format("{}", form.usual_width));
   options.number("--height", form.height, 0, 32768,
                  "height of one eye in pixels; 0: follows from the width and projection (lat-long: half the width)",
                  "0");
@@ -63,10 +63,9 @@ void add_picture_options(Options& options, PictureForm& form, bool& sidecar, con
                "also write the camera to picture.camera.json, which --camera-file of other commands reads");
 }
 
-void use_form(const PictureForm& form, int usual_width, CameraOptions& camera, ods::RenderOptions& picture,
-              ods::SaveOptions& save) {
+void use_form(const PictureForm& form, CameraOptions& camera, ods::RenderOptions& picture, ods::SaveOptions& save) {
   const ods::ProjectionSetting projection = changed(camera.stereo.projection, camera.changes.projection);
-  picture.width = form.given_width().value_or(usual_width - usual_width % ods::width_step(projection));
+  picture.width = form.given_width().value_or(form.usual_width - form.usual_width % ods::width_step(projection));
   picture.height = form.given_height().value_or(0);
   picture.eyes = form.given_eyes().value_or(ods::Eyes::kBothEyes);
   save.layout = form.given_layout().value_or(ods::default_layout(projection));

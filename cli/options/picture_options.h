@@ -22,6 +22,7 @@ struct PictureForm {
   std::optional<int> width, height;      // of one eye; height 0: follows from the width and the projection
   std::optional<ods::Eyes> eyes;
   std::optional<ods::Layout> layout;
+  int usual_width = 2048;  // without --width and --size
 
   std::optional<int> given_width() const;
   std::optional<int> given_height() const;
@@ -31,14 +32,13 @@ struct PictureForm {
 
 void add_size_option(Options& options, PictureForm& form);
 
-// Adds --size, --width, --height, --eyes, --layout, --sidecar. usual_width: for help.
-void add_picture_options(Options& options, PictureForm& form, bool& sidecar, const std::string& usual_width);
+// Adds --size, --width, --height, --eyes, --layout, --sidecar.
+void add_picture_options(Options& options, PictureForm& form, bool& sidecar);
 
 // Applies the camera's changes, and sets the size and the eyes of `picture` and the layout of `save`. The usual width
 // becomes one of whole faces; the usual layout is the one that players expect for the projection. Throws as
 // finish_camera_options() does.
-void use_form(const PictureForm& form, int usual_width, CameraOptions& camera, ods::RenderOptions& picture,
-              ods::SaveOptions& save);
+void use_form(const PictureForm& form, CameraOptions& camera, ods::RenderOptions& picture, ods::SaveOptions& save);
 
 // The conversion of scene-linear light for a display; fields that are absent have the command's default.
 struct DisplayOptions {

@@ -73,7 +73,7 @@ void add_time_options(Options& options, TimeOptions& time) {
       "fly the camera from its position through these points, on a smooth curve, in the whole duration");
   options.number("--shutter", time.asked_shutter, 0.0f, 360.0f,
                  "motion blur: shutter angle in degrees, centred on the frame's time; 360 is a whole frame, 180 is "
-                 "usual, 0 is none",
+                 "usual, 0 turns it off",
                  "0");
   options.choice("--grain", time.grain, kGrainTable,
                  "noise pattern: the same in every frame, or different in each; by default changing if --turntable, "

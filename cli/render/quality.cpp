@@ -84,6 +84,7 @@ void add_quality_options(Options& options, RenderJob& job) {
 void finish_quality(RenderJob& job) {
   const Quality& quality = job.quality;
   const QualityPreset& preset = quality.preset;
+  job.form.usual_width = preset.width;
   job.render.samples = quality.samples.value_or(preset.samples);
   const bool exact = preset.exact || job.part || keeps_light(job.output);
   job.render.indirect = quality.indirect.value_or(exact ? ods::Indirect::kPath : ods::Indirect::kCache);

@@ -37,7 +37,7 @@ void add_picture_options(Options& options, RenderJob& job) {
   options.group("Picture");
   options.text("-o,--output", ValueKind::output_file(), job.output,
                "output file: .png .jpg .tif .webp .hdr .exr; %V in the name writes one file per eye");
-  add_picture_options(options, job.form, job.save.sidecar, "2048");
+  add_picture_options(options, job.form, job.save.sidecar);
   options.text("--rig", ValueKind::input_file(), job.rig,
                "render the views of this rig (made by ods rig), for ods stitch");
   options.flag("--statistics", job.render.statistics,
@@ -173,6 +173,6 @@ RenderJob settled(RenderJob job) {
     job.time.shutter = job.time.asked_shutter.value_or(foreign->shutter);
   }
   take_base(job.camera, job.scene.foreign, job.scene.blender);
-  use_form(job.form, job.quality.preset.width, job.camera, job.render, job.save);
+  use_form(job.form, job.camera, job.render, job.save);
   return job;
 }

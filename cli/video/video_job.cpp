@@ -41,7 +41,7 @@ VideoJob parse_video(Options& options) {
   options.flag("--force", render.force, "render the frames even if the disk cannot hold them");
   add_wait_option(options, render.wait, "frames");
   options.group("Picture");
-  add_picture_options(options, render.form, render.save.sidecar, "2048");
+  add_picture_options(options, render.form, render.save.sidecar);
   add_exposure_option(options, render);
   options.choice("--tone", job.display.tone, ods::kToneCurveTable, "tone curve");
   add_camera_options(options, render.camera);
