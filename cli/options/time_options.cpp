@@ -64,10 +64,8 @@ void add_time_options(Options& options, TimeOptions& time) {
   options.custom(
       "--turntable", "TURNS|TURNS,X,Y,Z", "", [&](const std::string& word) { read_turntable(word, time.move); },
       "this many turns in the whole duration: an object on its own turns on the spot, clockwise from above, while "
-      "light "
-      "and ground stay; elsewhere the viewer turns to the right. With X,Y,Z the viewer circles the vertical axis "
-      "through "
-      "that point and keeps facing it");
+      "light and ground stay; elsewhere the viewer turns to the right. With X,Y,Z the viewer circles the vertical "
+      "axis through that point and keeps facing it");
   options.custom(
       "--fly-to", "X,Y,Z;X,Y,Z...", "", [&](const std::string& word) { read_flight(word, time.move); },
       "fly the camera from its position through these points, on a smooth curve, in the whole duration");

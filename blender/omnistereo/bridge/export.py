@@ -74,7 +74,7 @@ def _materials(context, prepared, samples, size, folder, ledger):
             continue
         found = pictures.computed_inputs(node, rules)
         if found and (pictures.changes(node) or (samples and material.name in samples.looks)):
-            ledger.lose("what nodes compute anew in each frame stays as in the saved one", "material", material.name)
+            ledger.lose("values computed for each frame are frozen at the saved frame", "material", material.name)
         unroll.unroll(material, node, found, users[material], rules, folder)
         found = pictures.computed_inputs(node, rules)
         if found:
