@@ -55,6 +55,8 @@ static void listen(void*, int level, const char* format, va_list words) {
 }
 
 void keep_complaints() {
+  const std::lock_guard<std::mutex> lock(complaint_mutex);
+  complaint.clear();
   av_log_set_callback(listen);
 }
 
@@ -119,6 +121,7 @@ Owned<AVFormatContext> open_file(const std::string& path, const std::string& wha
   const int opened = avformat_open_input(&file, ("file:" + path).c_str(), nullptr, &only_files);
   av_dict_free(&only_files);
   if (opened == AVERROR(EINVAL)) {  // FFmpeg's code for a format that is not on the list
+    keep_complaints();              // without the list, which FFmpeg logs
     throw Error(ErrorKind::kInput,
                 fmt::format("{}: it is not a sound or video file of a kind that is read here", what));
   }

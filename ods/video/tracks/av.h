@@ -35,7 +35,8 @@ T* made(T* object) {
   return object;
 }
 
-// Captures the libraries' log for the next error message instead of printing it.
+// Captures the libraries' log for the next error message instead of printing it, beginning with what is logged from now
+// on.
 void keep_complaints();
 
 // Returns the code if it is not negative. Otherwise throws Error with `what`, our own text for the reason and the

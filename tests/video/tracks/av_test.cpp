@@ -66,6 +66,7 @@ TEST(Av, NoFileNamesAnother) {
   folder.write("concat.wav", "ffconcat version 1.0\nfile good.wav\n");
   for (const char* list : {"list.m3u8", "list.wav", "concat.wav"}) {
     EXPECT_THROW(av::open_file(folder.path(list), "cannot read it"), Error) << list;
+    EXPECT_EQ(error_of(-ENOSPC), "cannot read 'a.mp4': No space left on device") << "what FFmpeg logged of " << list;
   }
 }
 
