@@ -185,9 +185,9 @@ std::vector<double> shifts(const Image& theirs, const Image& ours) {
       for (int shift = -kReach; shift <= kReach; shift++) {
         alike[size_t(shift + kReach)] = likeness(block, block_of(ours, x + shift, y));
       }
-      const auto [least, most] = std::minmax_element(alike.begin(), alike.end());
-      if (*most - *least < kLevel) continue;
-      const auto best = std::clamp<size_t>(size_t(most - alike.begin()), 1, 2 * kReach - 1);
+      const auto [minimum, maximum] = std::minmax_element(alike.begin(), alike.end());
+      if (*maximum - *minimum < kLevel) continue;
+      const auto best = std::clamp<size_t>(size_t(maximum - alike.begin()), 1, 2 * kReach - 1);
       const double left = alike[best - 1], middle = alike[best], right = alike[best + 1];
       const double part = 0.5 * (left - right) / (left - 2 * middle + right);
       found.push_back(double(best) - kReach + std::clamp(part, -1.0, 1.0));

@@ -149,8 +149,8 @@ void convert(benchmark::State& state) {
   const std::string pictures =
       fmt::format("ffmpeg -v error -y -i {} -vf {} -f null -", from, v360(wish, target.eye, "lanczos"));
   Seconds ours{1e9, 1e9}, theirs{1e9, 1e9}, ours_bare{1e9, 1e9}, theirs_bare{1e9, 1e9};
-  const auto keep_least = [](Seconds& least, const Seconds& now) {
-    least = {std::min(least.wall, now.wall), std::min(least.cpu, now.cpu)};
+  const auto keep_least = [](Seconds& minimum, const Seconds& now) {
+    minimum = {std::min(minimum.wall, now.wall), std::min(minimum.cpu, now.cpu)};
   };
   const auto run = [&](const std::string& line) {
     if (std::system(line.c_str()) != 0) state.SkipWithError("ffmpeg failed");

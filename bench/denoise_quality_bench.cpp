@@ -111,15 +111,15 @@ std::vector<char> edges_of(const EyeImage& eye) {
   std::vector<char> edges(static_cast<size_t>(width) * static_cast<size_t>(height));
   for (int y = 0; y < height; y++) {
     for (int x = 0; x < width; x++) {
-      float most = 0.0f;
+      float maximum = 0.0f;
       for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {-1, 0}, {0, -1}}) {
         const int nx = (x + dx + width) % width, ny = std::clamp(y + dy, 0, height - 1);
         for (int c = 0; c < 3; c++) {
-          most = std::max({most, 0.5f * std::abs(eye.normal.at(x, y)[c] - eye.normal.at(nx, ny)[c]),
-                           std::abs(eye.albedo.at(x, y)[c] - eye.albedo.at(nx, ny)[c])});
+          maximum = std::max({maximum, 0.5f * std::abs(eye.normal.at(x, y)[c] - eye.normal.at(nx, ny)[c]),
+                              std::abs(eye.albedo.at(x, y)[c] - eye.albedo.at(nx, ny)[c])});
         }
       }
-      edges[static_cast<size_t>(y * width + x)] = most > 0.05f;
+      edges[static_cast<size_t>(y * width + x)] = maximum > 0.05f;
     }
   }
   return edges;

@@ -56,8 +56,8 @@ struct Race {
                }));
     keep_least(ours, seconds_of(work));
   }
-  static void keep_least(Seconds& least, const Seconds& now) {
-    least = {std::min(least.wall, now.wall), std::min(least.cpu, now.cpu)};
+  static void keep_least(Seconds& minimum, const Seconds& now) {
+    minimum = {std::min(minimum.wall, now.wall), std::min(minimum.cpu, now.cpu)};
   }
 };
 

@@ -248,8 +248,9 @@ void whiten(Image& eye, double share) {
 }
 
 void reduce_bits(Image& eye, double bits) {
-  const float most = static_cast<float>(std::exp2(bits)) - 1.0f;
-  for (float& light : eye.pixels) light = srgb_decode(std::round(srgb_encode(std::min(light, 1.0f)) * most) / most);
+  const float maximum = static_cast<float>(std::exp2(bits)) - 1.0f;
+  for (float& light : eye.pixels)
+    light = srgb_decode(std::round(srgb_encode(std::min(light, 1.0f)) * maximum) / maximum);
 }
 
 // Applies the same curve and colours to both eyes.

@@ -168,7 +168,7 @@ void load_draco(benchmark::State& state, uint32_t primitives) {
   }
   std::vector<std::pair<Seconds, Seconds>> rounds;
   double peak = 0.0, plain_peak = 0.0, size = 0.0;
-  const auto load = [&](const std::string& name, double* most) {
+  const auto load = [&](const std::string& name, double* maximum) {
     malloc_trim(0);
     forget_peak();
     const double before = peak_megabytes();
@@ -177,7 +177,7 @@ void load_draco(benchmark::State& state, uint32_t primitives) {
       size = static_cast<double>(size_of(scene)) / 1048576.0;
       state.counters["triangles"] = static_cast<double>(scene.triangles.size());
     });
-    *most = std::max(*most, peak_megabytes() - before);
+    *maximum = std::max(*maximum, peak_megabytes() - before);
     return seconds;
   };
   for (auto _ : state) {

@@ -3,11 +3,11 @@
 //
 // libFuzzer on the reader of KTX2 textures: any bytes give a picture of the size in their header, or an error.
 //   cmake --preset fuzz && cmake --build --preset fuzz --target fuzz_texture_reader
-//   build/fuzz/fuzz_texture_reader -max_len=8192 FOLDER tests/image/ktx2
+//   build/fuzz/fuzz_texture_reader -max_len=8192 FOLDER tests/image/codec
 #include <cstdlib>
 
 #include "ods/base/error.h"
-#include "ods/image/ktx2/ktx2.h"
+#include "ods/image/codec/ktx2.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   // Large pictures are too slow for many runs.

@@ -30,7 +30,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr size_t kMostBytes = size_t{4} << 30u;  // a .glb counts them in 32 bits
+constexpr size_t kMaxBytes = size_t{4} << 30u;  // a .glb counts them in 32 bits
 constexpr uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
 
 // A .glb: a head of 12 bytes, then chunks of a length, a kind and that many bytes.
@@ -51,7 +51,7 @@ std::string number(size_t value) {
 }
 
 std::string contents(const std::string& path) {
-  const std::vector<unsigned char> bytes = ods::read_file(path, kMostBytes);
+  const std::vector<unsigned char> bytes = ods::read_file(path, kMaxBytes);
   return {bytes.begin(), bytes.end()};
 }
 
@@ -135,14 +135,14 @@ void remove_textures(json& node, const json& textures, const std::set<size_t>& i
 }
 
 // Assimp prints its errors on stdout: "ERROR: Failed to load file: WHY".
-std::string said_by_assimp(const std::optional<ProgramResult>& result) {
+std::string assimp_error(const std::optional<ProgramResult>& result) {
   if (!result) return "";
-  std::string words = result->last_words;
+  std::string words = result->final_message;
   std::istringstream lines(result->out);
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("ERROR") || words.empty()) words = ods::one_line(line);
   }
-  return words.empty() ? "" : fmt::format("; it said: {}", words);
+  return words.empty() ? "" : fmt::format("; its output: {}", words);
 }
 
 // Puts the pictures into the file: Assimp leaves their paths as in the scene, relative to its folder.
@@ -190,7 +190,7 @@ void run_assimp(const std::string& scene, const std::string& folder, float secon
   const std::string fault = fmt::format("'{}': Assimp cannot read it", scene);
   if (result && !result->in_time) fail_in_time("Assimp", scene, seconds);
   if (!result || result->code != 0 || !fs::exists(made)) {
-    throw ods::Error(ods::ErrorKind::kInput, fault + said_by_assimp(result));
+    throw ods::Error(ods::ErrorKind::kInput, fault + assimp_error(result));
   }
   try {
     Glb glb = read_glb(made);

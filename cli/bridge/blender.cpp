@@ -102,7 +102,8 @@ static void run_script(const BlenderOptions& options, const std::vector<std::str
   const std::string how =
       result->code > 128 ? fmt::format("Blender crashed (signal {}); --blender PATH tries another", result->code - 128)
                          : "Blender ended before it was done";
-  fail_in_blender(what, result->last_words.empty() ? how : fmt::format("{}; it said: {}", how, result->last_words));
+  fail_in_blender(what,
+                  result->final_message.empty() ? how : fmt::format("{}; its output: {}", how, result->final_message));
 }
 
 void run_blender(const BlenderOptions& options, const std::string& scene, const std::string& folder) {

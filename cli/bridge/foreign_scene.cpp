@@ -90,7 +90,7 @@ ForeignScene read_result(const std::string& folder) {
 }
 
 [[noreturn]] void fail_without_program(const std::string& path, const ForeignFormat& format) {
-  if (!format.assimp) fail(path, "needs Blender to be read: install it, or say where it is with --blender PATH");
+  if (!format.assimp) fail(path, "needs Blender to be read: install it, or name it with --blender PATH");
   if (!format.blender) fail(path, "needs Assimp's command to be read: install it (assimp-utils)");
   fail(path, "needs Blender or Assimp's command to be read: install one (blender, assimp-utils), or --blender PATH");
 }

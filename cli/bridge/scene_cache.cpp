@@ -82,7 +82,7 @@ void remove_oldest(const fs::path& cache, const fs::path& newest) {
   for (const Kept& scene : scenes) bytes += scene.bytes;
   size_t count = scenes.size();
   for (const Kept& scene : scenes) {
-    if (count <= kMostKeptScenes && bytes <= kMostKeptBytes) return;
+    if (count <= kMaxKeptScenes && bytes <= kMaxKeptBytes) return;
     if (scene.folder == newest || fs::file_time_type::clock::now() - scene.used < kInUse) continue;
     std::error_code ignored;
     fs::remove(scene.folder / "bridge.json", ignored);

@@ -9,8 +9,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-inline constexpr size_t kMostKeptScenes = 40;
-inline constexpr uint64_t kMostKeptBytes = uint64_t{8} << 30u;
+inline constexpr size_t kMaxKeptScenes = 40;
+inline constexpr uint64_t kMaxKeptBytes = uint64_t{8} << 30u;
 
 // Returns the state of a file as in the list `reads` of bridge.json: path, size, nanoseconds of its time. Null if the
 // file does not exist.

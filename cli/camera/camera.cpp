@@ -53,7 +53,7 @@ void export_to(const CameraJob& job) {
   if (!result.refusal.empty()) {
     throw UsageError(fmt::format("--for {}: {}", ods::camera_target_name(target), result.refusal));
   }
-  for (const std::string& warning : result.warnings) note("not as asked: " + warning);
+  for (const std::string& warning : result.warnings) note("unsupported: " + warning);
   if (output.empty()) {
     put_out(result.text);
     return;

@@ -25,7 +25,7 @@ constexpr const char* kSizesExamples =
 
 constexpr int kStillFps = 30;  // the rate for the levels of sizes whose sources do not give one
 
-std::string_view layout_word(const NamedSize& size) {
+std::string_view layout_token(const NamedSize& size) {
   return size.layout ? ods::layout_name(*size.layout) : "one eye";
 }
 
@@ -48,7 +48,7 @@ void print_table(std::span<const NamedSize> sizes) {
   put_out(fmt::format(kRow, "name", "one eye", "layout", "file", "fps", "H.264", "HEVC", "AV1", "VP9", "AA", "source"));
   for (const NamedSize& size : sizes) {
     const bool threshold = size.antialias.starts_with("on, threshold ");
-    put_out(fmt::format(kRow, size.name, pixels(size.eye), layout_word(size), pixels(file_size(size)),
+    put_out(fmt::format(kRow, size.name, pixels(size.eye), layout_token(size), pixels(file_size(size)),
                         size.fps ? fmt::format("{}", size.fps) : "", level(size, ods::Codec::kH264),
                         level(size, ods::Codec::kHevc), level(size, ods::Codec::kAv1), level(size, ods::Codec::kVp9),
                         threshold ? size.antialias.substr(14) : size.antialias, short_source(size)));
@@ -64,7 +64,7 @@ void print_one(const NamedSize& size) {
   row("name", size.name);
   row("called", size.title);
   row("one eye", pixels(size.eye));
-  row("layout", layout_word(size));
+  row("layout", layout_token(size));
   row("file", pixels(file_size(size)));
   if (size.fps) row("fps", fmt::format("{}", size.fps));
   for (ods::Codec codec : ods::kCodecs) {
@@ -79,7 +79,7 @@ nlohmann::ordered_json to_json(const NamedSize& size) {
   nlohmann::ordered_json json = {{"name", size.name},
                                  {"title", size.title},
                                  {"eye", {size.eye.width, size.eye.height}},
-                                 {"layout", layout_word(size)},
+                                 {"layout", layout_token(size)},
                                  {"file", {file.width, file.height}},
                                  {"fps", nullptr},
                                  {"levels_at_fps", size.fps ? size.fps : kStillFps},

@@ -23,7 +23,7 @@ struct OverJob {
   ods::SaveOptions save;
   std::optional<ods::Layout> layout;
   DisplayOptions display;
-  VideoWishes video;
+  VideoChoices video;
   int threads = 0;
   ProgressMode progress = ProgressMode::kAuto;
 };

@@ -32,8 +32,8 @@ Range range_of(const OverJob& job) {
   throw UsageError("--frames of a video that becomes a video must be consecutive, as 30-120, because its sound is");
 }
 
-VideoWishes wishes_for(const OverJob& job, const VideoInput& video, const VideoStream& stream) {
-  VideoWishes wishes = job.video;
+VideoChoices wishes_for(const OverJob& job, const VideoInput& video, const VideoStream& stream) {
+  VideoChoices wishes = job.video;
   wishes.output = job.output;
   wishes.keep.cut.is_cut = job.frames.has_value();
   return wishes_like(wishes, video, stream);
@@ -106,10 +106,10 @@ void lay_over_video(const OverJob& job, Footage& back, Footage& front, ProgressL
                      front.stream().rate.value(), back.stream().rate.value()));
   }
   const Range range = range_of(job);
-  const VideoWishes wishes = wishes_for(job, video, back.stream());
+  const VideoChoices wishes = wishes_for(job, video, back.stream());
   const ods::EncodeOptions options = encode_options(wishes, back.stream().size, job.threads);
   const ods::VideoPlan plan = plan_like(video, back.stream());
-  say_what_players_need(wishes, plan, options);
+  note_player_limits(wishes, plan, options);
   ods::Progress progress;
   const int last = std::min(range.last, std::max(back.stream().count - 1, range.first));
   const size_t expected = static_cast<size_t>(last - range.first) + 1;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // ods testcard: makes a picture or video for judging players.
-#include "ods/testcard/testcard.h"
+#include "ods/compose/testcard.h"
 
 #include <fmt/format.h>
 
@@ -37,7 +37,7 @@ struct TestcardJob {
   ods::RenderOptions picture;  // only its size and eyes
   ods::SaveOptions save;
   CameraOptions camera;
-  TestcardVideoWishes video;
+  TestcardVideoChoices video;
 };
 
 TestcardJob parse_testcard(Options& options) {

@@ -10,11 +10,11 @@
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "ods/testcard/testcard_video.h"
+#include "ods/compose/testcard_video.h"
 
 using ods::Container, ods::Layout;
 
-void add_testcard_video_options(Options& options, TestcardVideoWishes& wishes) {
+void add_testcard_video_options(Options& options, TestcardVideoChoices& wishes) {
   options.group("Video (-o card.mp4 .mov .mkv .webm)");
   options.flag("--video", wishes.is_video,
                "make a video: adds frame numbers for each eye, a cell per frame, a moving bar, and every second a "
@@ -45,7 +45,7 @@ static ods::VideoPlan plan_card(ods::Extent eye, size_t eyes, Layout layout, con
 }
 
 void make_video_of_card(const ods::StereoCamera& camera, ods::Extent eye, const std::vector<int>& eyes, Layout layout,
-                        const std::vector<std::string>& lines, const TestcardVideoWishes& wishes,
+                        const std::vector<std::string>& lines, const TestcardVideoChoices& wishes,
                         ProgressLines& progress_lines) {
   const auto start = std::chrono::steady_clock::now();
   const ods::VideoPlan plan =
@@ -53,7 +53,7 @@ void make_video_of_card(const ods::StereoCamera& camera, ods::Extent eye, const 
   const ods::EncodeOptions options = encode_options(wishes.video, plan.size, wishes.threads);
   ods::check_packing(plan, options.packing);
   for (const std::string& each : plan.notes) note(each);
-  say_what_players_need(wishes.video, plan, options);
+  note_player_limits(wishes.video, plan, options);
   const double fps = options.rate.value();
   const int frames = std::max(1, static_cast<int>(std::lround(static_cast<double>(wishes.duration) * fps)));
   const ods::Testcard card = make_testcard(camera, plan.eye, lines);

@@ -8,20 +8,20 @@
 
 #include "cli/console/progress.h"
 #include "cli/options/video_options.h"
-#include "ods/testcard/testcard.h"
+#include "ods/compose/testcard.h"
 
-struct TestcardVideoWishes {
+struct TestcardVideoChoices {
   bool is_video = false;
-  VideoWishes video;
+  VideoChoices video;
   float duration = 10.0f;  // seconds
   int threads = 0;
   ProgressMode progress = ProgressMode::kAuto;
 };
 
 // Adds the options in groups of their own; --progress and related ones go to the current group.
-void add_testcard_video_options(Options& options, TestcardVideoWishes& wishes);
+void add_testcard_video_options(Options& options, TestcardVideoChoices& wishes);
 
 // Makes the video of a card for eyes of this layout. Throws UsageError and ods::Error.
 void make_video_of_card(const ods::StereoCamera& camera, ods::Extent eye, const std::vector<int>& eyes,
-                        ods::Layout layout, const std::vector<std::string>& lines, const TestcardVideoWishes& wishes,
+                        ods::Layout layout, const std::vector<std::string>& lines, const TestcardVideoChoices& wishes,
                         ProgressLines& progress_lines);

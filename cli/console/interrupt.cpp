@@ -13,10 +13,10 @@
 
 namespace {
 
-LastWords words_of = plain_last_words;
+FinalMessage words_of = plain_final_message;
 std::atomic<bool> said{false};
-std::atomic<const char*> words_of_stop{nullptr};  // of the GentleStop, if there is one
-std::atomic<int> stop_signal{0};                  // 0: no stop is requested
+std::atomic<const char*> stop_message{nullptr};  // of the GentleStop, if there is one
+std::atomic<int> stop_signal{0};                 // 0: no stop is requested
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
                   std::atomic<const char*>::is_always_lock_free,
               "a signal handler may touch them");
@@ -33,19 +33,19 @@ void say(const char* words) {
 }
 
 void on_signal(int number) {
-  const char* const words = words_of_stop;
+  const char* const words = stop_message;
   if (words == nullptr || stop_signal.exchange(number) != 0) end_by(number);
   say(words);
 }
 
 }  // namespace
 
-const char* plain_last_words(int) {
+const char* plain_final_message(int) {
   return "ods: interrupted\n";
 }
 
-void end_on_interrupts(LastWords last_words) {
-  words_of = last_words;
+void end_on_interrupts(FinalMessage final_message) {
+  words_of = final_message;
   signal(SIGXFSZ, SIG_IGN);  // a file size limit becomes an ordinary error, like a full disk
   const int kNumbers[] = {SIGHUP, SIGINT, SIGTERM};
   for (int number : kNumbers) {
@@ -60,11 +60,11 @@ void end_on_interrupts(LastWords last_words) {
 
 GentleStop::GentleStop(const char* words) {
   stop_signal = 0;
-  words_of_stop = words;
+  stop_message = words;
 }
 
 GentleStop::~GentleStop() {
-  words_of_stop = nullptr;
+  stop_message = nullptr;
 }
 
 bool GentleStop::requested() const {

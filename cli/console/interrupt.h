@@ -5,13 +5,13 @@
 #pragma once
 
 // Returns the text for stderr when a signal of this number ends the process.
-using LastWords = const char* (*)(int signal);
-const char* plain_last_words(int signal);  // "ods: interrupted"
+using FinalMessage = const char* (*)(int signal);
+const char* plain_final_message(int signal);  // "ods: interrupted"
 
 // From now on such a signal removes unfinished files, prints the last words and ends the process at once with 128 + its
-// number, even while loading, rendering or saving. `last_words` runs in the signal handler:
+// number, even while loading, rendering or saving. `final_message` runs in the signal handler:
 // it must only return a literal.
-void end_on_interrupts(LastWords last_words = plain_last_words);
+void end_on_interrupts(FinalMessage final_message = plain_final_message);
 
 // While one of these exists, the first such signal asks for a stop, and only the second one ends the process. At most
 // one at a time.

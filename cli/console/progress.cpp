@@ -17,19 +17,19 @@ bool progress_is_for_farm(ProgressMode mode) {
   return mode == ProgressMode::kDeadline || mode == ProgressMode::kOpenJd || mode == ProgressMode::kTractor;
 }
 
-static const char* json_last_words(int signal) {
+static const char* json_final_message(int signal) {
   if (signal == SIGHUP) return "{\"error\":\"interrupted\",\"exit_code\":129}\n";
   if (signal == SIGTERM) return "{\"error\":\"interrupted\",\"exit_code\":143}\n";
   return "{\"error\":\"interrupted\",\"exit_code\":130}\n";
 }
 
-static const char* bar_last_words(int) {
+static const char* bar_final_message(int) {
   return "\r\x1b[Kods: interrupted\n";
 }
 
-LastWords interrupted_line(ProgressMode mode) {
-  if (mode == ProgressMode::kJson) return json_last_words;
-  return mode == ProgressMode::kBar ? bar_last_words : plain_last_words;
+FinalMessage interrupted_line(ProgressMode mode) {
+  if (mode == ProgressMode::kJson) return json_final_message;
+  return mode == ProgressMode::kBar ? bar_final_message : plain_final_message;
 }
 
 std::string duration_text(double seconds) {

@@ -38,7 +38,7 @@ constexpr std::string_view progress_mode_name(ProgressMode mode) {
 bool progress_is_for_farm(ProgressMode mode);
 
 // The last line on stderr after a signal; clears the bar first.
-LastWords interrupted_line(ProgressMode mode);
+FinalMessage interrupted_line(ProgressMode mode);
 
 // "45 s", "3:07 min", "1:02:03 h".
 std::string duration_text(double seconds);

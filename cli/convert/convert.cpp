@@ -47,8 +47,8 @@ void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
   for (const std::string& file : files) announce_file(file);
   const ods::Extent eye = job.target.eye;
   const double all = 1.0 * eye.width * eye.height * static_cast<double>(job.target.eyes.size());
-  say_what_is_missing(static_cast<double>(*conversion.empty) / all, conversion.sees_around);
-  say_what_is_filled(static_cast<double>(*conversion.filled) / all);
+  note_empty_share(static_cast<double>(*conversion.empty) / all, conversion.sees_around);
+  note_filled_share(static_cast<double>(*conversion.filled) / all);
   note(fmt::format("{} of {} {}x{} in {}", files.front(), ods::projection_name(job.target.camera.projection), eye.width,
                    eye.height, duration_text(seconds_since(start))));
 }
@@ -65,19 +65,18 @@ void convert(const ConvertOptions& given) {
 
 }  // namespace
 
-void say_what_is_missing(double share, bool sees_around) {
+void note_empty_share(double share, bool sees_around) {
   if (share == 0.0) return;
-  note(fmt::format("{:.3g} % of the pixels are empty: {}", 100.0 * share,
-                   sees_around ? "what the eyes see there now was hidden, or outside the picture"
-                               : "the picture does not reach there"));
+  note(fmt::format(
+      "{:.3g} % of the pixels are empty: {}", 100.0 * share,
+      sees_around ? "what the eyes see there was hidden or outside the picture" : "the picture does not reach there"));
 }
 
-void say_what_is_filled(double share) {
+void note_filled_share(double share) {
   if (share == 0.0) return;
-  note(
-      fmt::format("{:.3g} % of the pixels show what was hidden, filled from what is beside it (--holes empty leaves "
-                  "them)",
-                  100.0 * share));
+  note(fmt::format(
+      "{:.3g} % of the pixels were hidden and are filled from their neighbours (--holes empty leaves them empty)",
+      100.0 * share));
 }
 
 extern const Command kConvert =

@@ -64,7 +64,7 @@ class Frames {
     }
     if (work.give) {
       const ods::DepthReport report = work.give(*work.picture);
-      if (work.index == 0) say_of_depth(report);
+      if (work.index == 0) note_depth(report);
     }
     if (job_.kind == FootageKind::kFrames) refuse_impossible(job_, *work.picture);
     ods::Conversion conversion = ods::convert(*work.picture, target);
@@ -130,7 +130,7 @@ void convert_to_frames(ConvertJob& job, ProgressLines& lines) {
   lines.clear();
   if (done == 0 && from_video)
     throw UsageError(fmt::format("there is no picture in that part of '{}'", job.given.input));
-  say_what_is_missing(empty / static_cast<double>(std::max<size_t>(done, 1)), false);
-  say_what_is_filled(filled / static_cast<double>(std::max<size_t>(done, 1)));
+  note_empty_share(empty / static_cast<double>(std::max<size_t>(done, 1)), false);
+  note_filled_share(filled / static_cast<double>(std::max<size_t>(done, 1)));
   note(fmt::format("{}: {} frames, in {}", job.given.output, done, duration_text(seconds_since(start))));
 }

@@ -12,6 +12,6 @@ void convert_to_frames(ConvertJob& job, ProgressLines& lines);
 void convert_to_video(ConvertJob& job, ProgressLines& lines);
 
 // Notes how much of the pictures is empty: `share`, 0..1.
-void say_what_is_missing(double share, bool sees_around);
+void note_empty_share(double share, bool sees_around);
 // Notes how much of the pictures was hidden and is filled.
-void say_what_is_filled(double share);
+void note_filled_share(double share);

@@ -72,7 +72,7 @@ void check_kinds(const ConvertOptions& given, FootageKind kind) {
     throw UsageError(from_frames ? "--restart is for videos; frames continue with --skip-existing"
                                  : "--restart is for output that is a video: nothing else resumes");
   }
-  if (given.video.says_how_to_encode() && !to_video) {
+  if (given.video.specifies_encoding() && !to_video) {
     throw UsageError(
         fmt::format("--codec and similar options need video output, and '{}' is not a video", given.output));
   }

@@ -119,7 +119,7 @@ ConvertOptions parse_convert(Options& options) {
   add_output_options(options, given);
   add_camera(options, given.camera);
   options.choice("--holes", given.holes, ods::kHolesTable,
-                 "where eyes that are moved see what none of the picture does: filled from what is behind, or empty");
+                 "pixels that no eye of the input sees: filled from the background, or empty");
   add_video(options, given);
   add_right_eye_options(options, given.right);
   options.group("Console");

@@ -37,7 +37,7 @@ struct ConvertOptions {
   ods::TimeSpan span() const { return trim.value_or(ods::TimeSpan()); }
   std::string turns;  // --stabilize: a file of turn keys
   std::optional<ods::FrameRate> rate;
-  VideoWishes video;  // its rate is `rate`, if given
+  VideoChoices video;  // its rate is `rate`, if given
 
   int threads = 0;
   ProgressMode progress = ProgressMode::kAuto;

@@ -30,7 +30,7 @@ ods::Layout layout_for(const ConvertJob& job) {
 }
 
 // The old video's metadata stay: its angles, its eye distance, and whether it is for Apple's players.
-void keep_words(const ConvertJob& job, ods::VideoPlan& plan) {
+void keep_metadata(const ConvertJob& job, ods::VideoPlan& plan) {
   SphericalMetadata& metadata = plan.metadata;
   if (job.target.eyes.size() == 2 && job.picture.has_ipd) {
     metadata.ipd = static_cast<double>(job.target.camera.ipd);
@@ -52,7 +52,7 @@ ods::VideoPlan plan_for(ConvertJob& job) {
   const ods::Layout layout = layout_for(job);
   job.target.eye = ods::squeezed_eye(layout, job.target.eye, eyes);
   ods::VideoPlan plan = ods::plan_eyes(job.target.eye, job.target.eyes.size(), layout, job.target.camera.projection);
-  keep_words(job, plan);
+  keep_metadata(job, plan);
   const Container container = container_for(job.given.output);
   if (plan.metadata.projection && has_boxes(container) && !fits_v2(plan.metadata)) {
     throw UsageError(
@@ -66,17 +66,17 @@ void refuse_copy(const ConvertJob& job, const ods::VideoPlan& plan) {
   const bool is_turned = job.footage && job.footage->stream().is_turned;
   const bool has_layers = job.footage && job.footage->video().views != ods::Views::kFirst;
   const bool is_same = !is_turned && !has_layers && (plan.layout == job.picture.layout || job.picture.eyes.size() == 1);
-  if (job.given.span().is_part() || !job.turns.empty() || job.given.video.says_how_to_encode() || !is_same ||
+  if (job.given.span().is_part() || !job.turns.empty() || job.given.video.specifies_encoding() || !is_same ||
       !is_same_picture(job.picture, job.target))
     return;
   throw UsageError(
       fmt::format("no pixel of '{}' would change, and encoding it again would cost quality: ods inject "
-                  "changes what it says of itself; --codec or --crf encode it again all the same",
+                  "changes its metadata; --codec or --crf encode it again anyway",
                   job.given.input));
 }
 
-VideoWishes wishes_for(const ConvertJob& job) {
-  VideoWishes wishes = job.given.video;
+VideoChoices wishes_for(const ConvertJob& job) {
+  VideoChoices wishes = job.given.video;
   wishes.output = job.given.output;
   if (!job.footage) return wishes;
   const VideoStream& stream = job.footage->stream();
@@ -116,11 +116,11 @@ int convert_footage(ConvertJob& job, const ods::VideoPlan& plan, const ods::Enco
   if (!job.footage) {
     const ods::DisplayTransform display{job.save.exposure, job.save.tone};
     return ods::convert_frames(
-        {job.files, job.picture, job.target, plan.layout, plan.metadata, display, resume, depth, say_of_depth, merge},
+        {job.files, job.picture, job.target, plan.layout, plan.metadata, display, resume, depth, note_depth, merge},
         options, job.given.output, progress);
   }
   return ods::convert_video(*job.footage,
-                            {job.target, plan.layout, plan.metadata, job.turns, resume, depth, say_of_depth, merge},
+                            {job.target, plan.layout, plan.metadata, job.turns, resume, depth, note_depth, merge},
                             options, job.given.output, progress);
 }
 
@@ -136,14 +136,14 @@ void convert_to_video(ConvertJob& job, ProgressLines& lines) {
   const ods::VideoPlan plan = plan_for(job);
   refuse_copy(job, plan);
   for (const std::string& each : plan.notes) note(each);
-  const VideoWishes wishes = wishes_for(job);
+  const VideoChoices wishes = wishes_for(job);
   const ods::EncodeOptions options = encode_options(wishes, plan.size, job.given.threads);
   ods::check_packing(plan, options.packing);
-  say_what_players_need(wishes, plan, options);
+  note_player_limits(wishes, plan, options);
   const size_t expected = job.footage ? static_cast<size_t>(job.footage->expected_count()) : job.files.frames.size();
-  say_length_of_sound(options, expected);
+  note_sound_length(options, expected);
   if (options.bitrate && expected > ods::kPartFrames) {
-    note("--bitrate is kept over the whole video: if interrupted, it begins anew");
+    note("--bitrate is an average over the whole video: if interrupted, it starts over");
   }
   ods::Progress progress;
   progress.report = [&](double done) {

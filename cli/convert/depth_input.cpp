@@ -23,22 +23,22 @@ std::string meanings() {
 
 void add_depth_options(Options& options, DepthInput& depth) {
   ods::DepthOptions& how = depth.options;
-  options.group("Depth beside the input, from which eyes see around things");
+  options.group("Depth from another file, to move the eyes");
   options.text(
       "--depth", ValueKind::input_file(), depth.path,
       "how far everything in the picture is: a grey .png or .tif of 16 bits, .exr, .pfm, .npy, of any size; for "
       "frames and videos frames (####) or a video; %V: a file per eye");
   options.choice("--depth-kind", how.format.kind, ods::kDepthKindTable,
-                 "what its numbers mean; floats are metres unless you say. " + meanings());
+                 "the meaning of its numbers; floats are metres by default. " + meanings());
   options.number("--near", how.format.nearest, 1e-3f, 1e6f, "distance of its near end, metres");
   options.number("--far", how.format.farthest, 1e-3f, 1e9f,
-                 "distance of its far end, metres; for inverse infinite if you give none");
+                 "distance of its far end, metres; for inverse, infinite by default");
   options.choice("--depth-along", how.format.along, ods::kDepthAlongTable,
                  "whether distances are from the eye (ray), or along the axis of the lens or the cube's face (axis)");
   options.choice("--depth-edges", how.edges, ods::kDepthEdgesTable,
                  "sharp: soft edges become as sharp as the picture's; soft: depth is used as it is");
   options.number("--eye-height", how.eye_height, 0.01f, 1e4f,
-                 "height of the camera above the floor, metres: finds the scale of depth that has none");
+                 "height of the camera above the floor, metres: gives relative depth its scale");
 }
 
 std::vector<std::string> depth_option_names() {
@@ -46,10 +46,10 @@ std::vector<std::string> depth_option_names() {
 }
 
 void give_depth(const DepthInput& depth, ods::StoredPicture& picture) {
-  say_of_depth(ods::add_depth(picture, ods::read_depth(depth.path, picture), depth.options));
+  note_depth(ods::add_depth(picture, ods::read_depth(depth.path, picture), depth.options));
 }
 
-void say_of_depth(const ods::DepthReport& report) {
+void note_depth(const ods::DepthReport& report) {
   for (const std::string& words : report.warnings) warn(words);
   for (const std::string& words : report.notes) note(words);
 }

@@ -21,7 +21,7 @@ std::vector<std::string> depth_option_names();
 
 // Adds the depth to a picture, and prints notes. Throws as ods::add_depth() does.
 void give_depth(const DepthInput& depth, ods::StoredPicture& picture);
-void say_of_depth(const ods::DepthReport& report);
+void note_depth(const ods::DepthReport& report);
 
 // Merges the poles by these shares of the eye distance (ods/comfort/merge_from_depth.h), and prints a note.
 void use_shares(std::vector<float> shares, ods::StereoCamera& camera);

@@ -99,7 +99,7 @@ void find_merges(ConvertJob& job) {
       [&](Look& look) { shares.push_back(std::move(look.shares)); });
   if (shares.empty()) return;  // the conversion reports that there is no picture
   job.merges.emplace(shares, step);
-  const ods::Image least = job.merges->least();
-  note(merge_by_depth_text(least) + (job.merges->varies() ? ", where the depth allows least; more elsewhere" : ""));
-  ods::use_merge_map(job.target.camera, least);
+  const ods::Image minimum = job.merges->minimum();
+  note(merge_by_depth_text(minimum) + (job.merges->varies() ? ", where the depth allows least; more elsewhere" : ""));
+  ods::use_merge_map(job.target.camera, minimum);
 }

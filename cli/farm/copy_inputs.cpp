@@ -53,7 +53,7 @@ void copy(const std::string& from, const std::string& to) {
 
 FileCopies move_inputs(SplitCommand& split, const std::string& folder) {
   if (std::ranges::find(split.groups.front().command, "--confine") != split.groups.front().command.end()) {
-    throw UsageError("--copy-scene and --confine exclude each other: the copies lie in another folder");
+    throw UsageError("--copy-scene and --confine exclude each other: the copies are in another folder");
   }
   const FileCopies moves = plan_moves(split, fs::path(folder) / "inputs");
   const auto move = [&](std::string& path) {

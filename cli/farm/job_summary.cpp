@@ -24,7 +24,7 @@ std::string halo_text(const SplitCommand& split, const ods::FarmPlan& plan) {
   const int tasks = plan.groups.front().tasks;
   const double cost = ods::halo_cost(split.halo, tasks, split.count);
   if (cost == 0.0) return "";
-  const bool much = cost > ods::kMostHaloCost;
+  const bool much = cost > ods::kMaxHaloCost;
   return fmt::format(
       "; {:.0f} % more frames are rendered, because the denoiser needs the neighbours of a task's frames{}",
       100.0 * cost, much ? " (a larger --chunk needs fewer, --raw-first none)" : "");
@@ -53,7 +53,7 @@ std::string summary(const ods::FarmPlan& plan, const SplitCommand& split) {
 }
 
 // Parts are large, and all of them are there until the merge; so are raw frames, until the video.
-void say_disk(const SplitCommand& split, const ods::FarmPlan& plan) {
+void report_disk_use(const SplitCommand& split, const ods::FarmPlan& plan) {
   if (split.disk == 0 || (split.raw && !is_raw_first(plan))) return;
   const char* const noun = split.raw ? "raw frames" : "parts";
   std::error_code error;
@@ -67,7 +67,7 @@ void say_disk(const SplitCommand& split, const ods::FarmPlan& plan) {
 
 }  // namespace
 
-void say_job(const ods::FarmPlan& plan, const SplitCommand& split) {
+void report_job(const ods::FarmPlan& plan, const SplitCommand& split) {
   note(summary(plan, split));
-  say_disk(split, plan);
+  report_disk_use(split, plan);
 }

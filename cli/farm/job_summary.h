@@ -8,4 +8,4 @@
 
 // Prints its tasks, the share that they render twice, their memory, and the disk space of parts; warns if the disk has
 // less.
-void say_job(const ods::FarmPlan& plan, const SplitCommand& split);
+void report_job(const ods::FarmPlan& plan, const SplitCommand& split);

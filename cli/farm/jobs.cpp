@@ -30,7 +30,7 @@ constexpr const char* kJobsExamples =
     "  ods jobs renders/scene_360_TB.farm  by its folder, also when Slurm has forgotten it\n"
     "  ods jobs --json";
 
-struct JobsWishes {
+struct JobsChoices {
   std::string name;
   bool follow = false, json = false;
 };
@@ -41,7 +41,7 @@ bool is_folder_of_job(const std::string& name) {
 }
 
 // Throws ods::Error(kInput) if there is no job of that name.
-std::vector<JobReport> find_jobs(const JobsWishes& wishes) {
+std::vector<JobReport> find_jobs(const JobsChoices& wishes) {
   const bool by_folder = !wishes.name.empty() && is_folder_of_job(wishes.name);
   const auto [tasks, fault] = read_queue();
   if (!fault.empty() && !by_folder) {
@@ -69,14 +69,14 @@ std::vector<JobReport> find_jobs(const JobsWishes& wishes) {
   if (jobs.empty() && !wishes.name.empty()) {
     throw ods::Error(ods::ErrorKind::kInput,
                      fmt::format("Slurm knows of no job '{}'; ods jobs FOLDER reads its folder, "
-                                 "NAME.farm beside what it makes",
+                                 "NAME.farm beside its output",
                                  wishes.name));
   }
   return jobs;
 }
 
-JobsWishes parse_jobs(Options& options) {
-  JobsWishes wishes;
+JobsChoices parse_jobs(Options& options) {
+  JobsChoices wishes;
   options.describe("Shows how much is done, running, waiting and failed of the jobs that ods submit sent to Slurm.",
                    kJobsExamples);
   options.optional_argument("NAME", wishes.name, "a job, or its folder; by default all");
@@ -90,7 +90,7 @@ JobsWishes parse_jobs(Options& options) {
   return wishes;
 }
 
-ExitCode show_jobs(const JobsWishes& wishes) {
+ExitCode show_jobs(const JobsChoices& wishes) {
   if (wishes.follow) end_on_interrupts();
   std::vector<JobReport> found;
   std::string before;

@@ -10,13 +10,13 @@
 #include <iterator>
 #include <numeric>
 
+#include "cli/camera/stitch_frames.h"
 #include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/farm/command_words.h"
 #include "cli/options/picture_options.h"
 #include "cli/render/plan.h"
 #include "cli/render/render_frames.h"
-#include "cli/slits/stitch_frames.h"
 #include "cli/video/video_job.h"
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
@@ -227,7 +227,7 @@ SplitCommand split_render(const Words& words) {
   std::vector<GivenWord> given = job.given;
   SplitCommand split = begin(given);
   add_scene_files(split, job.scene);
-  const bool frames = job.rig.empty() && asks_for_video(job.time);
+  const bool frames = job.rig.empty() && makes_video(job.time);
   if (job.rig.empty()) {
     const std::string path = frames ? video_names(split.output).path(0) : split.output;
     ods::check_output(path, job.save, ods::eye_list(job.render.eyes), {job.render.width, job.render.height},
@@ -304,7 +304,7 @@ SplitCommand split_other(const OtherCommand& command, const Words& words) {
     return split;
   }
   if (split.output.empty() && command.in_place) {
-    throw UsageError("a farm's task changes no file that it reads: say with -o where the tagged one goes");
+    throw UsageError("a farm's task does not change its input: name the tagged file with -o");
   }
   if (split.output.empty()) split.output = given.front().value;
   split.count = 1;

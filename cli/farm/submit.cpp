@@ -26,14 +26,14 @@ namespace {
 constexpr float kSubmitLimit = 600;  // seconds for all of a job's sbatch
 
 // The limits of this cluster.
-void ask_slurm(const SubmitJob& job, const ods::FarmPlan& plan, ods::SchedulerWishes& wishes) {
+void ask_slurm(const SubmitJob& job, const ods::FarmPlan& plan, ods::SchedulerChoices& wishes) {
   const auto config = run_program({.words = {"scontrol", "show", "config"}, .limit = kSlurmLimit});
   const std::string text = config ? config->out : "";
   wishes.largest_array = std::max(2, ods::slurm_setting(text, "MaxArraySize").value_or(1001));
-  const int most = ods::slurm_setting(text, "MaxJobCount").value_or(10000), tasks = plan.groups.front().tasks;
-  if (tasks < most || job.dry) return;
+  const int maximum = ods::slurm_setting(text, "MaxJobCount").value_or(10000), tasks = plan.groups.front().tasks;
+  if (tasks < maximum || job.dry) return;
   throw UsageError(fmt::format("{} tasks are more than this cluster's MaxJobCount of {}: make them larger, --chunk {}",
-                               tasks, most, (std::max(job.chunk, 1) * int64_t{tasks}) / (most / 2) + 1));
+                               tasks, maximum, (std::max(job.chunk, 1) * int64_t{tasks}) / (maximum / 2) + 1));
 }
 
 void print(const std::vector<ods::FarmFile>& files, const ods::FarmPlan& plan) {
@@ -71,7 +71,7 @@ void send(const ods::FarmPlan& plan) {
                      fmt::format("Slurm did not accept the job ({}); try again: sh {}/submit.sh", fault,
                                  ods::shell_word(plan.folder)));
   }
-  if (!sent->last_words.empty()) warn(fmt::format("Slurm: {}", sent->last_words));
+  if (!sent->final_message.empty()) warn(fmt::format("Slurm: {}", sent->final_message));
   ods::write_file(plan.folder + "/jobs.txt", sent->out);
   if (!console.quiet) put_out(sent->out);
   note(fmt::format("ods jobs {} --follow shows its progress", ods::shell_word(plan.name)));
@@ -96,11 +96,11 @@ void submit(const SubmitJob& job) {
     split.prepare();
   }
   count_tasks(job, split, plan);
-  ods::SchedulerWishes wishes = job.wishes;
+  ods::SchedulerChoices wishes = job.wishes;
   if (is_slurm) ask_slurm(job, plan, wishes);
   std::vector<ods::FarmFile> files = scheduler.write(plan, wishes);
   files.insert(files.begin(), {"plan.json", ods::write_plan(plan)});
-  say_job(plan, split);
+  report_job(plan, split);
   if (job.dry) return print(files, plan);
   write(files, plan);
   if (is_slurm) return send(plan);

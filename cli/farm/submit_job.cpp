@@ -147,7 +147,7 @@ static bool has_room_for_raw(const SplitCommand& split) {
 static void put_raw_first(const SplitCommand& split, int chunk, ods::FarmPlan& plan) {
   ods::TaskGroup raw = *split.raw;
   raw.tasks = ods::tasks_for(split.count, chunk);
-  plan.groups.front().tasks = ods::tasks_for(split.count, std::max(chunk, ods::least_chunk(split.halo)));
+  plan.groups.front().tasks = ods::tasks_for(split.count, std::max(chunk, ods::min_chunk(split.halo)));
   plan.groups.insert(plan.groups.begin(), raw);
 }
 

@@ -18,7 +18,7 @@ struct SubmitJob {
   std::optional<float> memory;  // GB
   bool raw_first = false;
   bool dry = false, copies = false;
-  ods::SchedulerWishes wishes;
+  ods::SchedulerChoices wishes;
   std::vector<std::string> command;
 };
 

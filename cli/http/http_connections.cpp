@@ -6,8 +6,8 @@
 
 namespace {
 
-constexpr size_t kMostOfAddress = 32;
-constexpr size_t kMost = 256;
+constexpr size_t kMaxAddressBytes = 32;
+constexpr size_t kMax = 256;
 
 }  // namespace
 
@@ -18,7 +18,7 @@ void HttpConnections::end(int socket, Connection& connection) {
 }
 
 // Searches all connections, or the connections of an address.
-bool HttpConnections::make_room(const uint32_t* address, size_t most) {
+bool HttpConnections::make_room(const uint32_t* address, size_t maximum) {
   size_t count = 0;
   auto longest = connections_.end();
   for (auto each = connections_.begin(); each != connections_.end(); ++each) {
@@ -28,7 +28,7 @@ bool HttpConnections::make_room(const uint32_t* address, size_t most) {
     if (connection.waits_since == 0) continue;
     if (longest == connections_.end() || connection.waits_since < longest->second.waits_since) longest = each;
   }
-  if (count < most) return true;
+  if (count < maximum) return true;
   if (longest == connections_.end()) return false;
   end(longest->first, longest->second);
   return true;
@@ -36,7 +36,7 @@ bool HttpConnections::make_room(const uint32_t* address, size_t most) {
 
 bool HttpConnections::add(int socket, uint32_t address) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!make_room(&address, kMostOfAddress) || !make_room(nullptr, kMost)) return false;
+  if (!make_room(&address, kMaxAddressBytes) || !make_room(nullptr, kMax)) return false;
   connections_[socket] = {.address = address, .waits_since = ++waits_};
   return true;
 }

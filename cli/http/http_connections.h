@@ -32,7 +32,7 @@ class HttpConnections {
   };
 
   void end(int socket, Connection& connection);
-  bool make_room(const uint32_t* address, size_t most);
+  bool make_room(const uint32_t* address, size_t maximum);
 
   std::mutex mutex_;
   std::condition_variable removed_;

@@ -166,10 +166,10 @@ std::string HttpExchange::refusal(const RequestHead& head, int& status) const {
   }
   status = 411;
   const std::optional<uint64_t> length = length_of(head);
-  if (!head.field("transfer-encoding").empty()) return "say how long the body is";
-  if (!length) return is_post || head.fields.contains("content-length") ? "say how long the body is" : "";
+  if (!head.field("transfer-encoding").empty()) return "Content-Length is missing";
+  if (!length) return is_post || head.fields.contains("content-length") ? "Content-Length is missing" : "";
   status = 413;
-  return *length > (is_upload(head) ? options_.most_upload : options_.most_body) ? "that is too large" : "";
+  return *length > (is_upload(head) ? options_.max_upload : options_.max_body) ? "that is too large" : "";
 }
 
 // Hands a body over in pieces. False: it does not come, or is not taken.
@@ -196,7 +196,7 @@ WebAnswer HttpExchange::ask(const WebRequest& request) const {
     return {.status = by_user ? 400 : 500, .body = with_options(error.what()) + "\n"};
   } catch (const std::exception& error) {
     warn(error.what());  // other users of the network must not see the details
-    return {.status = 500, .body = "that did not work: the terminal of ods view says why\n"};
+    return {.status = 500, .body = "that failed: the terminal of ods view shows why\n"};
   }
 }
 

@@ -19,9 +19,9 @@
 
 namespace {
 
-constexpr int kBacklog = 256;        // connections that the system keeps until we take them
-constexpr int kMostRequests = 1000;  // of a connection
-constexpr size_t kMostHead = 16 << 10;
+constexpr int kBacklog = 256;       // connections that the system keeps until we take them
+constexpr int kMaxRequests = 1000;  // of a connection
+constexpr size_t kMaxHead = 16 << 10;
 constexpr std::chrono::seconds kHead{5};  // for a request's head, from the connection or its first byte on
 constexpr std::chrono::seconds kIdle{2};  // between requests of a connection
 
@@ -72,10 +72,10 @@ struct HttpServer::State {
 static size_t read_head(WebStream& stream, std::string& text, WebDeadline until) {
   for (;;) {
     const size_t end = text.find("\r\n\r\n");
-    if (end != std::string::npos && end + 4 <= kMostHead) return end + 4;
-    if (text.size() >= kMostHead) return HttpExchange::refuse(stream, 431, "that is too long"), 0;
+    if (end != std::string::npos && end + 4 <= kMaxHead) return end + 4;
+    if (text.size() >= kMaxHead) return HttpExchange::refuse(stream, 431, "that is too long"), 0;
     char piece[4096];
-    const size_t count = stream.read(piece, std::min(sizeof(piece), kMostHead - text.size()), until);
+    const size_t count = stream.read(piece, std::min(sizeof(piece), kMaxHead - text.size()), until);
     if (count == 0 && !text.empty()) HttpExchange::refuse(stream, 408, "the request took too long");
     if (count == 0) return 0;
     text.append(piece, count);
@@ -89,7 +89,7 @@ void HttpServer::State::serve(int socket) {
   std::string bytes;  // received, but not read yet
   WebDeadline until = now() + kHead;
   bool stays = stream.open(until);
-  for (int i = 0; stays && i < kMostRequests; i++) {
+  for (int i = 0; stays && i < kMaxRequests; i++) {
     if (i > 0 && bytes.empty()) {
       bytes.resize(1);
       if (stream.read(bytes.data(), 1, now() + kIdle) == 0) break;

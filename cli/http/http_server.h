@@ -57,10 +57,10 @@ struct WebOptions {
   std::vector<std::string> hosts{"127.0.0.1", "localhost"};  // the names that we go by
   std::string certificate;                                   // PEM files, for https; empty: http
   std::string key;
-  size_t most_body = size_t{64} << 10;  // bytes of a request's body
-  std::string upload;                   // the path whose bodies are files, one at a time; empty: none
-  std::string upload_folder;            // for uploads; other users cannot enter it
-  size_t most_upload = size_t{512} << 20;
+  size_t max_body = size_t{64} << 10;  // bytes of a request's body
+  std::string upload;                  // the path whose bodies are files, one at a time; empty: none
+  std::string upload_folder;           // for uploads; other users cannot enter it
+  size_t max_upload = size_t{512} << 20;
 };
 
 class HttpServer {

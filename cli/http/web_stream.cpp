@@ -22,7 +22,7 @@
 namespace {
 
 constexpr std::chrono::seconds kFarewell{1};
-constexpr int kMostFarewells = 256;  // pieces of 4 KB that are still on their way
+constexpr int kMaxFarewells = 256;  // pieces of 4 KB that are still on their way
 
 SSL* tls(void* pointer) {
   return static_cast<SSL*>(pointer);
@@ -100,10 +100,10 @@ bool WebStream::open(WebDeadline until) {
   return !tls_ || run([&] { return SSL_accept(tls(tls_)); }, POLLIN, until) > 0;
 }
 
-size_t WebStream::read(char* to, size_t most, WebDeadline until) {
+size_t WebStream::read(char* to, size_t maximum, WebDeadline until) {
   const auto step = [&] {
-    return tls_ ? SSL_read(tls(tls_), to, piece_of(most))
-                : static_cast<int>(recv(socket_, to, static_cast<size_t>(piece_of(most)), 0));
+    return tls_ ? SSL_read(tls(tls_), to, piece_of(maximum))
+                : static_cast<int>(recv(socket_, to, static_cast<size_t>(piece_of(maximum)), 0));
   };
   return static_cast<size_t>(run(step, POLLIN, until));
 }
@@ -149,7 +149,7 @@ void WebStream::end() {
   shutdown(socket_, SHUT_WR);
   const WebDeadline until = std::chrono::steady_clock::now() + kFarewell;
   char piece[4096];
-  for (int i = 0; i < kMostFarewells && wait_for(socket_, POLLIN, until); i++) {
+  for (int i = 0; i < kMaxFarewells && wait_for(socket_, POLLIN, until); i++) {
     if (recv(socket_, piece, sizeof(piece), 0) <= 0) return;
   }
 }

@@ -36,7 +36,7 @@ class WebStream {
   // Agrees on keys, where there are some. False, as below: the deadline has passed, or the other side has gone.
   bool open(WebDeadline until);
   // Reads the available bytes, at least one; returns 0 on failure.
-  size_t read(char* to, size_t most, WebDeadline until);
+  size_t read(char* to, size_t maximum, WebDeadline until);
   // patience: for the other side to take more of them.
   bool write(std::string_view bytes, std::chrono::seconds patience);
   // A program of this machine and this user is at the other end.

@@ -84,7 +84,7 @@ std::optional<vec3> parse_axis(const std::string& text) {
   std::vector<float> numbers = text == "world" ? std::vector<float>{0.0f, 1.0f, 0.0f} : parse_numbers(text);
   const bool three = numbers.size() == 3;
   const float size = three ? std::hypot(numbers[0], numbers[1], numbers[2]) : 0.0f;
-  if (!(size > 1e-6f && size < range_of(CameraField::kAxis).most)) {
+  if (!(size > 1e-6f && size < range_of(CameraField::kAxis).maximum)) {
     throw UsageError(fmt::format("--axis is camera, world or a direction X,Y,Z, not '{}'", text));
   }
   return vec3(numbers[0], numbers[1], numbers[2]) / size;
@@ -151,7 +151,7 @@ void add_circle_options(Options& options, CameraOptions& camera) {
   options.group("Eyes");
   for (const ods::CameraFieldRow& row : ods::camera_fields()) {
     if (row.help.empty()) continue;
-    options.number(fmt::format("--{}", row.setting), changes.numbers[row.member], row.range.least, row.range.most,
+    options.number(fmt::format("--{}", row.setting), changes.numbers[row.member], row.range.minimum, row.range.maximum,
                    std::string(row.help), fmt::format("{}", *row.numbers(camera.stereo)[0]));
   }
   const bool may_follow_depth = camera.may_follow_depth;

@@ -13,5 +13,5 @@ template <class T>
 void add_field_option(Options& options, const std::string& name, T& value, ods::CameraField field,
                       const std::string& text) {
   const ods::FieldRange range = range_of(field);
-  options.number(name, value, range.least, range.most, text);
+  options.number(name, value, range.minimum, range.maximum, text);
 }

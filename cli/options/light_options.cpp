@@ -90,17 +90,17 @@ ods::Environment given_environment(const std::string& option, const Named& named
   return environment;
 }
 
-void read_lamp(const std::string& word, ods::LightWishes& wishes) {
+void read_lamp(const std::string& word, ods::LightChoices& wishes) {
   if (word.empty() || word == "auto") return;
   if (word == "none") {
-    wishes.lamp = ods::LampWish::kNone;
+    wishes.lamp = ods::LampChoice::kNone;
     return;
   }
   const std::vector<float> numbers = parse_numbers(word);
   const bool legal =
       numbers.size() == 3 && std::ranges::all_of(numbers, [](float number) { return std::abs(number) <= 1e6f; });
   if (!legal) throw UsageError(fmt::format("--lamp is auto, none or a place X,Y,Z, not '{}'", word));
-  wishes.lamp = ods::LampWish::kPlaced;
+  wishes.lamp = ods::LampChoice::kPlaced;
   wishes.lamp_position = vec3(numbers[0], numbers[1], numbers[2]);
 }
 
@@ -139,8 +139,8 @@ std::string environment_file(const std::string& option, const std::string& word)
   return word.empty() || word == "env" ? "" : parse_environment(option, word).file;
 }
 
-ods::LightWishes read_wishes(const LightOptions& light, bool transparent, const std::string& confined_to) {
-  ods::LightWishes wishes;
+ods::LightChoices read_wishes(const LightOptions& light, bool transparent, const std::string& confined_to) {
+  ods::LightChoices wishes;
   read_lamp(light.lamp, wishes);
   wishes.unlit = light.unlit;
   wishes.ground = !transparent;
@@ -152,12 +152,12 @@ ods::LightWishes read_wishes(const LightOptions& light, bool transparent, const 
   return wishes;
 }
 
-void light_scene(ods::Scene& scene, const LightOptions& light, ods::LightWishes wishes, bool is_ours,
+void light_scene(ods::Scene& scene, const LightOptions& light, ods::LightChoices wishes, bool is_ours,
                  const std::string& confined_to, PlannedLight planned) {
   wishes.yaw = ods::default_view(scene).yaw;
   const std::optional<ods::Environment> background = read_background(light.background, confined_to);
   auto& [survey, plan] = planned;
-  if (is_ours && wishes.lamp == ods::LampWish::kPlaced) {
+  if (is_ours && wishes.lamp == ods::LampChoice::kPlaced) {
     const ods::SceneRays rays(scene);
     survey = ods::survey(rays);
     plan = ods::plan_light(rays, survey, wishes);

@@ -45,7 +45,7 @@ static std::optional<float> parse_unit(const std::string& word) {
   if (word == "auto") return std::nullopt;
   if (const auto unit = ods::find_in(ods::kUnitTable, word)) return ods::row_in(ods::kUnitTable, *unit).metres;
   const std::vector<float> numbers = parse_numbers(word);
-  if (numbers.size() == 1 && numbers[0] >= ods::kLeastUnit && numbers[0] <= ods::kMostUnit) return numbers[0];
+  if (numbers.size() == 1 && numbers[0] >= ods::kMinUnit && numbers[0] <= ods::kMaxUnit) return numbers[0];
   throw UsageError(fmt::format("--unit is auto, {}, or the unit in metres (0.000001 to a million), not '{}'",
                                fmt::join(ods::names_of(ods::kUnitTable), ", "), word));
 }
@@ -246,7 +246,7 @@ static void note_sheet_glass(const Scene& scene) {
                   others == 0 ? " is" : fmt::format(" and {} other material{} are", others, others == 1 ? "" : "s")));
 }
 
-ods::LightWishes wishes_for(SceneSource& source, bool transparent) {
+ods::LightChoices wishes_for(SceneSource& source, bool transparent) {
   read_foreign(source);
   if (source.foreign && source.light.environment.empty()) {
     source.light.environment = source.foreign->environment;
@@ -257,7 +257,7 @@ ods::LightWishes wishes_for(SceneSource& source, bool transparent) {
 
 Scene open_lit_scene(const SceneSource& given, bool transparent) {
   SceneSource source = given;
-  const ods::LightWishes wishes = wishes_for(source, transparent);
+  const ods::LightChoices wishes = wishes_for(source, transparent);
   const std::string confined_to = confining_folder(source);
   PlannedLight planned;
   Scene scene = open_scene(source, nullptr, [&](const ods::SceneRays& rays, const ods::Survey& survey) {

@@ -46,7 +46,7 @@ std::string confining_folder(const SceneSource& source);
 
 // The light that the options ask for; a scene of another program brings its world. Throws as read_foreign() and
 // read_wishes().
-ods::LightWishes wishes_for(SceneSource& source, bool transparent);
+ods::LightChoices wishes_for(SceneSource& source, bool transparent);
 
 // Reads the scene, turns the named objects into catchers, makes glass solid if asked to, and notes what the renderer
 // does not support. A file's scene is measured: it gets its size in metres and a place for the viewer

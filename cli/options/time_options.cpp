@@ -58,7 +58,7 @@ void add_time_options(Options& options, TimeOptions& time) {
   options.text("--only", "LIST|I/N", time.only,
                "make only these frames, or the I-th of N shares of them, as one of several processes; exposure and "
                "denoising still consider all frames");
-  options.number("--fps", time.asked_fps, 0.01f, 1000.0f, "frames per second", "30");
+  options.number("--fps", time.given_fps, 0.01f, 1000.0f, "frames per second", "30");
   options.number("--duration", time.duration, 0.01f, 1e6f,
                  "length of the video and of camera moves, seconds; by default the animation's length, or 10");
   options.custom(
@@ -69,7 +69,7 @@ void add_time_options(Options& options, TimeOptions& time) {
   options.custom(
       "--fly-to", "X,Y,Z;X,Y,Z...", "", [&](const std::string& word) { read_flight(word, time.move); },
       "fly the camera from its position through these points, on a smooth curve, in the whole duration");
-  options.number("--shutter", time.asked_shutter, 0.0f, 360.0f,
+  options.number("--shutter", time.given_shutter, 0.0f, 360.0f,
                  "motion blur: shutter angle in degrees, centred on the frame's time; 360 is a whole frame, 180 is "
                  "usual, 0 turns it off",
                  "0");
@@ -80,12 +80,12 @@ void add_time_options(Options& options, TimeOptions& time) {
                "do not render files that exist; several processes with this option share the rest");
 }
 
-bool asks_for_video(const TimeOptions& time) {
+bool makes_video(const TimeOptions& time) {
   return time.is_video || !time.frames.empty() || time.duration || ods::moves(time.move);
 }
 
 void check_time_options(const TimeOptions& time) {
-  if (time.time && asks_for_video(time)) throw UsageError("--time is for one picture, --frames for a video; give one");
+  if (time.time && makes_video(time)) throw UsageError("--time is for one picture, --frames for a video; give one");
   if (names_frames(time)) ods::parse_frames(time.frames);
   check_only(time.only);
 }
@@ -127,8 +127,8 @@ static void turn_object(TimeOptions& time, ods::Scene& scene) {
   const std::vector<int> frames = video_frames(time);
   const double end =
       (*std::max_element(frames.begin(), frames.end()) - time.file.first) / static_cast<double>(time.fps) + 1.0;
-  if (std::abs(move.turns) / move.seconds * std::max(end, move.seconds) > ods::kMostTurns) {
-    throw UsageError(fmt::format("--turntable turns an object {:g} times at most", ods::kMostTurns));
+  if (std::abs(move.turns) / move.seconds * std::max(end, move.seconds) > ods::kMaxTurns) {
+    throw UsageError(fmt::format("--turntable turns an object at most {:g} times", ods::kMaxTurns));
   }
   ods::turn_object(scene, scene.viewing->middle, move.turns, move.seconds, end);
   note("the object turns on the spot; --turntable TURNS,X,Y,Z moves the viewer around it instead");
@@ -143,12 +143,12 @@ static Grain usual_grain(const TimeOptions& time, const CameraOptions& camera, c
 void start_clock(TimeOptions& time, const CameraOptions& camera, ods::Scene& scene) {
   ods::Animation& animation = scene.animation;
   // A still shows the frame at which the file was saved.
-  if (time.file.count > 0 && !time.time && !asks_for_video(time)) {
+  if (time.file.count > 0 && !time.time && !makes_video(time)) {
     time.time = static_cast<float>(time.file.saved - time.file.first) / time.fps;
     note(fmt::format("frame {} of {} to {}, at which the file was saved; --time SECONDS or --frames LIST chooses",
                      time.file.saved, time.file.first, time.file.first + time.file.count - 1));
   }
-  const bool timed = time.time || asks_for_video(time);
+  const bool timed = time.time || makes_video(time);
   const std::vector<std::string> names = ods::names_of(animation.clips);
   if (!timed && time.animation.empty()) {
     if (!names.empty()) note("rendering the rest pose; --time SECONDS or --frames LIST plays the animation");
@@ -181,7 +181,8 @@ static std::vector<int> named_frames(const TimeOptions& time) {
 std::vector<int> video_frames(const TimeOptions& time) {
   if (names_frames(time)) return named_frames(time);
   const double count = std::round(time.move.seconds * static_cast<double>(time.fps));
-  if (count > 1e6) throw UsageError("the video would have more than a million frames; --frames says which to render");
+  if (count > 1e6)
+    throw UsageError("the video would have more than a million frames; --frames selects which to render");
   std::vector<int> frames(static_cast<size_t>(std::max(count, 1.0)));
   std::iota(frames.begin(), frames.end(), time.file.first);
   return frames;

@@ -33,11 +33,11 @@ struct TimeOptions {
   std::string animation;           // empty: ods::play() chooses
   std::string frames;              // empty or "all": the whole duration
   std::string only;                // the frames that this process makes, or its share, "3/8"; empty: all
-  std::optional<float> asked_fps;  // --fps
+  std::optional<float> given_fps;  // --fps
   float fps = 30.0f;               // that, or the converted scene's, or this
   std::optional<float> duration;   // seconds; of a video, or of the camera's move
   ods::CameraMove move;
-  std::optional<float> asked_shutter;  // --shutter
+  std::optional<float> given_shutter;  // --shutter
   float shutter = 0.0f;  // that, or the converted scene's: shutter angle, degrees; 360 is the time between two frames
   std::optional<Grain> grain;  // empty: start_clock() chooses
   bool skip_existing = false;
@@ -47,7 +47,7 @@ struct TimeOptions {
 void add_time_options(Options& options, TimeOptions& time);
 
 // Returns whether the options specify a video, frame by frame.
-bool asks_for_video(const TimeOptions& time);
+bool makes_video(const TimeOptions& time);
 
 // Checks the options as a whole. Throws UsageError and ods::Error.
 void check_time_options(const TimeOptions& time);

@@ -27,7 +27,7 @@ std::string encoder_list() {
   return fmt::format("{}", fmt::join(ods::names_of(ods::known_encoders()), ", "));
 }
 
-void parse_encoder(const std::string& name, VideoWishes& wishes) {
+void parse_encoder(const std::string& name, VideoChoices& wishes) {
   for (const ods::EncoderFacts& facts : ods::known_encoders()) {
     if (facts.name != name) continue;
     wishes.encoder = name;
@@ -37,7 +37,7 @@ void parse_encoder(const std::string& name, VideoWishes& wishes) {
 }
 
 // The target's packing, with the options applied.
-ods::Packing packing_for(const VideoWishes& wishes, Container container, Extent size) {
+ods::Packing packing_for(const VideoChoices& wishes, Container container, Extent size) {
   ods::Packing packing = ods::packing_for(wishes.target_or_usual(), size, wishes.rate.value());
   const auto change = [&](VideoCodec codec) {
     if (packing.codec == codec) return;
@@ -95,14 +95,14 @@ void check_quality(const ods::EncodeOptions& options) {
 
 // Warns about a video that does not exist yet, as ods probe would see it, and notes the name by which players would
 // recognise it.
-void warn_of_names(const VideoWishes& wishes, const ods::VideoPlan& plan) {
+void warn_of_names(const VideoChoices& wishes, const ods::VideoPlan& plan) {
   ods::VideoFile video;
   ods::VideoTrack track;
   track.size = plan.size;
   track.v2 = track.v1 = plan.metadata;
   const std::vector<std::string> warnings = ods::video_warnings(video, track, wishes.output);
   for (const std::string& warning : warnings) warn(warning);
-  const bool has_words = plan.eyes == 1 || !ods::read_name(wishes.output).layout_word.empty();
+  const bool has_words = plan.eyes == 1 || !ods::read_name(wishes.output).layout_token.empty();
   const bool misleads = std::any_of(warnings.begin(), warnings.end(),
                                     [](const std::string& warning) { return warning.starts_with("its name says"); });
   if (has_words && !misleads) return;
@@ -159,13 +159,13 @@ ods::FrameRate parse_rate(const std::string& text) {
   return rate;
 }
 
-void add_video_options(Options& options, VideoWishes& wishes) {
+void add_video_options(Options& options, VideoChoices& wishes) {
   options.group("Video");
   options.text("-o,--output", ValueKind::output_file(), wishes.output, ".mp4 .mov .mkv .webm");
   add_packing_options(options, wishes);
 }
 
-void add_packing_options(Options& options, VideoWishes& wishes) {
+void add_packing_options(Options& options, VideoChoices& wishes) {
   options.choice("--target", wishes.target, ods::kVideoTargetTable,
                  "preset for a destination; the options below override it",
                  std::string(ods::name_in(ods::kVideoTargetTable, ods::VideoTarget::kVrPlayers)));
@@ -185,7 +185,7 @@ void add_packing_options(Options& options, VideoWishes& wishes) {
 }
 
 // A codec that cannot be written, or not into this container, is replaced by a codec for players.
-static void warn_of_less(const VideoWishes& wishes, const std::string& path, const ods::VideoStream& stream) {
+static void warn_of_less(const VideoChoices& wishes, const std::string& path, const ods::VideoStream& stream) {
   std::string loss, cure;
   if (stream.bits > 8 && !wishes.bits && !stream.words.is_hdr()) {
     loss += fmt::format(" {} bits", stream.bits), cure += " --bits 10";
@@ -197,7 +197,7 @@ static void warn_of_less(const VideoWishes& wishes, const std::string& path, con
   if (!loss.empty()) warn(fmt::format("'{}' has{}, the new video less, for players:{} keeps it", path, loss, cure));
 }
 
-VideoWishes wishes_like(VideoWishes wishes, const ods::VideoInput& video, const ods::VideoStream& stream) {
+VideoChoices wishes_like(VideoChoices wishes, const ods::VideoInput& video, const ods::VideoStream& stream) {
   wishes.rate = stream.rate;
   const auto own = ods::packing_like(stream, container_for(wishes.output));
   const bool is_open = !wishes.target && !wishes.codec && wishes.encoder.empty();
@@ -215,7 +215,7 @@ VideoWishes wishes_like(VideoWishes wishes, const ods::VideoInput& video, const 
   return wishes;
 }
 
-ods::EncodeOptions encode_options(const VideoWishes& wishes, Extent size, int threads) {
+ods::EncodeOptions encode_options(const VideoChoices& wishes, Extent size, int threads) {
   const Container container = container_for(wishes.output);
   check_apple(wishes.for_apple, container);
   setenv("SVT_LOG", "0", 0);  // SVT-AV1 would print its own messages
@@ -248,13 +248,13 @@ ods::VideoPlan expect_video(Layout layout, size_t eyes, ods::Extent eye, const o
   return plan;
 }
 
-void say_what_players_need(const VideoWishes& wishes, const ods::VideoPlan& plan, const ods::EncodeOptions& options) {
+void note_player_limits(const VideoChoices& wishes, const ods::VideoPlan& plan, const ods::EncodeOptions& options) {
   warn_of_level(plan, options);
   warn_of_hardware(options.packing);
   warn_of_names(wishes, plan);
 }
 
-void say_length_of_sound(const ods::EncodeOptions& options, size_t frames) {
+void note_sound_length(const ods::EncodeOptions& options, size_t frames) {
   if (options.sound.empty()) return;
   const double frame = 1.0 / options.rate.value(), video = static_cast<double>(frames) * frame;
   const ods::SoundInfo sound = ods::read_sound_info(options.sound);

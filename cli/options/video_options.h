@@ -10,7 +10,7 @@
 #include "ods/video/make_video.h"
 #include "ods/video/video_input.h"
 
-struct VideoWishes {
+struct VideoChoices {
   std::string output;
   std::optional<ods::VideoTarget> target;  // by default players of VR videos
   std::optional<ods::VideoCodec> codec;
@@ -23,7 +23,7 @@ struct VideoWishes {
   ods::FrameRate rate;
 
   ods::VideoTarget target_or_usual() const { return target.value_or(ods::VideoTarget::kVrPlayers); }
-  bool says_how_to_encode() const {
+  bool specifies_encoding() const {
     return target || codec || bits || crf || chroma || bitrate || for_apple || !encoder.empty() || !preset.empty() ||
            !sound.empty();
   }
@@ -33,28 +33,28 @@ struct VideoWishes {
 ods::FrameRate parse_rate(const std::string& text);
 
 // Adds -o and the packing options, in their own groups, without the rate.
-void add_video_options(Options& options, VideoWishes& wishes);
+void add_video_options(Options& options, VideoChoices& wishes);
 // Adds the packing options alone, to the group that is open.
-void add_packing_options(Options& options, VideoWishes& wishes);
+void add_packing_options(Options& options, VideoChoices& wishes);
 
 // Copies what the options leave open from the video that is converted: codec, bit depth, chroma, rate, audio and
 // metadata. Warns about what cannot be kept.
-VideoWishes wishes_like(VideoWishes wishes, const ods::VideoInput& video, const ods::VideoStream& stream);
+VideoChoices wishes_like(VideoChoices wishes, const ods::VideoInput& video, const ods::VideoStream& stream);
 
 // Chosen by a video's name. Throws UsageError.
 ods::Container container_for(const std::string& path);
 
 // Returns the settings to encode a video of that size. Throws UsageError if the options do not fit together, ods::Error
 // if this machine cannot encode it. Checks that the file can be written, but writes nothing.
-ods::EncodeOptions encode_options(const VideoWishes& wishes, ods::Extent size, int threads);
+ods::EncodeOptions encode_options(const VideoChoices& wishes, ods::Extent size, int threads);
 
 // Describes the video made from eyes of this size; warns about properties that players do not expect. Throws UsageError
 // for a layout that videos cannot have.
 ods::VideoPlan expect_video(ods::Layout layout, size_t eyes, ods::Extent eye, const ods::ProjectionSetting& projection);
 
 // Notes what users should know before the video is made: levels, names, and its sound for this number of frames.
-void say_what_players_need(const VideoWishes& wishes, const ods::VideoPlan& plan, const ods::EncodeOptions& options);
-void say_length_of_sound(const ods::EncodeOptions& options, size_t frames);
+void note_player_limits(const VideoChoices& wishes, const ods::VideoPlan& plan, const ods::EncodeOptions& options);
+void note_sound_length(const ods::EncodeOptions& options, size_t frames);
 
 // "h264 by libx264, 8 bits, 420, level 5.2, 4096x4096, 100 frames at 30 a second".
 std::string video_text(const ods::VideoPlan& plan, const ods::EncodeOptions& options, size_t frames);

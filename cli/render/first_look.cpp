@@ -52,14 +52,14 @@ bool is_looked_at(const RenderJob& job) {
   return job.time.is_video || job.part || !keeps_light(job.output);
 }
 
-void say_where(const RenderJob& job, ods::FrameRenderer& renderer, const ods::SequenceFrame& first) {
+void report_viewpoint(const RenderJob& job, ods::FrameRenderer& renderer, const ods::SequenceFrame& first) {
   const ods::StereoCamera camera = renderer.set(first).camera();
   note_camera(job.camera, renderer.scene(), camera);
   check_view(job, renderer.scene(), camera.position);
   note_straight_light(job, renderer.scene());
 }
 
-void say_look(const RenderJob& job, const ods::SequenceOptions& options, const ods::FirstLook& look) {
+void report_look(const RenderJob& job, const ods::SequenceOptions& options, const ods::FirstLook& look) {
   if (options.merge_limit) note(merge_by_depth_text(*options.camera.stereo.merge_map));
   const bool is_shown = is_looked_at(job);
   switch (look.reason) {
@@ -76,8 +76,7 @@ void say_look(const RenderJob& job, const ods::SequenceOptions& options, const o
       return note(
           fmt::format("exposure {:+} stops, as the frames that exist (--restart chooses it again)", look.exposure));
     case ods::ExposureReason::kLight: {
-      if (!is_shown)
-        return note(fmt::format("noise is judged at {:+} stops, as the picture will be looked at", look.exposure));
+      if (!is_shown) return note(fmt::format("noise is judged at {:+} stops, the exposure for viewing", look.exposure));
       const std::string more = job.brighter == 0.0f ? "" : fmt::format(" and --brighter {}", job.brighter);
       note(fmt::format("exposure {:+} stops, from a first look at the light{} (--exposure {})", look.exposure, more,
                        look.exposure));
@@ -91,7 +90,7 @@ void warn_of_strain(const RenderJob& job, ods::FrameRenderer& renderer, const st
   const double samples =
       1.0 * job.render.width * job.render.width * job.render.samples * static_cast<double>(all.size());
   if (samples < kLongSamples || job.part || ods::eye_list(job.render.eyes).size() < 2) return;
-  for (const size_t i : ods::looks_at(all, ods::kLooks)) {
+  for (const size_t i : ods::sampled_frames(all, ods::kLooks)) {
     const ods::Shot shot = renderer.set(all[i]);
     const ods::JudgedPicture judged = ods::judge_scene(renderer.renderer(), renderer.scene(), shot.camera());
     const std::string line = ods::strain_line(judged.verdict, ods::ComfortLevel::kError);

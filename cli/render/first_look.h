@@ -12,10 +12,10 @@
 bool is_looked_at(const RenderJob& job);
 
 // Notes the camera's place in the first frame, and simplifications; warns if nothing is visible from there.
-void say_where(const RenderJob& job, ods::FrameRenderer& renderer, const ods::SequenceFrame& first);
+void report_viewpoint(const RenderJob& job, ods::FrameRenderer& renderer, const ods::SequenceFrame& first);
 
 // Notes the merge and the exposure that ods::look_first() has found for the renderer; warns if all is black.
-void say_look(const RenderJob& job, const ods::SequenceOptions& options, const ods::FirstLook& look);
+void report_look(const RenderJob& job, const ods::SequenceOptions& options, const ods::FirstLook& look);
 
 // Says once, before a long rendering, if something in some of `all` strains the viewer's eyes to an error.
 void warn_of_strain(const RenderJob& job, ods::FrameRenderer& renderer, const std::vector<ods::SequenceFrame>& all);

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "cli/console/console.h"
-#include "cli/frames/disk_room.h"
+#include "cli/options/disk_room.h"
 #include "ods/files/private_folder.h"
 #include "ods/sequence/looks.h"
 
@@ -43,7 +43,8 @@ void suggest_faster(const RenderJob& job, double seconds_per_frame) {
 
 }  // namespace
 
-void say_forecast(const RenderJob& job, ods::FrameRenderer& renderer, const std::vector<ods::SequenceFrame>& frames) {
+void report_forecast(const RenderJob& job, ods::FrameRenderer& renderer,
+                     const std::vector<ods::SequenceFrame>& frames) {
   const ods::SmallFrame frame = look_at(job, renderer, frames);
   const double seconds = frame.seconds * static_cast<double>(frames.size());
   if (seconds >= kShort) {

@@ -10,4 +10,4 @@
 
 // Notes the time to render these frames, the disk space that they need, and faster settings if the time is long. Throws
 // ods::Error(kOutput) if the disk cannot hold them; with job.force it warns. Precondition: frames is not empty.
-void say_forecast(const RenderJob& job, ods::FrameRenderer& renderer, const std::vector<ods::SequenceFrame>& frames);
+void report_forecast(const RenderJob& job, ods::FrameRenderer& renderer, const std::vector<ods::SequenceFrame>& frames);

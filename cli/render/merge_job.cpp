@@ -118,7 +118,7 @@ void open_pictures(MergeJob& job, bool incomplete) {
 }
 
 // Opens the files that the arguments name. Until the wait is over, missing files may be late.
-void open_words(MergeJob& job, const std::vector<std::string>& words, bool incomplete) {
+void open_inputs(MergeJob& job, const std::vector<std::string>& words, bool incomplete) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<float>(job.render.wait);
   bool said = false;
   while (true) {
@@ -219,7 +219,7 @@ bool are_merged(const MergeOptions& given) {
 MergeJob open_parts(const MergeOptions& given) {
   MergeJob job;
   job.render = given.render;
-  open_words(job, given.parts, given.incomplete);
+  open_inputs(job, given.parts, given.incomplete);
   if (given.remove_parts && job.parts.empty()) {
     throw UsageError("--remove-parts: there are no parts, but unfinished samples");
   }

@@ -16,8 +16,8 @@ namespace {
 
 // A video's frames are .exr, but viewers see the video. One sample does not have a variance.
 ods::Denoiser denoiser_of(const RenderJob& job) {
-  const bool looked_at = job.time.is_video || !keeps_light(job.output);
-  const auto denoiser = job.denoise.value_or(looked_at ? ods::Denoiser::kOwn : ods::Denoiser::kNone);
+  const bool gaze_density = job.time.is_video || !keeps_light(job.output);
+  const auto denoiser = job.denoise.value_or(gaze_density ? ods::Denoiser::kOwn : ods::Denoiser::kNone);
   return denoiser == ods::Denoiser::kOwn && job.render.samples == 1 ? ods::Denoiser::kNone : denoiser;
 }
 
@@ -81,7 +81,7 @@ RenderPlan plan(const RenderJob& job, const TimeOptions& time) {
   sequence.merge_limit = job.camera.changes.merge_limit;
   sequence.fps = double{time.fps};
   sequence.first_frame = time.file.first;
-  if (asks_for_video(time) || time.time) sequence.shutter = double{time.shutter};
+  if (makes_video(time) || time.time) sequence.shutter = double{time.shutter};
   if (time.grain) sequence.changing_grain = *time.grain == Grain::kChanging;
   sequence.exposure = exposure_of(job);
   if (!sequence.exposure) sequence.brighter = job.brighter;

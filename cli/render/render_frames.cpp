@@ -8,9 +8,9 @@
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "cli/frames/disk_room.h"
-#include "cli/frames/waiting.h"
+#include "cli/options/disk_room.h"
 #include "cli/options/picture_options.h"
+#include "cli/options/waiting.h"
 #include "cli/render/first_look.h"
 #include "cli/render/plan.h"
 #include "cli/render/render_still.h"
@@ -24,7 +24,7 @@ namespace {
 
 // All frames of a video, or the one picture, whether or not they exist.
 std::vector<Frame> all_frames(const RenderJob& job, const TimeOptions& time, const ods::SequenceOptions& sequence) {
-  if (!asks_for_video(time)) return {{0, double{time.time.value_or(0.0f)}, job.output, job.render.seed}};
+  if (!makes_video(time)) return {{0, double{time.time.value_or(0.0f)}, job.output, job.render.seed}};
   video_names(job.output);  // throws
   return ods::make_frames(sequence, video_frames(time), job.output);
 }
@@ -35,15 +35,15 @@ std::vector<size_t> choose_frames(const TimeOptions& time, const std::vector<Fra
   for (const Frame& frame : all) numbers.push_back(frame.number);
   const std::vector<int> chosen = own_frames(time.only, numbers);
   std::vector<size_t> frames = ods::choose_frames(all, chosen, time.skip_existing);
-  if (asks_for_video(time)) {
-    say_existing(chosen.size() - frames.size(), chosen.size());
+  if (makes_video(time)) {
+    note_existing_frames(chosen.size() - frames.size(), chosen.size());
   } else if (frames.empty()) {
     note(fmt::format("'{}' exists already", all.front().path));
   }
   return frames;
 }
 
-void tell_speed(const RenderJob& job, size_t frames, const std::string& file, double samples, double seconds) {
+void report_speed(const RenderJob& job, size_t frames, const std::string& file, double samples, double seconds) {
   const double eyes = static_cast<double>(ods::eye_list(job.render.eyes).size());
   const double pixels = 1.0 * job.render.width * job.render.height * eyes * static_cast<double>(frames);
   const std::string what = frames == 1 ? file : fmt::format("{} frames", frames);
@@ -55,10 +55,10 @@ void tell_speed(const RenderJob& job, size_t frames, const std::string& file, do
 
 // The settings that the scene determines before its first picture: the merge, the exposure, the tone curve.
 void look_first(const RenderJob& job, ods::FrameRenderer& renderer, const std::vector<Frame>& all) {
-  say_where(job, renderer, all.front());
+  report_viewpoint(job, renderer, all.front());
   const ods::FirstLook look = ods::look_first(renderer, all);
   ods::SequenceOptions options = renderer.options();
-  say_look(job, options, look);
+  report_look(job, options, look);
   warn_of_strain(job, renderer, all);
   ods::SaveOptions& save = options.finish.save;
   save.exposure = is_looked_at(job) || job.exposure ? look.exposure : job.brighter;
@@ -93,13 +93,13 @@ void check_length(const ods::Scene& scene, const TimeOptions& time) {
 }  // namespace
 
 void check_outputs(const RenderJob& job) {
-  const std::string path = asks_for_video(job.time) ? video_names(job.output).path(0) : job.output;
+  const std::string path = makes_video(job.time) ? video_names(job.output).path(0) : job.output;
   const std::vector<int> eyes = ods::eye_list(job.render.eyes);
   ods::check_output(path, job.save, eyes, {job.render.width, job.render.height}, &job.camera.stereo.projection);
   note_misleading_name(path, job.save, eyes.size(), job.camera.stereo.projection);
 }
 
-void say_existing(size_t existing, size_t chosen) {
+void note_existing_frames(size_t existing, size_t chosen) {
   if (existing > 0) note(fmt::format("{} of {} frames exist already", existing, chosen));
 }
 
@@ -121,12 +121,12 @@ void render_job(const RenderJob& job, ProgressLines& lines) {
   ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
   TimeOptions time = job.time;
   start_clock(time, job.camera, scene);
-  const bool is_video = asks_for_video(time);
+  const bool is_video = makes_video(time);
   ods::FrameRenderer renderer(plan(job, time).sequence, scene);
   const std::vector<Frame> all = all_frames(job, time, renderer.options());
   const std::vector<size_t> missing = choose_frames(time, all);
   if (missing.empty()) return;
-  if (is_video) say_disk_room(job.output, missing.size(), largest_frame(job.output, job.render, job.save));
+  if (is_video) note_disk_space(job.output, missing.size(), largest_frame(job.output, job.render, job.save));
   look_first(job, renderer, all);
   const auto start = std::chrono::steady_clock::now();
   std::string first;
@@ -141,9 +141,9 @@ void render_job(const RenderJob& job, ProgressLines& lines) {
   progress.report = [&](double done, const ods::FrameAtWork& at) {
     lines.report(done, seconds_since(start), {"render", at.place, is_video ? at.count : 0, at.path});
   };
-  progress.waiting = say_waiting(is_video ? "frame" : "part");
+  progress.waiting = note_waiting(is_video ? "frame" : "part");
   const ods::Sink sink = time.skip_existing ? ods::Sink::kShared : ods::Sink::kFiles;
   const size_t rendered = is_video ? ods::render_sequence(renderer, all, missing, sink, progress)
                                    : render_picture(job, renderer, all.front(), progress);
-  if (rendered > 0) tell_speed(job, rendered, first, samples, seconds_since(start));
+  if (rendered > 0) report_speed(job, rendered, first, samples, seconds_since(start));
 }

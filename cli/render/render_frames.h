@@ -23,4 +23,4 @@ TimeOptions video_time(const RenderJob& job, ods::Scene& scene);
 std::vector<int> frames_of(const RenderJob& job);
 
 // Notes how many of the chosen frames exist.
-void say_existing(size_t existing, size_t chosen);
+void note_existing_frames(size_t existing, size_t chosen);

@@ -29,7 +29,7 @@ constexpr const char* kRenderExamples =
 std::optional<float> parse_exposure(const std::string& word) {
   if (word == "auto") return std::nullopt;
   const std::vector<float> numbers = parse_numbers(word);
-  if (numbers.size() == 1 && numbers[0] >= -ods::kMostStops && numbers[0] <= ods::kMostStops) return numbers[0];
+  if (numbers.size() == 1 && numbers[0] >= -ods::kMaxStops && numbers[0] <= ods::kMaxStops) return numbers[0];
   throw UsageError(fmt::format("--exposure is auto or a number of stops from -30 to 30, not '{}'", word));
 }
 
@@ -73,7 +73,7 @@ void add_long_options(Options& options, RenderJob& job) {
 // Parts are exact shares of a fixed number of samples.
 void check_long_job(const Options& options, const RenderJob& job) {
   const std::vector<std::string> own = {"--restart", "--save-unfinished", "--part", "--parts"};
-  if (asks_for_video(job.time)) options.refuse(own, "is for one picture; frames continue with --skip-existing");
+  if (makes_video(job.time)) options.refuse(own, "is for one picture; frames continue with --skip-existing");
   if (!job.rig.empty()) options.refuse(own, "cannot be used with --rig");
   if (!job.part) return;
   options.refuse({"--noise", "--time-limit", "--save-unfinished"}, "cannot be used with --part");
@@ -104,7 +104,7 @@ void add_exposure_option(Options& options, RenderJob& job) {
       "--exposure", "auto|STOPS", "auto", [&](const std::string& word) { job.exposure = parse_exposure(word); },
       "exposure in stops. auto: suits the light in a first small picture; the same for both eyes and all frames; "
       ".hdr and .exr stay scene-linear and ignore it");
-  options.number("--brighter", job.brighter, -ods::kMostStops, ods::kMostStops,
+  options.number("--brighter", job.brighter, -ods::kMaxStops, ods::kMaxStops,
                  "stops added to the exposure, given or auto: 1 is twice as bright, -1 half");
 }
 
@@ -115,7 +115,7 @@ void add_wait_option(Options& options, float& seconds, const char* noun) {
 
 void finish_render_options(Options& options, RenderJob& job) {
   check_time_options(job.time);
-  if (!job.time.only.empty() && !asks_for_video(job.time) && job.rig.empty()) {
+  if (!job.time.only.empty() && !makes_video(job.time) && job.rig.empty()) {
     throw UsageError("--only chooses among frames, or among the views of --rig; this is one picture");
   }
   job.given = options.given_words();
@@ -123,8 +123,8 @@ void finish_render_options(Options& options, RenderJob& job) {
   job.scene.has_places =
       !job.rig.empty() || job.camera.position || job.time.move.pivot || !job.time.move.fly_to.empty();
   job.scene.camera = job.camera.view_point;
-  job.time.fps = job.time.asked_fps.value_or(job.time.fps);
-  job.time.shutter = job.time.asked_shutter.value_or(0.0f);
+  job.time.fps = job.time.given_fps.value_or(job.time.fps);
+  job.time.shutter = job.time.given_shutter.value_or(0.0f);
   finish_quality(job);
 }
 
@@ -153,8 +153,7 @@ RenderJob parse_render(Options& options) {
     throw UsageError("--shadow-catcher needs --transparent");
   }
   if (job.render.statistics && !ods::keeps_layers(job.output)) throw UsageError("--statistics needs an .exr");
-  if (job.object_layer &&
-      (!ods::keeps_layers(job.output) || job.part || !job.rig.empty() || asks_for_video(job.time))) {
+  if (job.object_layer && (!ods::keeps_layers(job.output) || job.part || !job.rig.empty() || makes_video(job.time))) {
     throw UsageError("--object-layer is for one whole picture, an .exr");
   }
   job.render.layers = ods::keeps_layers(job.output);
@@ -168,9 +167,9 @@ RenderJob settled(RenderJob job) {
   if (job.denoise == ods::Denoiser::kOidn) ods::check_oidn();
   read_foreign(job.scene);
   if (const std::optional<ForeignScene>& foreign = job.scene.foreign) {
-    job.time.fps = job.time.asked_fps.value_or(foreign->fps.value_or(job.time.fps));
+    job.time.fps = job.time.given_fps.value_or(foreign->fps.value_or(job.time.fps));
     job.time.file = foreign->frames;
-    job.time.shutter = job.time.asked_shutter.value_or(foreign->shutter);
+    job.time.shutter = job.time.given_shutter.value_or(foreign->shutter);
   }
   take_base(job.camera, job.scene.foreign, job.scene.blender);
   use_form(job.form, job.camera, job.render, job.save);

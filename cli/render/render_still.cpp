@@ -18,7 +18,7 @@
 
 namespace {
 
-const char* stopping_words() {
+const char* stopping_message() {
   if (console.quiet) return "";
   if (console.json) return "{\"note\":\"stopping; a second signal ends at once\"}\n";
   return stderr_is_terminal() ? "\r\x1b[Kods: stopping; Ctrl-C again ends at once\n" : "ods: stopping\n";
@@ -83,7 +83,7 @@ ods::Rendered render_still(const RenderJob& job, ods::FrameRenderer& renderer, c
   ods::PictureSamples samples = unfinished.begin();
   std::optional<ods::ObjectLayer> objects = objects_of(job, renderer, camera, options);
   {
-    const GentleStop stop(stopping_words());
+    const GentleStop stop(stopping_message());
     const double share = finishing.denoiser == ods::Denoiser::kNone ? 1.0 : ods::kShareOfRendering;
     ods::Progress progress;
     progress.report = [&](double done) { report(share * done); };

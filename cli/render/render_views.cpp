@@ -4,11 +4,11 @@
 
 #include <numeric>
 
+#include "cli/camera/stitch_frames.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "cli/frames/waiting.h"
+#include "cli/options/waiting.h"
 #include "cli/render/render_still.h"
-#include "cli/slits/stitch_frames.h"
 #include "ods/kernel/random.h"
 #include "ods/render/cpu/render.h"
 #include "ods/scene/motion.h"
@@ -56,7 +56,7 @@ void render_views(const RenderJob& job, ProgressLines& lines) {
   }
   const auto render_own = [&](size_t i) { render_view(static_cast<size_t>(views[i].number - 1)); };
   if (time.skip_existing) {
-    ods::make_shared_frames(views, render_own, say_waiting("view"));
+    ods::make_shared_frames(views, render_own, note_waiting("view"));
   } else {
     for (size_t i = 0; i < views.size(); i++) render_own(i);
   }

@@ -32,7 +32,7 @@ struct EncodeJob {
   std::optional<std::vector<int>> frames;
   ods::FormatHint known;
   ods::DisplayTransform display;
-  VideoWishes video;
+  VideoChoices video;
   std::optional<ods::Layout> layout;
   int threads = 0;
   ProgressMode progress = ProgressMode::kAuto;
@@ -83,8 +83,8 @@ void encode_to_file(const EncodeJob& job, ProgressLines& lines) {
   const ods::EncodeOptions options = encode_options(job.video, plan.size, job.threads);
   ods::check_packing(plan, options.packing);
   for (const std::string& each : plan.notes) note(each);
-  say_what_players_need(job.video, plan, options);
-  say_length_of_sound(options, files.frames.size());
+  note_player_limits(job.video, plan, options);
+  note_sound_length(options, files.frames.size());
   ods::Progress progress;
   progress.report = [&](double done) {
     lines.report(done, seconds_since(start), video_step("encode", done, files.frames.size(), job.video.output));

@@ -25,7 +25,7 @@ constexpr const char* kInjectSummary =
     "Writes into a video (mp4, mov, mkv, webm) how its eyes are laid out and which part of the sphere it shows:\n"
     "Spherical Video V2, and V1 where possible. Writes GPano into a picture of one eye (jpg, png, tif), and the "
     "camera\n"
-    "into an exr. Only what you ask for changes. What the file does not say comes from a sidecar, its name (_360_TB,\n"
+    "into an exr. Only what you specify changes. What the file does not record comes from a sidecar, its name (_360_TB,\n"
     "_180_LR, ...) or its shape. Nothing is encoded again; samples and pixels stay the same. The new file replaces "
     "the\n"
     "old one when it is complete.";

@@ -33,15 +33,15 @@ void parse_projection(const std::string& name, SphericalMetadata& metadata) {
   }
 }
 
-void say_what_is_written(const SphericalMetadata& metadata, const ods::TagResult& result, ods::Container container) {
+void note_written_metadata(const SphericalMetadata& metadata, const ods::TagResult& result, ods::Container container) {
   const char* places = !has_boxes(container) ? "StereoMode and Projection" : result.has_v1 ? "V1 and V2" : "V2";
   note(fmt::format("{}: written as {}{}", metadata_text(metadata), places,
                    result.has_vexu ? ", and for Apple's players" : ""));
 }
 
 void set_angles(const InjectJob& job, SphericalMetadata& metadata) {
-  const bool is_asked = job.yaw || job.pitch || job.roll;
-  if (is_asked && metadata.projection == VideoProjection::kFlat) {
+  const bool is_given = job.yaw || job.pitch || job.roll;
+  if (is_given && metadata.projection == VideoProjection::kFlat) {
     throw UsageError(fmt::format("'{}' is flat, so it cannot have --yaw, --pitch or --roll", job.file));
   }
   const auto set = [](const std::optional<float>& wish, double& angle) {
@@ -50,7 +50,7 @@ void set_angles(const InjectJob& job, SphericalMetadata& metadata) {
   set(job.yaw, metadata.yaw), set(job.pitch, metadata.pitch), set(job.roll, metadata.roll);
 }
 
-bool asks_for_something(const InjectJob& job) {
+bool has_changes(const InjectJob& job) {
   return job.is_mono || job.layout || !job.projection.empty() || job.yaw || job.pitch || job.roll || job.ambisonics ||
          job.for_apple;
 }
@@ -64,7 +64,7 @@ void take_what_frames_show(const InjectJob& job, const ods::VideoTrack& track, S
   if (!seen->reading) {
     throw ods::Error(
         ods::ErrorKind::kInput,
-        fmt::format("cannot tag '{}': its metadata and name do not say what it shows, and {}", job.file, seen->text));
+        fmt::format("cannot tag '{}': its metadata and name do not specify its format, and {}", job.file, seen->text));
   }
   known.stereo = seen->reading->layout ? ods::video_stereo(*seen->reading->layout) : ods::VideoStereo::kOneView;
   set_projection(known, seen->reading->projection);
@@ -99,7 +99,7 @@ SphericalMetadata wished_metadata(const InjectJob& job, ods::Container container
   guesses.insert(guesses.end(), seen.begin(), seen.end());
   set_angles(job, metadata);
   const ods::TagPlan plan = plan_tag(container, track, metadata);
-  settle_conflicts(job, known, track, plan.says_more || !asks_for_something(job));
+  settle_conflicts(job, known, track, plan.adds_metadata || !has_changes(job));
   if (job.for_apple && track.layers) {
     throw ods::Error(ods::ErrorKind::kInput,
                      fmt::format("the eyes of '{}' are layers of its stream, which its vexu describes: --apple would "
@@ -110,8 +110,8 @@ SphericalMetadata wished_metadata(const InjectJob& job, ods::Container container
     throw ods::Error(ods::ErrorKind::kUsage,
                      fmt::format("--apple: vexu cannot express {} ('{}')", metadata_text(metadata), job.file));
   }
-  if (!can_say(container, track, metadata)) {
-    const auto kind = asks_for_something(job) ? ods::ErrorKind::kUsage : ods::ErrorKind::kInput;
+  if (!can_express(container, track, metadata)) {
+    const auto kind = has_changes(job) ? ods::ErrorKind::kUsage : ods::ErrorKind::kInput;
     throw ods::Error(kind, fmt::format("cannot use '{}': {} cannot express {}", job.file, container_name(container),
                                        metadata_text(metadata)));
   }
@@ -154,6 +154,6 @@ void inject_video(const InjectJob& job, ProgressLines& lines) {
   const ods::TagResult result = tag_video(job.file, job.output, track.id, metadata, {{sound}, {}}, progress);
   lines.clear();
   for (const std::string& guess : guesses) note(guess);
-  if (metadata) say_what_is_written(*metadata, result, video.container);
+  if (metadata) note_written_metadata(*metadata, result, video.container);
   if (job.ambisonics) note("sound: written as first-order ambisonics (SA3D)");
 }

@@ -8,15 +8,15 @@
 #include <chrono>
 #include <functional>
 
+#include "cli/camera/stitch_frames.h"
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
-#include "cli/frames/disk_room.h"
-#include "cli/frames/waiting.h"
+#include "cli/options/disk_room.h"
+#include "cli/options/waiting.h"
 #include "cli/render/first_look.h"
 #include "cli/render/forecast.h"
 #include "cli/render/plan.h"
 #include "cli/render/render_frames.h"
-#include "cli/slits/stitch_frames.h"
 #include "ods/sequence/identity.h"
 #include "ods/sequence/render_video.h"
 
@@ -27,7 +27,7 @@ namespace {
 ods::EncodeOptions check_encoding(const VideoJob& job, const ods::VideoPlan& expected) {
   const ods::EncodeOptions options = encode_options(job.video, expected.size, job.render.render.threads);
   ods::check_packing(expected, options.packing);
-  say_what_players_need(job.video, expected, options);
+  note_player_limits(job.video, expected, options);
   return options;
 }
 
@@ -59,20 +59,20 @@ std::function<void(double done)> report_encoding(const VideoJob& job, ProgressLi
 }
 
 // Notes what is known before the first frame. Throws ods::Error(kOutput) if the disk cannot hold the frames.
-void say_start(const RenderJob& job, const ods::VideoStart& start, size_t own) {
+void report_start(const RenderJob& job, const ods::VideoStart& start, size_t own) {
   const std::vector<size_t>& missing = start.missing;
   const bool shared = !job.time.only.empty();
-  say_existing(own - missing.size(), own);
-  if (!missing.empty()) say_where(job, start.renderer, start.all.front());
-  say_look(job, start.renderer.options(), start.look);
+  note_existing_frames(own - missing.size(), own);
+  if (!missing.empty()) report_viewpoint(job, start.renderer, start.all.front());
+  report_look(job, start.renderer.options(), start.look);
   if (missing.empty()) return;
   if (!shared) warn_of_strain(job, start.renderer, start.all);
   note(fmt::format("to render: {} frame{}, {}x{} per eye, at most {} samples per pixel", missing.size(),
                    missing.size() == 1 ? "" : "s", job.render.width, job.render.height, job.render.samples));
-  if (shared) return say_disk_room(job.output, missing.size(), largest_frame(job.output, job.render, job.save));
+  if (shared) return note_disk_space(job.output, missing.size(), largest_frame(job.output, job.render, job.save));
   std::vector<ods::SequenceFrame> frames;
   for (const size_t index : missing) frames.push_back(start.all[index]);
-  say_forecast(job, start.renderer, frames);
+  report_forecast(job, start.renderer, frames);
 }
 
 void render_scene(const VideoJob& job, ProgressLines& lines) {
@@ -95,10 +95,10 @@ void render_scene(const VideoJob& job, ProgressLines& lines) {
   video.keep_frames = job.keep_frames;
   video.wait = render.wait;
   ods::VideoProgress progress;
-  progress.late = say_late("frame", render.wait);
+  progress.late = note_late("frame", render.wait);
   progress.start = [&](const ods::VideoStart& start) {
-    say_start(render, start, own.size());
-    if (!video.only) say_length_of_sound(video.encode, video.frames.size());
+    report_start(render, start, own.size());
+    if (!video.only) note_sound_length(video.encode, video.frames.size());
   };
   progress.frames.report = [&](double done, const ods::FrameAtWork& at) {
     report_rendering(lines, begin, done, {"render", at.place, at.count, at.path});
@@ -106,7 +106,7 @@ void render_scene(const VideoJob& job, ProgressLines& lines) {
   progress.frames.saved = [&](const ods::Rendered& frame) {
     if (video.only) std::ranges::for_each(frame.files, announce_file);
   };
-  progress.frames.waiting = say_waiting("frame");
+  progress.frames.waiting = note_waiting("frame");
   progress.encoding = report_encoding(job, lines, begin, video.frames.size());
   const auto made = ods::render_video(journal, scene, plan(render, time).sequence, video, progress);
   lines.clear();
@@ -129,7 +129,7 @@ void stitch_views(const VideoJob& job, ProgressLines& lines) {
   stitch.save.layout = layout;
   stitch.layout = layout;
   stitch.skip_existing = true;
-  stitch.claims = stitch.says_files = !render.time.only.empty();  // else the video has the claim
+  stitch.claims = stitch.notes_files = !render.time.only.empty();  // else the video has the claim
   if (render.time.frames.empty()) throw UsageError("--rig needs --frames: the numbers of the views' folders");
   stitch.frames = render.time.frames;
   stitch.only = render.time.only;
@@ -140,7 +140,7 @@ void stitch_views(const VideoJob& job, ProgressLines& lines) {
     report_rendering(lines, begin, done, step);
   });
   if (!stitch.only.empty()) return lines.clear();
-  say_length_of_sound(options, frames.size());
+  note_sound_length(options, frames.size());
   const ods::DisplayTransform display{render.exposure.value_or(render.brighter), job.display.tone};
   const ods::VideoPlan plan = ods::encode_frames(journal, frames, display, options, job.keep_frames,
                                                  {report_encoding(job, lines, begin, frames.size()), {}});

@@ -50,7 +50,7 @@ void probe_right_eye(PictureReport& report, const std::string& path, std::vector
 // Describes what ods inject would do.
 void add_wordless(const std::optional<Wordless>& seen, std::vector<std::string>& warnings) {
   if (!seen) return;
-  warnings.push_back(fmt::format("its metadata and name do not say what it shows, and {}{}", seen->text,
+  warnings.push_back(fmt::format("its metadata and name do not specify its format, and {}{}", seen->text,
                                  seen->reading ? " (ods inject tags it so)" : ""));
 }
 

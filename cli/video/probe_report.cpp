@@ -7,9 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/console/print.h"
+#include "ods/base/json_reader.h"
 #include "ods/base/text.h"
 
-using Json = nlohmann::ordered_json;
+using ods::Json;
 using ods::SphericalMetadata;
 
 namespace {

@@ -11,7 +11,7 @@
 struct VideoJob {
   RenderJob render;
   ods::DisplayTransform display;
-  VideoWishes video;
+  VideoChoices video;
   std::string rig;  // a slit rig: stitch its views instead of rendering
   bool keep_frames = false, restart = false;
 };

@@ -10,18 +10,18 @@ using ods::Identity, ods::Reading;
 
 namespace {
 
-std::optional<Wordless> judged(const std::optional<Identity>& identity, bool (*can_say)(const Reading& reading)) {
+std::optional<Wordless> judged(const std::optional<Identity>& identity, bool (*can_express)(const Reading& reading)) {
   if (!identity || identity->readings.empty()) return std::nullopt;
   if (!identity->is_sure()) return Wordless{{}, *identity, "it may be " + doubt_text(*identity)};
   const Reading& best = identity->best();
   const std::string looks =
       fmt::format("it looks like {}: {} ({:.2f})", reading_text(best), identity->reason, best.certainty);
-  if (can_say(best)) return Wordless{best, *identity, looks};
+  if (can_express(best)) return Wordless{best, *identity, looks};
   return Wordless{
       {}, *identity, looks + "; if that is right, there is nothing to tag; otherwise give --layout and --projection"};
 }
 
-bool video_can_say(const Reading& reading) {
+bool video_can_express(const Reading& reading) {
   if (!reading.layout && reading.projection.kind == ods::kPerspective) return false;  // an ordinary video
   try {
     if (reading.layout) ods::video_stereo(*reading.layout);
@@ -34,7 +34,7 @@ bool video_can_say(const Reading& reading) {
 }
 
 // Pixels do not show the field of view of a lens.
-bool picture_can_say(const Reading& reading) {
+bool picture_can_express(const Reading& reading) {
   return !ods::has_fov(reading.projection.kind);
 }
 
@@ -48,11 +48,11 @@ std::optional<Wordless> look_at_frames(const ods::SphericalMetadata& known, cons
     hint.one_eye = *known.stereo == ods::VideoStereo::kOneView;
     hint.layout = layout_with(arrangement_of(*known.stereo));
   }
-  return judged(ods::identify_video(path, track.id, hint), video_can_say);
+  return judged(ods::identify_video(path, track.id, hint), video_can_express);
 }
 
 std::optional<Wordless> judged_picture(const std::optional<Identity>& identity) {
-  return judged(identity, picture_can_say);
+  return judged(identity, picture_can_express);
 }
 
 std::optional<Wordless> look_at_pixels(const ods::FormatHint& known, const std::string& path) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/view/comfort_layer.h"
+#include "ods/base/json_reader.h"
 #include "ods/comfort/areas.h"
 #include "ods/comfort/heat.h"
 #include "ods/comfort/merge_from_depth.h"
@@ -53,7 +54,7 @@ ods::Json comfort_json(const ods::LiveSeen& seen) {
   const ods::Image map = ods::merge_map_of(ods::comfortable_shares(eyes, seen.camera, limit));
   ods::Json json = verdict_json(seen.camera, verdict);
   json["share"] = verdict.share;
-  json["nearest"] = std::isfinite(verdict.nearest) ? ods::Json(verdict.nearest) : ods::Json();
+  json["nearest"] = ods::json_number(verdict.nearest);
   for (int row = 0; row < map.height; row++) json["auto"].push_back(*map.at(0, row));
   return json;
 }

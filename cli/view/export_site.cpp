@@ -18,7 +18,7 @@ using ods::ViewItem;
 
 namespace {
 
-constexpr uint64_t kMostFromDisk = uint64_t{256} << 20;  // bytes of a file: browsers limit the length of a text
+constexpr uint64_t kMaxInlinedBytes = uint64_t{256} << 20;  // bytes of a file: browsers limit the length of a text
 
 void copy_file(const std::string& from, const std::string& to) {
   const ods::FileInput file(from);
@@ -45,7 +45,7 @@ void write_pictures(const ViewItem& item, size_t index, std::vector<std::string>
 // For pages from disk.
 void write_script_beside(const std::string& path) {
   const ods::FileInput file(path);
-  if (file.size() <= kMostFromDisk) {
+  if (file.size() <= kMaxInlinedBytes) {
     return ods::write_file(path + ".js", ods::script_of_file(path, file.read(0, file.size())));
   }
   std::filesystem::remove(path + ".js");
@@ -82,7 +82,7 @@ void write_site(const std::vector<ViewItem>& items, const std::string& folder) {
 }
 
 // Messages name files of the draft by their final names.
-std::string said_of(const ods::AtomicFolder& site, std::string text) {
+std::string with_final_names(const ods::AtomicFolder& site, std::string text) {
   for (size_t at = 0; (at = text.find(site.draft(), at)) != std::string::npos; at += site.path().size()) {
     text.replace(at, site.draft().size(), site.path());
   }
@@ -97,7 +97,7 @@ std::string export_site(const std::vector<ViewItem>& items, const std::string& f
     write_site(items, site.draft());
     site.commit();
   } catch (const ods::Error& error) {
-    throw ods::Error(error.kind(), said_of(site, error.what()));
+    throw ods::Error(error.kind(), with_final_names(site, error.what()));
   }
   return folder + "/view.json";
 }

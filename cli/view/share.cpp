@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::chrono::seconds kMessagePatience{5};  // for the next message
 constexpr std::chrono::seconds kSilence{10};         // then a page has gone: pages speak every two seconds
-constexpr size_t kMostBytes = size_t{16} << 10;
-constexpr size_t kMostPages = 8;
-constexpr size_t kMostListeners = 4;  // that wait and have not sent a message
-constexpr double kLargest = 1e6;      // of a number
+constexpr size_t kMaxBytes = size_t{16} << 10;
+constexpr size_t kMaxPages = 8;
+constexpr size_t kMaxListeners = 4;  // that wait and have not sent a message
+constexpr double kLargest = 1e6;     // of a number
 constexpr uint64_t kClocks = uint64_t{1} << 32;
 
 bool is_id(const std::string& id) {
@@ -89,13 +89,13 @@ WebAnswer Share::answer(const WebRequest& request) {
 }
 
 WebAnswer Share::take(const std::string& id, const std::string& body) {
-  if (body.size() > kMostBytes) throw UsageError(fmt::format("a message has at most {} bytes", kMostBytes));
+  if (body.size() > kMaxBytes) throw UsageError(fmt::format("a message has at most {} bytes", kMaxBytes));
   const ods::Json message = ods::parse_json(body, "message", "message");
   if (!message.is_object()) throw UsageError("a message is an object {...}");
   const std::string text = ods::json_document(well_formed(message));
   const std::lock_guard<std::mutex> lock(mutex_);
   forget_the_silent();
-  if (latest_.size() >= kMostPages && !latest_.contains(id)) return kTooMany;
+  if (latest_.size() >= kMaxPages && !latest_.contains(id)) return kTooMany;
   latest_[id] = {++number_, Clock::now(), text};
   came_.notify_all();
   return {.type = "application/json", .body = "{}"};
@@ -106,7 +106,7 @@ WebAnswer Share::wait(const std::string& id, uint64_t after) {
   forget_the_silent();
   const auto is_silent = [&](const auto& each) { return !latest_.contains(each.first); };
   const auto silent = static_cast<size_t>(std::ranges::count_if(waiting_, is_silent));
-  if (!latest_.contains(id) && !waiting_.contains(id) && silent >= kMostListeners) return kTooMany;
+  if (!latest_.contains(id) && !waiting_.contains(id) && silent >= kMaxListeners) return kTooMany;
   const uint64_t own = ++gets_;
   waiting_[id] = own;  // ends the wait of an earlier GET
   came_.notify_all();

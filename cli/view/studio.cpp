@@ -14,7 +14,7 @@
 #include "cli/console/console.h"
 #include "cli/options/camera_options.h"
 #include "cli/view/comfort_answers.h"
-#include "cli/view/render_words.h"
+#include "cli/view/render_arguments.h"
 #include "ods/base/json_reader.h"
 #include "ods/base/large_blocks.h"
 #include "ods/base/quote.h"
@@ -34,8 +34,8 @@ using ods::Json, ods::JsonReader, ods::LiveFrame;
 namespace {
 
 constexpr std::chrono::milliseconds kPatience{5000};  // for the next frame
-constexpr int kMostWaiting = 16;                      // for one, so that connections are left for the rest of the site
-constexpr int kMostWidth = 16384;
+constexpr int kMaxWaiting = 16;                       // for one, so that connections are left for the rest of the site
+constexpr int kMaxWidth = 16384;
 constexpr const char* kEnvironments[] = {"auto", "studio", "sky", "white", "0"};
 constexpr const char* kQualities[] = {"draft", "preview", "final"};
 
@@ -101,7 +101,7 @@ Json kernel_merges_json() {
 Json ranges_json() {
   Json json = Json::object();
   for (const ods::CameraFieldRow& row : ods::camera_fields()) {
-    json[std::string(row.place)] = {row.range.least, row.range.most};
+    json[std::string(row.place)] = {row.range.minimum, row.range.maximum};
   }
   return json;
 }
@@ -225,8 +225,8 @@ void Studio::read_camera(JsonReader& reader, Settings& settings) const {
   Json sidecar = *given;
   int merge = -1, head_tilt = -1;
   reader.part("maps", [&](JsonReader& maps) {
-    maps.integer("merge", merge, -1, Studio::kMostMaps);
-    maps.integer("head_tilt", head_tilt, -1, Studio::kMostMaps);
+    maps.integer("merge", merge, -1, Studio::kMaxMaps);
+    maps.integer("head_tilt", head_tilt, -1, Studio::kMaxMaps);
   });
   if (std::max(merge, head_tilt) >= static_cast<int>(maps_.size())) {
     throw UsageError("the camera's map is gone: drop its .camera.json once more");
@@ -246,7 +246,7 @@ Studio::Settings Studio::read_settings(const std::string& text) const {
     read_camera(reader, settings);
     const std::string fault = camera_fault(settings.live.camera);
     if (!fault.empty()) throw UsageError("the camera's " + fault);
-    reader.number("exposure", settings.live.exposure, -ods::kMostStops, ods::kMostStops);
+    reader.number("exposure", settings.live.exposure, -ods::kMaxStops, ods::kMaxStops);
     const std::string tone = reader.word("tone");
     if (!tone.empty()) {
       const auto curve = ods::find_in(ods::kToneCurveTable, tone);
@@ -256,7 +256,7 @@ Studio::Settings Studio::read_settings(const std::string& text) const {
     float time = static_cast<float>(settings.live.time);
     reader.number("time", time, 0.0f, static_cast<float>(std::max(duration_, 0.0)));
     settings.live.time = static_cast<double>(time);
-    reader.integer("width", settings.width, 64, kMostWidth);
+    reader.integer("width", settings.width, 64, kMaxWidth);
     read_text(reader, "env", settings.environment);
     read_text(reader, "variant", settings.variant);
     reader.part("look", [&](JsonReader& look) { read_look(look, settings.look); });
@@ -288,7 +288,7 @@ WebAnswer Studio::set(const std::string& body) {
 }
 
 // The command that renders the page's view: with the names of files that the user knows, or with their paths here, and
-// without the quality and the output. maps: as camera_words().
+// without the quality and the output. maps: as camera_arguments().
 std::vector<std::string> Studio::words(const std::string& maps, bool is_shown) const {
   std::vector<std::string> words = {"render", is_shown ? title() : source_.name};
   const auto add = [&](const char* option, const std::string& value) { words.insert(words.end(), {option, value}); };
@@ -310,7 +310,7 @@ std::vector<std::string> Studio::words(const std::string& maps, bool is_shown) c
   if (!source_.light.lamp.empty()) add("--lamp", source_.light.lamp);
   if (!source_.light.background.empty()) add("--background", source_.light.background);
   if (source_.light.unlit) words.emplace_back("--unlit");
-  for (const std::string& word : camera_words(settings_.live.camera, settings_.width, maps)) words.push_back(word);
+  for (const std::string& word : camera_arguments(settings_.live.camera, settings_.width, maps)) words.push_back(word);
   const ods::Layout layout = settings_.sidecar.layout;
   if (layout != default_layout(settings_.live.camera.projection)) add("--layout", std::string(layout_name(layout)));
   if (duration_ > 0.0) add("--time", fmt::format("{}", settings_.live.time));
@@ -335,7 +335,7 @@ WebAnswer Studio::frame(const WebRequest& request) {
     live = live_;
   }
   const Waiting waiting(waiting_);
-  if (waiting.count() > kMostWaiting) return {.status = 503, .body = "too many pages wait for frames\n"};
+  if (waiting.count() > kMaxWaiting) return {.status = 503, .body = "too many pages wait for frames\n"};
   const std::shared_ptr<const LiveFrame> frame = live->next_frame(number, kPatience);
   const std::string fault = live->fault();
   if (!fault.empty()) {

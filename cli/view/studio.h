@@ -47,7 +47,7 @@ class Studio {
     ods::LiveView look;
   };
 
-  static constexpr int kMostMaps = 1000;  // of a session
+  static constexpr int kMaxMaps = 1000;  // of a session
 
   // A file that was dropped onto the page.
   struct Drop {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/console/console.h"
-#include "cli/view/render_words.h"
+#include "cli/view/render_arguments.h"
 #include "cli/view/studio.h"
 #include "ods/base/text.h"
 #include "ods/camera/camera_fields.h"
@@ -19,7 +19,7 @@
 
 namespace {
 
-constexpr size_t kMostOfCamera = size_t{64} << 20;  // bytes
+constexpr size_t kMaxCameraBytes = size_t{64} << 20;  // bytes
 
 // The name of a file, without its folder and without characters that confuse a terminal.
 std::string plain_name(const std::string& given) {
@@ -63,13 +63,13 @@ void Studio::discard(const Drop& drop) {
 }
 
 WebAnswer Studio::drop_camera(const std::string& name, const std::string& path) {
-  const std::vector<unsigned char> bytes = ods::read_file(path, kMostOfCamera);
+  const std::vector<unsigned char> bytes = ods::read_file(path, kMaxCameraBytes);
   std::vector<std::string> warnings;
   const ods::Sidecar sidecar = ods::read_sidecar(std::string(bytes.begin(), bytes.end()), name, warnings);
   const std::string fault = camera_fault(sidecar.camera);
   if (!fault.empty()) throw UsageError("the camera's " + fault);
   for (const auto& map : {sidecar.camera.merge_map, sidecar.camera.head_tilt_map}) {
-    if (map && maps_.size() < kMostMaps) maps_.push_back(map);
+    if (map && maps_.size() < kMaxMaps) maps_.push_back(map);
   }
   settings_.sidecar = sidecar;
   settings_.live.camera = sidecar.camera;

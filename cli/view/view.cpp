@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kUsualPort = 8360;
 
-const char* last_words(int) {
+const char* final_message(int) {
   return "ods: the viewer has ended\n";
 }
 
@@ -83,7 +83,7 @@ void serve(const ViewJob& job) {
   if (job.lan) explain_network(address, server->port());
   note("Ctrl-C ends it");
   if (job.browser && !job.lan) open_in_browser(fmt::format("http://{}:{}/{}", shown_host, server->port(), web.opener));
-  end_on_interrupts(last_words);
+  end_on_interrupts(final_message);
   server->run();
 }
 

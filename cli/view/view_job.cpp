@@ -32,7 +32,7 @@ constexpr const char* kViewSummary =
     "Shows stereo 360 pictures and videos around you: in the browser, and with one click in the headset. --lan is for\n"
     "headsets on the same network. --export writes the viewer as a folder for any web host. docs/view.md has the keys.";
 
-constexpr size_t kMostItems = 2000;
+constexpr size_t kMaxItems = 2000;
 
 // Returns whether the studio opens it: a scene's file, or a built-in scene whose name no file has.
 bool names_scene(const std::string& path) {
@@ -56,8 +56,8 @@ void add_folder(const std::string& folder, const ods::FormatHint& known, std::ve
   std::vector<std::string> faults;
   const size_t before = items.size();
   for (const std::string& path : files_in(folder)) {
-    if (items.size() == kMostItems) {
-      warn(fmt::format("'{}' has more than {} files: the rest is left out", folder, kMostItems));
+    if (items.size() == kMaxItems) {
+      warn(fmt::format("'{}' has more than {} files: the rest is left out", folder, kMaxItems));
       break;
     }
     try {

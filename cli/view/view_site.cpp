@@ -34,7 +34,7 @@ std::optional<float> number_of(const WebRequest& request, const std::string& nam
 ods::EyeOptions read_eye_options(const WebRequest& request) {
   ods::EyeOptions options;
   options.exposure = number_of(request, "exposure", -30.0f, 30.0f).value_or(0.0f);
-  options.most_wide = static_cast<int>(number_of(request, "width", 1.0f, 32768.0f).value_or(0.0f));
+  options.max_width = static_cast<int>(number_of(request, "width", 1.0f, 32768.0f).value_or(0.0f));
   options.tone = ods::find_in(ods::kToneCurveTable, value_of(request, "tone")).value_or(options.tone);
   return options;
 }

@@ -13,6 +13,10 @@
 
 namespace ods {
 
+Json json_number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
 Json parse_json(std::string_view text, const std::string& name, const std::string& noun) {
   constexpr int kDeepest = 16;  // levels of brackets; our own files have four
   const auto shallow = [&](int depth, Json::parse_event_t, Json&) {
@@ -106,7 +110,7 @@ bool JsonReader::vector(const std::string& key, glm::vec2& value, float low, flo
 
 std::string JsonReader::word(const std::string& key) {
   const Json* json = find(key);
-  if (json && (!json->is_string() || *json == "")) fail(key, "must be a word in quotes");
+  if (json && (!json->is_string() || *json == "")) fail(key, "must be a string");
   return json ? json->get<std::string>().substr(0, 64) : "";
 }
 

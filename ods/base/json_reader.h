@@ -14,6 +14,9 @@ namespace ods {
 
 using Json = nlohmann::ordered_json;
 
+// Returns null for infinity and NaN, which JSON cannot express.
+Json json_number(double value);
+
 // Throws Error(kInput) if the text is not JSON or nests deeper than 16 levels. `name` stands for the text in messages;
 // `noun` is the expected content, such as "camera".
 Json parse_json(std::string_view text, const std::string& name, const std::string& noun);

@@ -6,11 +6,11 @@
 
 namespace ods {
 
-void run_ring(size_t most, const std::function<bool(size_t place)>& make, const std::function<void(size_t place)>& work,
-              const std::function<void(size_t place)>& take) {
+void run_ring(size_t maximum, const std::function<bool(size_t place)>& make,
+              const std::function<void(size_t place)>& work, const std::function<void(size_t place)>& take) {
   size_t next = 0;
   const auto first = [&](tbb::flow_control& control) {
-    const size_t place = next++ % most;  // free again: items are taken in order
+    const size_t place = next++ % maximum;  // free again: items are taken in order
     if (!make(place)) control.stop();
     return place;
   };
@@ -19,9 +19,9 @@ void run_ring(size_t most, const std::function<bool(size_t place)>& make, const 
     return place;
   };
   using tbb::filter_mode;
-  tbb::parallel_pipeline(most, tbb::make_filter<void, size_t>(filter_mode::serial_in_order, first) &
-                                   tbb::make_filter<size_t, size_t>(filter_mode::parallel, second) &
-                                   tbb::make_filter<size_t, void>(filter_mode::serial_in_order, take));
+  tbb::parallel_pipeline(maximum, tbb::make_filter<void, size_t>(filter_mode::serial_in_order, first) &
+                                      tbb::make_filter<size_t, size_t>(filter_mode::parallel, second) &
+                                      tbb::make_filter<size_t, void>(filter_mode::serial_in_order, take));
 }
 
 }  // namespace ods

@@ -13,21 +13,21 @@
 namespace ods {
 
 // Runs the stages of run_pipeline() on the slots of a ring of `most` items.
-void run_ring(size_t most, const std::function<bool(size_t place)>& make, const std::function<void(size_t place)>& work,
-              const std::function<void(size_t place)>& take);
+void run_ring(size_t maximum, const std::function<bool(size_t place)>& make,
+              const std::function<void(size_t place)>& work, const std::function<void(size_t place)>& take);
 
 // `make(item)` fills an empty item, one call at a time, and returns false at the end; `work(item)` runs on many items
 // in parallel; `take(item)` receives them one at a time in the order they were made. At most `most` items exist at
 // once. An exception from any stage stops the pipeline and is rethrown here.
 template <typename Item, typename Make, typename Work, typename Take>
-void run_pipeline(size_t most, const Make& make, const Work& work, const Take& take) {
-  std::vector<Item> ring(most);
+void run_pipeline(size_t maximum, const Make& make, const Work& work, const Take& take) {
+  std::vector<Item> ring(maximum);
   const auto take_away = [&](size_t place) {
     take(ring[place]);
     ring[place] = Item();
   };
   run_ring(
-      most, [&](size_t place) { return make(ring[place]); }, [&](size_t place) { work(ring[place]); }, take_away);
+      maximum, [&](size_t place) { return make(ring[place]); }, [&](size_t place) { work(ring[place]); }, take_away);
 }
 
 }  // namespace ods

@@ -65,9 +65,9 @@ std::string settings_difference(const Settings& then, const Settings& now) {
   for (const Setting& was : then) {
     if (!find(now, was.name)) changes.push_back(change(was.name, &was, nullptr));
   }
-  constexpr size_t kMost = 3;
-  const std::string more = changes.size() > kMost ? fmt::format("; and {} more", changes.size() - kMost) : "";
-  changes.resize(std::min(changes.size(), kMost));
+  constexpr size_t kMax = 3;
+  const std::string more = changes.size() > kMax ? fmt::format("; and {} more", changes.size() - kMax) : "";
+  changes.resize(std::min(changes.size(), kMax));
   return fmt::format("{}{}", fmt::join(changes, "; "), more);
 }
 

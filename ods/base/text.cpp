@@ -64,7 +64,7 @@ std::string terminal_text(std::string_view text) {
   });
 }
 
-std::string library_words(const std::string& text) {
+std::string library_message(const std::string& text) {
   std::string words = valid_utf8(one_line(text));
   // The text of the exception is at the end; libraries put names, which come from files, before it.
   if (words.ends_with("std::bad_alloc") || words.ends_with("(std::bad_alloc)")) throw std::bad_alloc();

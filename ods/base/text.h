@@ -25,6 +25,6 @@ std::string valid_utf8(std::string_view text);
 
 // A library's error message in one line, as valid UTF-8. Some libraries turn every exception into text: if the text
 // ends with std::bad_alloc, bracketed or not, throws std::bad_alloc.
-std::string library_words(const std::string& text);
+std::string library_message(const std::string& text);
 
 }  // namespace ods

@@ -244,7 +244,7 @@ std::string camera_fault(const StereoCamera& camera) {
   for (const CameraFieldRow& row : kFields) {
     for (const float number : values_of(camera, row)) {
       if (row.range.contains(number)) continue;
-      return fmt::format("{} is from {:g} to {:g}{}{}, not {:g}", row.name, row.range.least, row.range.most,
+      return fmt::format("{} is from {:g} to {:g}{}{}, not {:g}", row.name, row.range.minimum, row.range.maximum,
                          row.unit.empty() ? "" : " ", row.unit, number);
     }
   }

@@ -44,9 +44,9 @@ enum class CameraField {
 
 // The range of every number of a field, both ends included.
 struct FieldRange {
-  float least = 0.0f;
-  float most = 0.0f;
-  bool contains(float value) const { return value >= least && value <= most; }  // false for NaN
+  float minimum = 0.0f;
+  float maximum = 0.0f;
+  bool contains(float value) const { return value >= minimum && value <= maximum; }  // false for NaN
 };
 
 struct CameraFieldRow {

@@ -43,7 +43,7 @@ class Values {
   }
 
   float number(std::string_view name, CameraField field) const {
-    return number(name, range_of(field).least, range_of(field).most);
+    return number(name, range_of(field).minimum, range_of(field).maximum);
   }
 
  private:
@@ -83,7 +83,7 @@ StereoCamera like_google(const Values& values) {
 // ours; the picture there is the same.
 StereoCamera like_clodo(float ipd, float modulation, float handedness, float angle) {
   if (std::abs(handedness) != 1.0f) throw std::invalid_argument("povray: the handedness is -1 or 1");
-  StereoCamera camera = plain(ipd, modulation >= range_of(CameraField::kTopMergeExponent).least
+  StereoCamera camera = plain(ipd, modulation >= range_of(CameraField::kTopMergeExponent).minimum
                                        ? merge_from(kMergeCosine, 0.0f, 90.0f, modulation)
                                        : PoleMergeSetting());
   camera.mirrored = handedness > 0.0f;
@@ -111,7 +111,7 @@ StereoCamera like_povray_fork(const Values& values) {
 
 // The angle is measured from the pole: 90 merges from the horizon on.
 constexpr PresetParameter kArnold[] = {{"eye_separation", "0.065", "distance between the eyes"},
-                                       {"eye_to_neck", "0", "metres the eyes stand before the neck"},
+                                       {"eye_to_neck", "0", "distance from the neck forward to the eyes, metres"},
                                        {"top_merge_mode", "cosine", "none, cosine"},
                                        {"top_merge_angle", "90", "from the pole, degrees"},
                                        {"bottom_merge_mode", "cosine", "none, cosine"},
@@ -130,14 +130,15 @@ StereoCamera like_arnold(const Values& values) {
 }
 
 // The plug-in of the page, with latitudes, a linear mode and an exponent.
-constexpr PresetParameter kArnoldProto[] = {{"eyeSeparation", "0.065", "distance between the eyes"},
-                                            {"eyeToNeckDistance", "0", "metres the eyes stand before the neck"},
-                                            {"topMergeMode", "cos", "none, linear, cos"},
-                                            {"topMergeAngle", "0", "latitude, degrees"},
-                                            {"topMergeExp", "1", "power of the cosine"},
-                                            {"bottomMergeMode", "cos", "none, linear, cos"},
-                                            {"bottomMergeAngle", "0", "latitude below the horizon, 0 to -90"},
-                                            {"bottomMergeExp", "1", "power of the cosine"}};
+constexpr PresetParameter kArnoldProto[] = {
+    {"eyeSeparation", "0.065", "distance between the eyes"},
+    {"eyeToNeckDistance", "0", "distance from the neck forward to the eyes, metres"},
+    {"topMergeMode", "cos", "none, linear, cos"},
+    {"topMergeAngle", "0", "latitude, degrees"},
+    {"topMergeExp", "1", "power of the cosine"},
+    {"bottomMergeMode", "cos", "none, linear, cos"},
+    {"bottomMergeAngle", "0", "latitude below the horizon, 0 to -90"},
+    {"bottomMergeExp", "1", "power of the cosine"}};
 StereoCamera like_arnold_proto(const Values& values) {
   const auto merge = [&](const std::string& pole, float angle) {
     const std::string mode = values.word(pole + "MergeMode", {"none", "linear", "cos"});
@@ -185,12 +186,12 @@ StereoCamera like_domemaster(const Values& values) {
 
 constexpr PresetParameter kReplica[] = {{"radius", "0.032", "of the viewing circle"}};
 StereoCamera like_replica(const Values& values) {
-  return plain(2.0f * values.number("radius", 0.0f, 0.5f * range_of(CameraField::kIpd).most));
+  return plain(2.0f * values.number("radius", 0.0f, 0.5f * range_of(CameraField::kIpd).maximum));
 }
 
 constexpr PresetParameter kMandelbulber[] = {{"stereo_eye_distance", "0.1", "of each eye from the middle"}};
 StereoCamera like_mandelbulber(const Values& values) {
-  return plain(2.0f * values.number("stereo_eye_distance", 0.0f, 0.5f * range_of(CameraField::kIpd).most),
+  return plain(2.0f * values.number("stereo_eye_distance", 0.0f, 0.5f * range_of(CameraField::kIpd).maximum),
                merge_from(kMergePower, 0.0f, 90.0f, 10.0f));
 }
 

@@ -51,8 +51,8 @@ std::span<const NamedProjection> named_projections() {
       {"dome", "a fisheye that looks up", lens(kFisheye, 180.0f, 90.0f), -1.5},
       {"perspective", "a flat window", lens(kPerspective, 90.0f, 0.0f), -1.5},
       {"cube-3x2", "six faces as the VR camera for Arnold packs them", of_kind(kCube3x2), -1.0},
-      {"cube-6x1", "likewise in a row; side by side a 12x1", of_kind(kCube6x1), -1.0},
-      {"cube-1x6", "likewise in a column; stacked a 1x12", of_kind(kCube1x6), -1.0},
+      {"cube-6x1", "six faces in a row; two eyes side by side make a 12x1", of_kind(kCube6x1), -1.0},
+      {"cube-1x6", "six faces in a column; two stacked eyes make a 1x12", of_kind(kCube1x6), -1.0},
       {"eac", "equi-angular cube, 3x2", of_kind(kEac), -1.0},
       {"eac-face", "one face of it", of_kind(kEacFace), -3.0},
   };
@@ -93,7 +93,7 @@ bool is_vr180(const ProjectionSetting& setting) {
 constexpr float kMinRange = 0.01f;  // degrees
 
 static std::string range_fault(const ProjectionSetting& setting) {
-  const float limit = setting.kind == kLatLong ? range_of(CameraField::kLatitude).most : 89.0f;
+  const float limit = setting.kind == kLatLong ? range_of(CameraField::kLatitude).maximum : 89.0f;
   const FieldRange angles = range_of(CameraField::kLongitude);
   const float turn = setting.longitude.y - setting.longitude.x;
   if (!angles.contains(setting.longitude.x) || !angles.contains(setting.longitude.y)) {
@@ -163,7 +163,7 @@ constexpr float kWidestStereographic = 350.0f;  // degrees
 
 static std::string lens_fault(const ProjectionSetting& setting) {
   const FieldRange fov = range_of(CameraField::kFov);
-  if (has_image_circle(setting.kind) && !(setting.fov >= 1.0f && setting.fov <= fov.most)) {
+  if (has_image_circle(setting.kind) && !(setting.fov >= 1.0f && setting.fov <= fov.maximum)) {
     return "a fisheye sees 1 to 360 degrees";
   }
   if (setting.kind == kFisheyeStereographic && !(setting.fov <= kWidestStereographic)) {
@@ -175,7 +175,7 @@ static std::string lens_fault(const ProjectionSetting& setting) {
     if (!fault.empty()) return fault;
   }
   if (setting.kind == kPerspective) {
-    if (!(setting.fov >= fov.least && setting.fov <= 170.0f)) return "a flat window shows 0.001 to 170 degrees";
+    if (!(setting.fov >= fov.minimum && setting.fov <= 170.0f)) return "a flat window shows 0.001 to 170 degrees";
     if (!range_of(CameraField::kAspect).contains(setting.aspect)) {
       return "a window's sides differ by at most 32768 to 1";
     }

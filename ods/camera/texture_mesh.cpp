@@ -9,17 +9,17 @@
 
 namespace ods {
 
-constexpr size_t kMostVertices = 200000;  // cameras write 40x40
+constexpr size_t kMaxVertices = 200000;  // cameras write 40x40
 
 std::string mesh_fault(const TextureMesh& mesh) {
   if (mesh.vertices.empty() || mesh.triangles.empty()) return "its mesh has no triangle";
-  if (mesh.vertices.size() > kMostVertices || mesh.triangles.size() > 2 * kMostVertices) {
+  if (mesh.vertices.size() > kMaxVertices || mesh.triangles.size() > 2 * kMaxVertices) {
     return "its mesh has more than 200000 vertices or 400000 triangles";
   }
   for (const TextureMesh::Vertex& vertex : mesh.vertices) {
     const vec3 p = vertex.position;
     const float size = dot(p, p) + dot(vertex.uv, vertex.uv);
-    if (!std::isfinite(size)) return "its mesh has numbers that are none or infinite";
+    if (!std::isfinite(size)) return "its mesh has numbers that are NaN or infinite";
   }
   for (const auto& triangle : mesh.triangles) {
     for (const uint32_t index : triangle) {
@@ -155,7 +155,7 @@ class MeshMap final : public DirectionMap {
 
   // Returns false if triangles are in too many cells.
   bool fill_grid() {
-    constexpr uint64_t kMost = uint64_t{1} << 25;
+    constexpr uint64_t kMax = uint64_t{1} << 25;
     const size_t cells = 6 * static_cast<size_t>(side_) * static_cast<size_t>(side_);
     std::vector<uint32_t> counts(cells + 1);
     uint64_t all = 0;
@@ -166,7 +166,7 @@ class MeshMap final : public DirectionMap {
           all += static_cast<uint64_t>(range.x1 - range.x0 + 1) * static_cast<uint64_t>(range.y1 - range.y0 + 1);
       }
     }
-    if (all > kMost && side_ > 1) return false;
+    if (all > kMax && side_ > 1) return false;
     each_cell([&](size_t cell, uint32_t) { counts[cell + 1]++; });
     for (size_t i = 0; i < cells; i++) counts[i + 1] += counts[i];
     starts_ = counts;

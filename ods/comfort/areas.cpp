@@ -35,8 +35,8 @@ std::vector<int> connected_areas(const AreaGrid& grid) {
   return areas;
 }
 
-Image nearest_of_blocks(const Image& depth, int most_width, std::vector<size_t>* chosen) {
-  const int block = std::max(1, (depth.width + most_width - 1) / most_width);
+Image nearest_of_blocks(const Image& depth, int max_width, std::vector<size_t>* chosen) {
+  const int block = std::max(1, (depth.width + max_width - 1) / max_width);
   Image nearest((depth.width + block - 1) / block, (depth.height + block - 1) / block, 1);
   std::ranges::fill(nearest.pixels, std::numeric_limits<float>::quiet_NaN());
   if (chosen) chosen->assign(nearest.pixels.size(), 0);
@@ -44,9 +44,9 @@ Image nearest_of_blocks(const Image& depth, int most_width, std::vector<size_t>*
     const float* row = depth.at(0, y);
     for (int x = 0; x < depth.width; x++) {
       const size_t at = static_cast<size_t>(nearest.at(x / block, y / block) - nearest.pixels.data());
-      float& least = nearest.pixels[at];
-      if (!(row[x] > 0.0f) || row[x] >= least) continue;
-      least = row[x];
+      float& minimum = nearest.pixels[at];
+      if (!(row[x] > 0.0f) || row[x] >= minimum) continue;
+      minimum = row[x];
       if (chosen) (*chosen)[at] = static_cast<size_t>(&row[x] - depth.pixels.data());
     }
   }

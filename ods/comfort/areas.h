@@ -19,8 +19,8 @@ struct AreaGrid {
 // Returns the number of each pixel's area, from 0 on; -1: not in an area.
 std::vector<int> connected_areas(const AreaGrid& grid);
 
-// Returns depth at most `most_width` wide: the nearest of each block of pixels. Blocks without a depth are NaN. chosen:
+// Returns depth at most `max_width` wide: the nearest of each block of pixels. Blocks without a depth are NaN. chosen:
 // gets the index of each block's nearest pixel.
-Image nearest_of_blocks(const Image& depth, int most_width, std::vector<size_t>* chosen = nullptr);
+Image nearest_of_blocks(const Image& depth, int max_width, std::vector<size_t>* chosen = nullptr);
 
 }  // namespace ods

@@ -107,7 +107,7 @@ Sight sight_at(const EyeView& eye, int x, int y) {
   const ViewDirection look = look_of(camera.projection, uv, uv);
   const double elevation = elevation_of(look.direction);
   const double radius = eye.is_even ? 0.5 * double{camera.ipd * merge_at(camera, look.direction, look.elevation)} : 0.0;
-  return {look, elevation, looked_at(elevation), radius,
+  return {look, elevation, gaze_density(elevation), radius,
           static_cast<float>(eye.steradians * double{relative_solid_angle(camera.projection, uv, uv)})};
 }
 
@@ -233,15 +233,15 @@ double circle_for(const EyeView& eye, const ComfortPoint& point, size_t pixel) {
 }
 
 // The pixel for which the eyes converge most. On an even row it has the largest of all strains but steps.
-size_t most_converged(const EyeView& eye, int y, const std::vector<ComfortPoint>& points) {
+size_t max_convergence(const EyeView& eye, int y, const std::vector<ComfortPoint>& points) {
   const auto row = points.begin() + static_cast<std::ptrdiff_t>(eye.pixel(0, y));
-  const auto most = std::ranges::max_element(row, row + eye.size.width, {}, &ComfortPoint::vergence);
-  return static_cast<size_t>(most - points.begin());
+  const auto maximum = std::ranges::max_element(row, row + eye.size.width, {}, &ComfortPoint::vergence);
+  return static_cast<size_t>(maximum - points.begin());
 }
 
 double circle_for_row(const EyeView& eye, int y, const std::vector<ComfortPoint>& points) {
-  const size_t most = most_converged(eye, y, points);
-  double share = circle_for(eye, points[most], most);
+  const size_t maximum = max_convergence(eye, y, points);
+  double share = circle_for(eye, points[maximum], maximum);
   for (size_t i = eye.pixel(0, y); i < eye.pixel(0, y + 1); i++) {
     share = std::min(share, eye.is_even ? circle_by_steps(eye, points[i]) : circle_for(eye, points[i], i));
   }
@@ -250,7 +250,7 @@ double circle_for_row(const EyeView& eye, int y, const std::vector<ComfortPoint>
 
 double roll_for_row(const EyeView& eye, int y, const std::vector<ComfortPoint>& points) {
   const double limit = eye.limits[Strain::kVertical].warning * kArcMinute;
-  const size_t worst = most_converged(eye, y, points);
+  const size_t worst = max_convergence(eye, y, points);
   double roll = 0.5 * pi;
   for (int x = 0; x < eye.size.width; x++) {
     if ((eye.is_even && eye.pixel(x, y) != worst) || !(points[eye.pixel(x, y)].vergence > 0.0f)) continue;

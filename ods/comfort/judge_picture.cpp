@@ -103,10 +103,11 @@ Opened open_to_judge(const std::string& path, const JudgePictureOptions& options
 JudgedPicture judge_by_matching(const Opened& opened, const ComfortOptions& options) {
   const StoredPicture& picture = opened.picture;
   if (picture.eyes.size() != 2) {
-    throw Error(ErrorKind::kInput,
-                fmt::format("'{}' has one eye and no depth (a layer Z, metres along the ray): nothing in it tells how "
-                            "far things are. If it has two eyes, use `layout`",
-                            opened.path));
+    throw Error(
+        ErrorKind::kInput,
+        fmt::format("'{}' has one eye and no depth (a layer Z, metres along the ray): its distances are unknown. "
+                    "If it has two eyes, use `layout`",
+                    opened.path));
   }
   check_matchable(picture.camera.projection, picture.size.width, opened.path);
   const MatchedEyes matched = match_eyes_for_depth(grey_eyes(picture), picture.camera, picture.is_float);
@@ -192,7 +193,7 @@ JudgedPicture judge_opened(const Opened& opened, const JudgePictureOptions& opti
   if (!opened.lacks_map) return judge_by_depth(opened, options);
   try {
     JudgedPicture judged = judge_by_matching(opened, options.comfort);
-    judged.why_matched = "Its merge map is missing, so its depth does not tell what the eyes see";
+    judged.why_matched = "Its merge map is missing, so its depth does not determine what the eyes see";
     return judged;
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kInput) throw;

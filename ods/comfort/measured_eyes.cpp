@@ -218,11 +218,11 @@ std::optional<MeasuredEyes> measure_eyes(const std::vector<Image>& eyes, const S
   }
   if (off.size() < kMinRows) return std::nullopt;
   measured.error = 1.48 * median(off);
-  const double least = 1.0 - std::max(kMinMerge, kSure * measured.error);
+  const double minimum = 1.0 - std::max(kMinMerge, kSure * measured.error);
   const int up = kMiddle - static_cast<int>(measured.up), down = kMiddle - 1 + static_cast<int>(measured.down);
   // Eyes that converge show a floor and a ceiling without parallax, where merges are: a merge changes nothing there.
   measured.is_known = meeting == 0.0 && std::max(measured.up, measured.down) >= kTells;
-  measured.is_merged = measured.is_known && double{std::min(*map.at(0, up), *map.at(0, down))} < least;
+  measured.is_merged = measured.is_known && double{std::min(*map.at(0, up), *map.at(0, down))} < minimum;
   StereoCamera& camera = measured.camera;
   if (std::abs(2.0 * full.radius / double{camera.ipd} - 1.0) > kSameEyes)
     camera.ipd = static_cast<float>(2.0 * full.radius);

@@ -58,15 +58,15 @@ std::vector<float> eased(const std::vector<float>& values, int reach, int betwee
   const auto at = [count](const std::vector<float>& row, int i) {
     return row[static_cast<size_t>(std::clamp(i, 0, count - 1))];
   };
-  std::vector<float> least, even;
+  std::vector<float> minimum, even;
   for (int i = 0; i < count; i++) {
     float value = at(values, i);
     for (int k = -reach - between; k <= reach + between; k++) value = std::min(value, at(values, i + k));
-    least.push_back(value);
+    minimum.push_back(value);
   }
   for (int i = 0; i < count; i++) {
     float sum = 0.0f;
-    for (int k = -reach; k <= reach; k++) sum += at(least, i + k);
+    for (int k = -reach; k <= reach; k++) sum += at(minimum, i + k);
     even.push_back(sum / static_cast<float>(2 * reach + 1));
   }
   return even;
@@ -117,8 +117,8 @@ std::vector<float> comfortable_shares(const SeenDepth& seen, const Viewer& viewe
       const glm::dvec3 point = glm::dvec3(look.direction) * double{depth};
       const double across = std::max(std::hypot(point.x, point.z), 1e-6);
       const Allowed own = allowed(across, point.y, radius, reach, double{kSafety * limit} * kArcMinute);
-      float& least = shares[static_cast<size_t>(row_of(own.elevation))];
-      least = std::min(least, static_cast<float>(own.share));
+      float& minimum = shares[static_cast<size_t>(row_of(own.elevation))];
+      minimum = std::min(minimum, static_cast<float>(own.share));
     }
   }
   return shares;
@@ -138,7 +138,7 @@ std::vector<float> comfortable_shares(const std::vector<SeenDepth>& eyes, const 
   return comfortable_shares(seen_from_middle(eyes, target), {}, limit);
 }
 
-void take_least(std::vector<float>& shares, const std::vector<float>& others) {
+void min_in_place(std::vector<float>& shares, const std::vector<float>& others) {
   for (size_t i = 0; i < shares.size(); i++) shares[i] = std::min(shares[i], others[i]);
 }
 
@@ -182,10 +182,10 @@ std::shared_ptr<const Image> SteadyMerge::at(int picture) const {
   return map;
 }
 
-Image SteadyMerge::least() const {
-  Image least = maps_[0];
-  for (const Image& map : maps_) take_least(least.pixels, map.pixels);
-  return least;
+Image SteadyMerge::minimum() const {
+  Image minimum = maps_[0];
+  for (const Image& map : maps_) min_in_place(minimum.pixels, map.pixels);
+  return minimum;
 }
 
 bool SteadyMerge::varies() const {

@@ -27,7 +27,7 @@ std::vector<SeenDepth> seen_by_eyes(const StoredPicture& picture);
 std::vector<float> comfortable_shares(const std::vector<SeenDepth>& eyes, const StereoCamera& target, float limit);
 
 // Sets each row to the minimum of both.
-void take_least(std::vector<float>& shares, const std::vector<float>& others);
+void min_in_place(std::vector<float>& shares, const std::vector<float>& others);
 
 // Sets the camera to merge both poles by this map.
 void use_merge_map(StereoCamera& camera, Image map);
@@ -49,7 +49,7 @@ class SteadyMerge {
   std::shared_ptr<const Image> at(int picture) const;
 
   // Return the minimum over time at each elevation, and whether the merge ever exceeds it.
-  Image least() const;
+  Image minimum() const;
   bool varies() const;
 
  private:

@@ -95,14 +95,14 @@ ViewerMotion motion_between(const GrayView& before, const GrayView& after, const
   ViewerMotion motion;
   if (equations.size() < 2 * kMinPlaces) return motion;
   Row solution{};
-  const double least = 0.1 * static_cast<double>(matches.pixel);
+  const double minimum = 0.1 * static_cast<double>(matches.pixel);
   for (int i = 0; i < 12; i++) {
     std::vector<double> rests;
     for (const Equation& equation : equations) rests.push_back(std::abs(rest_of(equation, solution)));
-    const double spread = std::max(1.48 * median(std::move(rests)), least);
+    const double spread = std::max(1.48 * median(std::move(rests)), minimum);
     solution = solve(equations, solution, spread);
   }
-  const double alike = 3.0 * least;
+  const double alike = 3.0 * minimum;
   motion.places =
       static_cast<int>(std::ranges::count_if(
                            equations, [&](const Equation& each) { return std::abs(rest_of(each, solution)) < alike; }) /

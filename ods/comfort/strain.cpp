@@ -58,7 +58,7 @@ ComfortLevel level_of(double value, const StrainLimits& limits) {
   return value > limits.caution ? ComfortLevel::kCaution : ComfortLevel::kOk;
 }
 
-double looked_at(double elevation) {
+double gaze_density(double elevation) {
   return std::exp(-std::abs(elevation) / (18.6 * kDegree)) / std::max(std::cos(elevation), 1e-3);
 }
 
@@ -93,22 +93,22 @@ double worst_vertical_disparity(double half_parallax, double elevation, const He
   const double middle = std::atan2(std::abs(std::sin(elevation)), std::cos(elevation) * std::cos(half_parallax));
   const double aside = std::min(reach.gaze, 0.5 * pi + reach.roll - middle);
   const double across = std::cos(aside) * std::cos(middle);
-  const double most = std::sin(reach.roll) + std::sin(middle) * std::sin(aside);
-  const double lean = most < across ? most / across : 1.0;  // the sine
+  const double maximum = std::sin(reach.roll) + std::sin(middle) * std::sin(aside);
+  const double lean = maximum < across ? maximum / across : 1.0;  // the sine
   const double inside = std::cos(aside) * std::cos(aside), along = inside * (1.0 - lean * lean);
   const double together = 0.5 * (1.0 + std::cos(converged)), apart = 0.5 * (1.0 - std::cos(converged));
   return std::atan2(std::abs(std::sin(converged)) * std::cos(aside) * lean, together * inside - apart * (1.0 - along));
 }
 
 double roll_for_disparity(double half_parallax, double elevation, double gaze, double limit) {
-  double least = 0.0, most = 0.5 * pi;
-  if (worst_vertical_disparity(half_parallax, elevation, {gaze, most}) <= limit) return most;
-  if (worst_vertical_disparity(half_parallax, elevation, {gaze, least}) >= limit) return 0.0;
+  double minimum = 0.0, maximum = 0.5 * pi;
+  if (worst_vertical_disparity(half_parallax, elevation, {gaze, maximum}) <= limit) return maximum;
+  if (worst_vertical_disparity(half_parallax, elevation, {gaze, minimum}) >= limit) return 0.0;
   for (int i = 0; i < 20; i++) {
-    const double roll = 0.5 * (least + most);
-    (worst_vertical_disparity(half_parallax, elevation, {gaze, roll}) <= limit ? least : most) = roll;
+    const double roll = 0.5 * (minimum + maximum);
+    (worst_vertical_disparity(half_parallax, elevation, {gaze, roll}) <= limit ? minimum : maximum) = roll;
   }
-  return least;
+  return minimum;
 }
 
 }  // namespace ods

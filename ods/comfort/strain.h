@@ -55,7 +55,7 @@ inline constexpr StrainRow kStrainTable[] = {
      "provisional); error: Google's 60 cm"},
     {Strain::kVertical, "vertical", "minutes of arc", "the eyes must turn apart vertically when the head turns",
      "caution: provisional; warning: Qin et al., limits of Panum's area; error: a degree, which is severe"},
-    {Strain::kStep, "step", "degrees", "a large step in depth to what is beside it",
+    {Strain::kStep, "step", "degrees", "a large step in depth to its neighbour",
      "Nagata 2002, limits of fusion of 392 people"},
     {Strain::kEdge, "edge", "degrees", "the picture's side cuts it, and one eye shows more of it",
      "as of a step; provisional"},
@@ -82,7 +82,7 @@ constexpr std::string_view comfort_level_name(ComfortLevel level) {
 
 // How often people look at this elevation, relative to the horizon, per solid angle. Source: Sitzmann et al. 2018,
 // "Saliency in VR": a Laplace distribution of elevations, 18.6 degrees wide; provisional, quoted from memory.
-double looked_at(double elevation);
+double gaze_density(double elevation);
 
 inline constexpr double kFusionLimit = 25.6;                     // minutes of arc: beyond this kVertical is a warning
 inline constexpr double kGoogleAhead = 0.6, kGoogleAbove = 3.5;  // metres: Google's minimum distances

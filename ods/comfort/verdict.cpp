@@ -205,7 +205,7 @@ std::string strain_line(const ComfortVerdict& verdict, ComfortLevel level) {
   const StrainedPlace* const worst = verdict.worst();
   if (!worst || worst->level < level) return "";
   const StrainRow& strain = strain_row(worst->strain);
-  return fmt::format("{}, {:.2f} m away, {}, strains the viewer's eyes: {}, {:.3g} {}; {:.2f} m would do",
+  return fmt::format("{}, {:.2f} m away, {}, strains the viewer's eyes: {}, {:.3g} {}; move it to at least {:.2f} m",
                      worst->name.empty() ? "a thing" : "'" + worst->name + "'", worst->distance,
                      direction_text(worst->azimuth, worst->elevation), strain.title, worst->value, strain.unit,
                      worst->enough);

@@ -52,7 +52,7 @@ struct ComfortVerdict {
   std::optional<MatchQuality> match;         // of a picture without depth
   ComfortLevel apart = ComfortLevel::kOk;    // the level of match->apart
   EnumArray<ComfortLevel, double> share{};   // of the known part of the picture, by solid angle
-  EnumArray<ComfortLevel, double> looked{};  // the share weighted by where people look: looked_at()
+  EnumArray<ComfortLevel, double> looked{};  // the share weighted by where people look: gaze_density()
   EnumArray<Strain, double> max{};           // of each strain
   std::vector<StrainedPlace> places;         // worst first, at most ten
   double nearest = 0.0;                      // metres; infinite if there is nothing
@@ -74,7 +74,7 @@ ComfortVerdict judge_comfort(const SeenDepth& eye, const ComfortOptions& options
 std::string direction_text(double azimuth, double elevation);
 
 // The worst place and its cure in a line, for messages; empty if it is below this level: "'Lamp', 0.41 m away, 23
-// degrees right, 12 down, strains the viewer's eyes: ...; 0.75 m would do".
+// degrees right, 12 down, strains the viewer's eyes: ...; move it to at least 0.75 m".
 std::string strain_line(const ComfortVerdict& verdict, ComfortLevel level);
 
 }  // namespace ods

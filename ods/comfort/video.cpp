@@ -77,7 +77,7 @@ class VideoJudge {
   VideoJudge(const std::string& path, const VideoComfortOptions& options)
       : options_(options), video_(open_video(path, options.format)), decoder_(path, video_.track, video_.views) {
     if (video_.prototype.eyes.size() != 2) {
-      throw Error(ErrorKind::kInput, fmt::format("'{}' has one eye: nothing in it tells how far things are", path));
+      throw Error(ErrorKind::kInput, fmt::format("'{}' has one eye: its distances are unknown", path));
     }
     check_matchable(video_.prototype.camera.projection, video_.prototype.size.width, path);
   }
@@ -247,7 +247,7 @@ VideoComfort VideoJudge::run(const Progress& progress) {
   result_.frames = decoder_.stream().count;
   const double fps = video_.fps > 0.0 ? video_.fps : 25.0;
   result_.seconds = result_.frames / fps;
-  const int wished = std::clamp(static_cast<int>(std::ceil(result_.seconds)), kMinMoments, options_.most_moments);
+  const int wished = std::clamp(static_cast<int>(std::ceil(result_.seconds)), kMinMoments, options_.max_moments);
   const int count = result_.frames > 0 ? std::min(wished, result_.frames) : wished;
   result_.every = result_.seconds > 0.0 ? result_.seconds / count : 1.0;
   for (int i = 0; i < count; i++) {

@@ -120,7 +120,7 @@ struct VideoComfort {
 struct VideoComfortOptions {
   ComfortOptions comfort;
   FormatHint format;
-  int most_moments = 90;  // of a long video
+  int max_moments = 90;  // of a long video
 };
 
 // Judges both eyes of a video's frames. Videos whose layout and projection their metadata leave open are identified by

@@ -48,7 +48,7 @@ Title make_title(const StereoCamera& stereo, Extent eye, const TitleSetting& set
 
 namespace {
 
-struct Spot {
+struct TitlePoint {
   vec2 at;      // pixels of the coverage, from its top left corner
   float depth;  // along the ray
 };
@@ -56,7 +56,7 @@ struct Spot {
 }  // namespace
 
 // Intersects a ray with the card, from its concave or front side.
-static std::optional<Spot> meet(const Title& title, const Ray& ray) {
+static std::optional<TitlePoint> meet(const Title& title, const Ray& ray) {
   const auto local = [&](vec3 v) { return vec3(dot(v, title.right), dot(v, title.up), dot(v, title.middle)); };
   const vec3 o = local(ray.origin), d = local(ray.direction);
   const float distance = title.setting.distance;
@@ -75,7 +75,7 @@ static std::optional<Spot> meet(const Title& title, const Ray& ray) {
   }
   if (!(t > 0.0f)) return std::nullopt;
   const vec2 size(title.coverage.width, title.coverage.height);
-  return Spot{vec2(metres.x, -metres.y) * title.pixels + 0.5f * size, t};
+  return TitlePoint{vec2(metres.x, -metres.y) * title.pixels + 0.5f * size, t};
 }
 
 static float coverage_at(const Image& image, vec2 at) {
@@ -89,7 +89,7 @@ static float coverage_at(const Image& image, vec2 at) {
              mix(texel(base.x, base.y + 1.0f), texel(base.x + 1.0f, base.y + 1.0f), beyond.x), beyond.y);
 }
 
-static float coverage_of_pixel(const Title& title, const Spot& spot, const Footprint& footprint,
+static float coverage_of_pixel(const Title& title, const TitlePoint& spot, const Footprint& footprint,
                                std::vector<FilterPoint>& points) {
   filter_points(footprint, points);
   float sum = 0.0f;
@@ -134,8 +134,8 @@ float title_width(const Title& title) {
 
 float comfortable_height(const Title& title) {
   const float angle = glm::radians(0.5f * kComfortableWidth);
-  const float most = title.setting.curved ? angle : std::tan(angle);
-  return title.setting.height * std::min(1.0f, most / half_width(title));
+  const float maximum = title.setting.curved ? angle : std::tan(angle);
+  return title.setting.height * std::min(1.0f, maximum / half_width(title));
 }
 
 float nearest_comfortable(const StereoCamera& stereo, float pitch) {

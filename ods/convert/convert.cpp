@@ -56,7 +56,7 @@ std::string conversion_fault(const StoredPicture& picture, const ConvertTarget& 
   }
   if (!from_mono && is_tilted(picture.camera, target.camera)) {
     return "a stereo picture turns about its viewing circle's axis only (yaw): pitched or rolled, its eyes would need "
-           "lines of sight that nobody has seen; a mono one can be tilted";
+           "lines of sight that no eye has; a mono one can be tilted";
   }
   if (!sees_around(picture, target) || depth_layer(picture)) return correction_fault(picture, target);
   if (from_mono)

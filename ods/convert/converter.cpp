@@ -44,9 +44,9 @@ Converter::Converter(const ConversionPlan& plan, const Source& source, bool move
 
 // A target that is smaller than the picture is computed at least at the picture's resolution.
 void Converter::set_up_rows(const StoredPicture& picture, bool adds_alpha) {
-  constexpr int kMost = 8;
+  constexpr int kMax = 8;
   fine_ = mapping_;
-  for (finer_ = 1; finer_ <= kMost; finer_++) {
+  for (finer_ = 1; finer_ <= kMax; finer_++) {
     fine_.size = {mapping_.size.width * finer_, mapping_.size.height * finer_};
     warp_ = RowWarp::make(fine_, *reprojection_);
     if (warp_) break;
@@ -142,14 +142,14 @@ class BlockBounds {
 
   // Returns false if the block would be too large for a cache.
   bool set(Extent picture, TexelBlock& block) const {
-    const int kMost = 12 * 1024;  // texels
+    const int kMax = 12 * 1024;  // texels
     if (is_empty_) return false;
     block.source_eye = eye_;
     block.box = {std::max(static_cast<int>(low_.x), 0), std::max(static_cast<int>(low_.y), 0),
                  std::min(static_cast<int>(high_.x) + 1, picture.width),
                  std::min(static_cast<int>(high_.y) + 1, picture.height)};
     const int width = block.box.right - block.box.left, height = block.box.bottom - block.box.top;
-    return width > 0 && height > 0 && width <= kMost / height;
+    return width > 0 && height > 0 && width <= kMax / height;
   }
 
  private:
@@ -173,15 +173,15 @@ static bool covers(const RowPlan& plan, int width) {
 
 void Converter::fill_band(int index, int y, int count, std::span<float> rows) const {
   constexpr int kColumns = 64;
-  constexpr size_t kMostRows = 32;
-  assert(static_cast<size_t>(count) <= kMostRows);
+  constexpr size_t kMaxRows = 32;
+  assert(static_cast<size_t>(count) <= kMaxRows);
   const size_t width = static_cast<size_t>(mapping_.size.width) * static_cast<size_t>(channels_);
   const auto plan_of = [&](int i) -> const RowPlan& {
     return plan_.rows[static_cast<size_t>(index * mapping_.size.height + y + i)];
   };
   const auto row_of = [&](int i) { return Row{index, y + i, rows.subspan(static_cast<size_t>(i) * width, width)}; };
   thread_local TexelBlock block;
-  std::array<size_t, kMostRows> begin{}, end{};  // for each row, its range of stretches in the columns
+  std::array<size_t, kMaxRows> begin{}, end{};  // for each row, its range of stretches in the columns
   for (int i = 0; i < count; i++) {
     if (!covers(plan_of(i), mapping_.size.width)) clear(row_of(i).pixels);
   }

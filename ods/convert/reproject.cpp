@@ -69,7 +69,7 @@ Reprojection make_reprojection(const Source& source) {
   std::atomic<int64_t> no_depth = 0;
   float largest = 1e-6f;
   for (int source_eye = 0; source_eye < static_cast<int>(picture.eyes.size()); source_eye++) {
-    std::vector<float>& most = reprojection.row_most.emplace_back(picture.size.height);
+    std::vector<float>& maximum = reprojection.row_max.emplace_back(picture.size.height);
     tbb::parallel_for(0, picture.size.height, [&](int y) {
       const LayerPixels& layer = picture.eyes[static_cast<size_t>(source_eye)].layers[reprojection.layer];
       float nearest = 0.0f;
@@ -79,10 +79,10 @@ Reprojection make_reprojection(const Source& source) {
         nearest = std::max(nearest, inverse_depth(depth));
         invalid += !(depth > 0.0f);
       }
-      most[static_cast<size_t>(y)] = nearest;
+      maximum[static_cast<size_t>(y)] = nearest;
       no_depth += invalid;
     });
-    largest = std::max(largest, *std::max_element(most.begin(), most.end()));
+    largest = std::max(largest, *std::max_element(maximum.begin(), maximum.end()));
   }
   reprojection.no_depth = no_depth;
   reprojection.nearest = std::max(1.0f / largest, 0.01f);
@@ -122,7 +122,7 @@ struct Curve {
   const Source& source;
   int source_eye;
   const Ray& ray;
-  float most = 0.0f;         // 1 / distance of the nearest point
+  float maximum = 0.0f;      // 1 / distance of the nearest point
   bool is_parabola = false;  // the positions follow a parabola through three of them
   Shown at_far, at_middle, at_near;
 
@@ -144,14 +144,14 @@ const float kMinInverseDepth = 1e-6f;  // 1/metres: beyond this distance floats 
 
 Shown Curve::at(float inverse_depth) const {
   if (!is_parabola) return find(inverse_depth);
-  const float t = 2.0f * inverse_depth / most;
+  const float t = 2.0f * inverse_depth / maximum;
   return {{source_eye, on_parabola(at_far.place.at, at_middle.place.at, at_near.place.at, t), true},
           on_parabola(at_far.inverse_depth, at_middle.inverse_depth, at_near.inverse_depth, t)};
 }
 
-Curve make_curve(const Source& source, int source_eye, const Ray& ray, float most) {
-  Curve curve{source, source_eye, ray, most, false, {}, {}, {}};
-  curve.at_far = curve.find(0.0f), curve.at_middle = curve.find(0.5f * most), curve.at_near = curve.find(most);
+Curve make_curve(const Source& source, int source_eye, const Ray& ray, float maximum) {
+  Curve curve{source, source_eye, ray, maximum, false, {}, {}, {}};
+  curve.at_far = curve.find(0.0f), curve.at_middle = curve.find(0.5f * maximum), curve.at_near = curve.find(maximum);
   const vec2 a = curve.at_far.place.at, b = curve.at_middle.place.at, c = curve.at_near.place.at;
   const auto cell = [&](vec2 at) { return cell_of(source.camera.projection, source.picture->size, at); };
   const bool seen = curve.at_far.place.seen && curve.at_middle.place.seen && curve.at_near.place.seen;
@@ -203,7 +203,7 @@ SurfaceHit crossing(const Reprojection& reprojection, const Curve& curve, const 
 // Finds the first crossing from in front of the surface to behind it, from near to far, in steps of about a texel.
 March march_along(const Reprojection& reprojection, const Curve& curve) {
   const int steps = steps_of(curve);
-  const float step = curve.most / static_cast<float>(steps);
+  const float step = curve.maximum / static_cast<float>(steps);
   March march;
   bool was_seen = false;
   Sample last;
@@ -262,11 +262,11 @@ SurfaceHit meet_surface(const Reprojection& reprojection, int source_eye, const 
   const Source& source = *reprojection.source;
   // The ray may start closer to objects than the picture's own rays.
   const float away = length(ray.origin) + length(vec2(0.5f * source.camera.ipd, source.camera.neck));
-  const float most = 1.0f / std::max(reprojection.nearest - away, 0.25f * reprojection.nearest);
+  const float maximum = 1.0f / std::max(reprojection.nearest - away, 0.25f * reprojection.nearest);
   const int count = static_cast<int>(source.picture->eyes.size());
   SurfaceHit behind;
   for (int i = 0; i < count; i++) {
-    const Curve curve = make_curve(source, (source_eye + i) % count, ray, most);
+    const Curve curve = make_curve(source, (source_eye + i) % count, ray, maximum);
     const March march = march_along(reprojection, curve);
     if (march.met) return *march.met;
     if (fills && !behind.place.seen) behind = fill_behind(reprojection, curve, march);

@@ -20,10 +20,10 @@ namespace ods {
 
 struct Reprojection {
   const Source* source = nullptr;
-  size_t layer = 0;                          // index of the depth layer
-  float nearest = 0.0f;                      // metres: the minimum depth
-  int64_t no_depth = 0;                      // pixels without a valid depth (NaN, 0 or less): treated as empty space
-  std::vector<std::vector<float>> row_most;  // per eye: 1 / metres of the nearest point in each row
+  size_t layer = 0;                         // index of the depth layer
+  float nearest = 0.0f;                     // metres: the minimum depth
+  int64_t no_depth = 0;                     // pixels without a valid depth (NaN, 0 or less): treated as empty space
+  std::vector<std::vector<float>> row_max;  // per eye: 1 / metres of the nearest point in each row
 };
 
 // The index of the layer with the distance along the ray, metres: Z, as defined in save.h, or Depth.Z of some layer in

@@ -59,8 +59,9 @@ static std::optional<Stretch> find_stretch(const Node& first, const Node& middle
   }
   const float texels = length(stretch.step) * stretch.per_pixel;
   const float turn = length(stretch.down[1] - stretch.down[0]) + length(stretch.down[2] - stretch.down[1]);
-  const float most = pixels > 2 * kShortStretch ? 8.0f / static_cast<float>(pixels) : 1.0f;
-  if (length(stretch.bend) > most * (1.0f + 0.1f * texels) || turn > most * (0.25f + 0.25f * length(stretch.down[1])))
+  const float maximum = pixels > 2 * kShortStretch ? 8.0f / static_cast<float>(pixels) : 1.0f;
+  if (length(stretch.bend) > maximum * (1.0f + 0.1f * texels) ||
+      turn > maximum * (0.25f + 0.25f * length(stretch.down[1])))
     return {};
   // Between two sharp footprints all are sharp, because the footprints whose ellipse is within a circle are a convex
   // set.

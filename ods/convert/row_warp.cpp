@@ -60,19 +60,19 @@ struct WarpNode {
 class Shifts {
  public:
   std::vector<WarpNode> nodes;
-  float most = 1e-6f;      // nearness of the last node
+  float maximum = 1e-6f;   // nearness of the last node
   float nodes_per = 0.0f;  // nearness
 
   WarpNode at(float nearness) const {
-    const float t = std::clamp(nearness, 0.0f, most) * nodes_per;
+    const float t = std::clamp(nearness, 0.0f, maximum) * nodes_per;
     const size_t i = std::min(static_cast<size_t>(t), nodes.size() - 2);
     const float beyond = t - static_cast<float>(i);
     const WarpNode &a = nodes[i], &b = nodes[i + 1];
     return {a.column + (b.column - a.column) * beyond, a.row + (b.row - a.row) * beyond,
             a.inverse_depth + (b.inverse_depth - a.inverse_depth) * beyond};
   }
-  float least_row() const { return extreme(-1.0f); }
-  float most_row() const { return extreme(1.0f); }
+  float row_of_min() const { return extreme(-1.0f); }
+  float row_of_max() const { return extreme(1.0f); }
 
  private:
   float extreme(float sign) const {
@@ -96,9 +96,9 @@ bool find_shifts(const Mapping& mapping, RowOfTarget target, int source_eye, flo
   const vec2 home = mapping.home_of(middle, target.y);
   const Ray ray = mapping.ray_of(target.index, home, home);
   shifts.nodes.resize(count);
-  shifts.nodes_per = static_cast<float>(count - 1) / shifts.most;
+  shifts.nodes_per = static_cast<float>(count - 1) / shifts.maximum;
   for (size_t i = 0; i < count; i++) {
-    const float wanted = shifts.most * static_cast<float>(i) / static_cast<float>(count - 1);
+    const float wanted = shifts.maximum * static_cast<float>(i) / static_cast<float>(count - 1);
     float inverse = wanted;
     ImagePosition found;
     for (int round = 0; round < 3; round++) {
@@ -220,10 +220,10 @@ class Drawing {
     const float width = static_cast<float>(found_.size());
     if (b.x < a.x) std::swap(a, b);
     if (period_ > 0.0f) {
-      const float least = 0.5f * (width - period_);
-      float turn = a.x < least ? period_ : 0.0f;
-      while (a.x + turn < least) turn += period_;
-      while (a.x + turn >= least + period_) turn -= period_;
+      const float minimum = 0.5f * (width - period_);
+      float turn = a.x < minimum ? period_ : 0.0f;
+      while (a.x + turn < minimum) turn += period_;
+      while (a.x + turn >= minimum + period_) turn -= period_;
       a.x += turn, b.x += turn;
     }
     const float per_pixel = 1.0f / std::max(b.x - a.x, 1e-6f);
@@ -310,24 +310,24 @@ struct Surfaces {
 // Returns false if they are in too many rows, or partly outside the picture.
 bool find_surfaces(const Mapping& mapping, const Reprojection& reprojection, RowOfTarget target, int source_eye,
                    float scale, Surfaces& found) {
-  constexpr float kMostRows = 6.0f, kLevel = 0.02f;
+  constexpr float kMaxRows = 6.0f, kLevel = 0.02f;
   constexpr size_t kFew = 9, kMany = 256;
   const int height = mapping.source.picture->size.height;
-  const std::vector<float>& row_most = reprojection.row_most[static_cast<size_t>(source_eye)];
+  const std::vector<float>& row_max = reprojection.row_max[static_cast<size_t>(source_eye)];
   const auto range = [&] {
-    const int first = static_cast<int>(std::floor(found.shifts.least_row() - 0.5f));
-    const int last = static_cast<int>(std::floor(found.shifts.most_row() - 0.5f)) + 1;
+    const int first = static_cast<int>(std::floor(found.shifts.row_of_min() - 0.5f));
+    const int last = static_cast<int>(std::floor(found.shifts.row_of_max() - 0.5f)) + 1;
     return std::pair(std::clamp(first, 0, height - 1), std::clamp(last, 0, height - 1));
   };
-  found.shifts.most = 1.0f / reprojection.nearest;
+  found.shifts.maximum = 1.0f / reprojection.nearest;
   if (!find_shifts(mapping, target, source_eye, scale, kFew, found.shifts)) return false;
   const auto [above, below] = range();
-  found.shifts.most = std::max(1e-6f, *std::max_element(row_most.begin() + above, row_most.begin() + below + 1));
+  found.shifts.maximum = std::max(1e-6f, *std::max_element(row_max.begin() + above, row_max.begin() + below + 1));
   const float across = std::abs(found.shifts.nodes.back().column - found.shifts.nodes.front().column);
   const size_t count = std::min(kMany, kFew + static_cast<size_t>(across));
   if (!find_shifts(mapping, target, source_eye, scale, count, found.shifts)) return false;
-  const float rows = found.shifts.most_row() - found.shifts.least_row();
-  if (rows > kMostRows) return false;
+  const float rows = found.shifts.row_of_max() - found.shifts.row_of_min();
+  if (rows > kMaxRows) return false;
   const auto [first, last] = range();
   found.strip.read(reprojection, source_eye, first, last);
   found.is_level = rows < kLevel;
@@ -356,8 +356,8 @@ static void draw_surfaces(const Surfaces& surfaces, Extent picture, float scale,
   constexpr float kTwice = 0.25f;  // rows
   thread_local std::vector<Point> points;
   const float pixels = 1.0f / scale;  // per texel
-  const bool twice = surfaces.shifts.most_row() - surfaces.shifts.least_row() > kTwice;
-  for (const float start : {surfaces.shifts.most, 0.0f}) {
+  const bool twice = surfaces.shifts.row_of_max() - surfaces.shifts.row_of_min() > kTwice;
+  for (const float start : {surfaces.shifts.maximum, 0.0f}) {
     points.clear();
     for (int c = 0; c < picture.width; c++) {
       const float nearness = nearness_in(surfaces, c, start, one_surface), column = static_cast<float>(c) + 0.5f;

@@ -13,12 +13,12 @@ namespace ods {
 namespace {
 
 constexpr int kEdgeReach = 2;
-constexpr int kMostNeighbours = (2 * kEdgeReach + 1) * (2 * kEdgeReach + 1) - 1;
-constexpr int kTerms = 7;             // a constant, normal, albedo
-constexpr int kFewest = 6;            // minimum number of pixels for a fit
-constexpr float kRidge = 0.003f;      // relative to the features' squares
-constexpr float kLeastShare = 0.02f;  // weight of a pixel that is unlike all others
-constexpr float kUnlikely = 4.0f;     // deviations: beyond this the fit contradicts the pixel, which shows a lamp
+constexpr int kMaxNeighbours = (2 * kEdgeReach + 1) * (2 * kEdgeReach + 1) - 1;
+constexpr int kTerms = 7;           // a constant, normal, albedo
+constexpr int kFewest = 6;          // minimum number of pixels for a fit
+constexpr float kRidge = 0.003f;    // relative to the features' squares
+constexpr float kMinShare = 0.02f;  // weight of a pixel that is unlike all others
+constexpr float kUnlikely = 4.0f;   // deviations: beyond this the fit contradicts the pixel, which shows a lamp
 
 struct Neighbour {
   std::array<float, kTerms> terms;  // 1, then the features relative to the central pixel
@@ -27,7 +27,7 @@ struct Neighbour {
 };
 
 struct Neighbourhood {
-  Neighbour list[kMostNeighbours];
+  Neighbour list[kMaxNeighbours];
   int count = 0;
   float weight = 0.0f;
   float squares = 0.0f;  // sum of the squared weights
@@ -64,7 +64,7 @@ void look_around(const Block& block, int at, int y, Neighbourhood& around) {
       const vec3 da = three(block, kAlbedoR, at + dx, y + dy) - albedo;
       one.terms = {1.0f, dn.x, dn.y, dn.z, da.x, da.y, da.z};
       one.light = radiance_at(block, at + dx, y + dy);
-      one.weight = window_weight(dx, dy) * (kLeastShare + block.row(kShare, y + dy)[at + dx]);
+      one.weight = window_weight(dx, dy) * (kMinShare + block.row(kShare, y + dy)[at + dx]);
       around.weight += one.weight, around.squares += one.weight * one.weight;
     }
   }

@@ -16,7 +16,7 @@ namespace {
 constexpr int kBlockHeight = 64;
 constexpr int kRadius = 2;  // radius of a window, in strides
 constexpr int kWindow = 2 * kRadius + 1;
-constexpr int kMostStretch = 8;  // maximum horizontal stretch of a window
+constexpr int kMaxStretch = 8;  // maximum horizontal stretch of a window
 
 // Sums for the pixels of a row in a block.
 struct Sums {
@@ -47,11 +47,11 @@ inline float alike_light(float distance, float own, float theirs) {
 inline float alike_noise(float own, float theirs, bool is_wide, float alike) {
   // In the narrowest pass, a rare sample is distributed to its neighbours on the same surface; otherwise its light
   // would be lost.
-  constexpr float kMostRatio = 300.0f, kMostRatioBeside = 3000.0f;
+  constexpr float kMaxRatio = 300.0f, kMaxRatioBeside = 3000.0f;
   if (theirs == 0.0f) return 1.0f;  // exact
   if (own < 0.0f) return 1.0f;
   const float square = alike * alike;
-  return std::min((is_wide ? kMostRatio : kMostRatioBeside * square * square) * std::min(own, theirs) /
+  return std::min((is_wide ? kMaxRatio : kMaxRatioBeside * square * square) * std::min(own, theirs) /
                       (std::max(own, theirs) + 1e-30f),
                   1.0f);
 }
@@ -226,7 +226,7 @@ int stretch_of(const NoisyPicture& noisy, const FilterPass& pass, int y) {
   const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(noisy.height());
   const float level = std::cos(projection.center.y + (0.5f - v) * projection.span.y);
   const float wide = 1.0f / std::sqrt(std::max(level, 1e-4f));
-  return std::clamp(static_cast<int>(std::lround(wide)), 1, kMostStretch);
+  return std::clamp(static_cast<int>(std::lround(wide)), 1, kMaxStretch);
 }
 
 void set_margin(const NoisyPicture& noisy, const FilterPass& pass, int reach, Block& block) {

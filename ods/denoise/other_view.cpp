@@ -22,14 +22,15 @@ static vec2 size_of(const NoisyPicture& noisy) {
 static float step_at(const NoisyView& view, const Cell& cell, int x, int y, bool down) {
   const NoisyPicture& noisy = view.noisy;
   const float here = nearness_at(noisy.eye(view.eye), noisy.index(x, y));
-  float least = 1e30f;
+  float minimum = 1e30f;
   for (const int way : {-1, 1}) {
     const int nx = down ? x : x + way, ny = down ? y + way : y;
     const auto next = neighbour_of(noisy, view.eye, cell, nx, ny);
     if (!next) continue;
-    least = std::min(least, std::abs(nearness_at(noisy.eye(next->source_eye), noisy.index(next->x, next->y)) - here));
+    minimum =
+        std::min(minimum, std::abs(nearness_at(noisy.eye(next->source_eye), noisy.index(next->x, next->y)) - here));
   }
-  return least < 1e30f ? least : 0.0f;
+  return minimum < 1e30f ? minimum : 0.0f;
 }
 
 std::optional<vec3> surface_at(const NoisyPicture& noisy, int eye, int x, int y) {

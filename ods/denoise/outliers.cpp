@@ -14,11 +14,11 @@
 namespace ods {
 namespace {
 
-constexpr int kOutlierReach = 2;           // radius of the window for detecting outliers
-constexpr float kMostOfNeighbours = 2.0f;  // an outlier is brighter than its neighbours' total light over this
-constexpr float kSigmas = 3.0f;    // a pixel that is brighter by this many of its own deviations is not an outlier
-constexpr float kSeen = 0.03f;     // target fraction of the light that spread light adds
-constexpr float kMostSeen = 0.1f;  // maximum fraction; the rest brightens the whole picture
+constexpr int kOutlierReach = 2;            // radius of the window for detecting outliers
+constexpr float kMaxNeighbourShare = 2.0f;  // an outlier is brighter than its neighbours' total light over this
+constexpr float kSigmas = 3.0f;   // a pixel that is brighter by this many of its own deviations is not an outlier
+constexpr float kSeen = 0.03f;    // target fraction of the light that spread light adds
+constexpr float kMaxSeen = 0.1f;  // maximum fraction; the rest brightens the whole picture
 constexpr float kNarrowest = 8.0f, kWidest = 64.0f;  // radius in pixels over which light is spread
 constexpr double kVisits = 8.0;                      // visits of a pixel by outliers, on average; limits the time
 
@@ -69,20 +69,20 @@ Taken take(const NoisyPicture& noisy, const std::vector<Level>& levels, const Ou
   // Most pixels return here.
   if (!(own > 0.0f) || mean_of(light) * 0.9f > kSigmas * std::sqrt(own) || is_bare_sky(eye, pixel)) return taken;
   const float bright = mean_of(light * by);
-  float sum = 0.0f, most = 0.0f;
+  float sum = 0.0f, maximum = 0.0f;
   int count = 0;
   each_neighbour(noisy, levels, at, cell, [&](const EyeImage& from, const Level& theirs, size_t i) {
     const float radiance = std::max(mean_of(light_at(theirs, i) * divisor(from, i)), 0.0f);
-    sum += radiance, most = std::max(most, radiance), count++;
-    return sum - most < kMostOfNeighbours * bright;
+    sum += radiance, maximum = std::max(maximum, radiance), count++;
+    return sum - maximum < kMaxNeighbourShare * bright;
   });
-  if (count < 12 || !(sum - most < kMostOfNeighbours * bright)) return taken;
+  if (count < 12 || !(sum - maximum < kMaxNeighbourShare * bright)) return taken;
   const vec3 normal = normal_at(eye, pixel), albedo = albedo_at(eye, pixel);
   float weights = 0.0f;
   bool left_out = false;
   each_neighbour(noisy, levels, at, cell, [&](const EyeImage& from, const Level& theirs, size_t i) {
     const vec3 there = light_at(theirs, i), dn = normal_at(from, i) - normal, da = albedo_at(from, i) - albedo;
-    if (!left_out && std::max(mean_of(there * divisor(from, i)), 0.0f) == most) return left_out = true;
+    if (!left_out && std::max(mean_of(there * divisor(from, i)), 0.0f) == maximum) return left_out = true;
     const float weight = 1e-3f + feature_weight(dot(dn, dn), dot(da, da));
     taken.light += weight * there, taken.variance += weight * unpack_variance(theirs.variance[i]), weights += weight;
     return true;
@@ -144,8 +144,8 @@ std::vector<Splash> splashes_of(const NoisyPicture& noisy, const std::vector<Out
   }
   double visits = 0.0;
   for (const Splash& each : splashes) visits += double{kPi} * double{each.radius * each.radius};
-  const double most = kVisits * static_cast<double>(levels.size()) * static_cast<double>(levels[0].variance.size());
-  const float scale = static_cast<float>(std::sqrt(std::min(most / visits, 1.0)));
+  const double maximum = kVisits * static_cast<double>(levels.size()) * static_cast<double>(levels[0].variance.size());
+  const float scale = static_cast<float>(std::sqrt(std::min(maximum / visits, 1.0)));
   for (Splash& each : splashes) each.radius = std::max(each.radius * scale, 3.0f);
   return splashes;
 }
@@ -179,7 +179,7 @@ vec3 add_splash(const NoisyPicture& noisy, const Splash& splash, Level& level) {
     }
   }
   if (shares.empty()) return splash.light;
-  const float part = std::min(kMostSeen * here / std::max(mean_of(splash.light), 1e-20f), 1.0f);
+  const float part = std::min(kMaxSeen * here / std::max(mean_of(splash.light), 1e-20f), 1.0f);
   for (const Share& share : shares) {
     const vec3 light = part * splash.light * share.radiance / (sum * divisor(eye, share.pixel));
     for (int c = 0; c < 3; c++) level.light[3 * share.pixel + static_cast<size_t>(c)] += light[c];

@@ -135,7 +135,7 @@ Found find_all(const StoredPicture& stored, const NoiseLayers& layers, const std
   }
   if (!found.variance && !found.half_a && layers.needed) {
     throw Error(ErrorKind::kInput,
-                fmt::format("'{}' does not say how noisy it is: render it with `statistics`, or name a layer with "
+                fmt::format("'{}' has no noise statistics: render it with `statistics`, or name a layer with "
                             "`variance`, or two with `half-a` and `half-b`; {}",
                             path, names_of_layers(stored)));
   }
@@ -164,7 +164,7 @@ int64_t count_unusable(const EyeImage& eye) {
 
 StoredNoise read_noise(const StoredPicture& stored, const NoiseLayers& layers, const std::string& path) {
   if (!stored.is_float) {
-    throw Error(ErrorKind::kInput, fmt::format("'{}' is display-encoded and does not say how noisy it is: use an .exr "
+    throw Error(ErrorKind::kInput, fmt::format("'{}' is display-encoded and has no noise statistics: use an .exr "
                                                "with statistics (ods render `statistics`)",
                                                path));
   }

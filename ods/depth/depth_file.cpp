@@ -111,7 +111,7 @@ DepthNumbers read_picture(const std::string& path) {
     }
   }
   if (colorful * 100 > int64_t{info.width} * info.height) {
-    throw cannot_read(path, "it has colours, and depth is grey: save the depth itself, not a picture of it for people");
+    throw cannot_read(path, "it has colours, but depth is grey: save the depth itself, not a visualisation of it");
   }
   return depth;
 }

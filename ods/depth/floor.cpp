@@ -25,7 +25,7 @@ struct Look {
 };
 
 // An evenly spaced selection of pixels, row by row.
-std::vector<Look> looks_at(const Image& nearness, const Camera& camera, int eye) {
+std::vector<Look> sampled_frames(const Image& nearness, const Camera& camera, int eye) {
   std::vector<Look> looks;
   for (int row = 0; row < kRows; row++) {
     for (int column = 0; column < kColumns; column++) {
@@ -66,7 +66,7 @@ std::optional<double> floor_below(const Image& nearness, const Camera& camera, i
   std::vector<vec3> points;
   std::vector<float> weights;
   double all = 0.0;
-  for (const Look& look : looks_at(nearness, camera, eye)) {
+  for (const Look& look : sampled_frames(nearness, camera, eye)) {
     if (look.direction.y > kBelow) continue;
     all += double{look.weight};
     if (look.nearness <= 0.0f) continue;
@@ -74,7 +74,7 @@ std::optional<double> floor_below(const Image& nearness, const Camera& camera, i
   }
   if (points.size() < 50) return std::nullopt;
   Plane best;
-  double most = 0.0;
+  double maximum = 0.0;
   uint32_t picks = 0;
   const auto pick = [&] { return points[hash(picks++) % points.size()]; };
   for (int round = 0; round < kRounds; round++) {
@@ -86,9 +86,9 @@ std::optional<double> floor_below(const Image& nearness, const Camera& camera, i
       const float off = dot(plane->normal, points[i]) + plane->height;
       if (std::abs(off) < kThick * plane->height) held += double{weights[i]};
     }
-    if (held > most) most = held, best = *plane;
+    if (held > maximum) maximum = held, best = *plane;
   }
-  if (most < kShare * all) return std::nullopt;
+  if (maximum < kShare * all) return std::nullopt;
   std::vector<float> heights;  // distances below the viewer, along the normal, of the points on the plane
   for (const vec3 point : points) {
     const float height = -dot(best.normal, point);
@@ -109,7 +109,7 @@ static float middle_of(const std::vector<Look>& looks, float from, float to) {
 }
 
 bool looks_inverted(const Image& nearness, const Camera& camera, int eye) {
-  const std::vector<Look> looks = looks_at(nearness, camera, eye);
+  const std::vector<Look> looks = sampled_frames(nearness, camera, eye);
   const float below = middle_of(looks, -1.0f, -0.8f), level = middle_of(looks, -0.15f, 0.15f);
   const float above = middle_of(looks, 0.6f, 1.0f);
   if (below < 0.0f || level < 0.0f) return false;

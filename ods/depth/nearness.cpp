@@ -22,7 +22,7 @@ namespace {
 // Statistics of a file's numbers.
 struct Survey {
   int64_t all = 0, nan = 0, negative = 0, zero = 0, infinite = 0;
-  float least = std::numeric_limits<float>::infinity(), most = -least;  // range of the finite ones
+  float minimum = std::numeric_limits<float>::infinity(), maximum = -minimum;  // range of the finite ones
 };
 
 Survey survey(const Image& numbers) {
@@ -34,23 +34,23 @@ Survey survey(const Image& numbers) {
     found.zero += value == 0.0f;
     found.infinite += std::isinf(value);
     if (!std::isfinite(value)) continue;
-    found.least = std::min(found.least, value), found.most = std::max(found.most, value);
+    found.minimum = std::min(found.minimum, value), found.maximum = std::max(found.maximum, value);
   }
   return found;
 }
 
 void refuse_nonsense(const Survey& found, const std::string& path, bool are_distances) {
   const auto refuse = [&](const std::string& what) {
-    throw Error(ErrorKind::kInput, fmt::format("'{}' is no depth picture: {}", path, what));
+    throw Error(ErrorKind::kInput, fmt::format("'{}' is not a depth picture: {}", path, what));
   };
-  const auto most = [&](int64_t count) { return 2 * count > found.all; };
-  if (most(found.nan)) refuse("most of its numbers are NaN");
+  const auto maximum = [&](int64_t count) { return 2 * count > found.all; };
+  if (maximum(found.nan)) refuse("most of its numbers are NaN");
   if (found.infinite == found.all) refuse("it is infinite everywhere");
-  if (most(found.negative)) refuse("most of its numbers are negative");
-  if (are_distances && found.zero + found.nan + found.negative < found.all && most(found.zero))
+  if (maximum(found.negative)) refuse("most of its numbers are negative");
+  if (are_distances && found.zero + found.nan + found.negative < found.all && maximum(found.zero))
     refuse("most of its numbers are 0");
-  if (found.least >= found.most)
-    refuse(fmt::format("it is {} everywhere", found.zero == found.all ? 0.0f : found.most));
+  if (found.minimum >= found.maximum)
+    refuse(fmt::format("it is {} everywhere", found.zero == found.all ? 0.0f : found.maximum));
 }
 
 Error unclear(const std::string& path, const std::string& what) {
@@ -59,7 +59,7 @@ Error unclear(const std::string& path, const std::string& what) {
 
 DepthKind kind_of(const DepthNumbers& depth, const DepthFormat& format) {
   if (!format.kind && depth.codes > 0) {
-    throw unclear(depth.path, fmt::format("its integers may mean many things: say which by `depth-kind` {}",
+    throw unclear(depth.path, fmt::format("its integers are ambiguous: set `depth-kind` to one of {}",
                                           fmt::join(names_of(kDepthKindTable), ", ")));
   }
   return format.kind.value_or(DepthKind::kMetres);
@@ -85,10 +85,10 @@ void check_range(const DepthNumbers& depth, const DepthFormat& format, DepthKind
 class Meaning {
  public:
   Meaning(const DepthNumbers& depth, const DepthFormat& format, DepthKind kind, const Survey& found) : kind_(kind) {
-    const bool is_unit = depth.codes > 0 || (found.least >= 0.0f && found.most <= 1.0f);
-    least_ = is_unit ? 0.0f : found.least;
-    range_ = is_unit ? 1.0f : found.most - found.least;
-    if (kind == DepthKind::kDisparity) least_ = 0.0f, range_ = found.most;
+    const bool is_unit = depth.codes > 0 || (found.minimum >= 0.0f && found.maximum <= 1.0f);
+    least_ = is_unit ? 0.0f : found.minimum;
+    range_ = is_unit ? 1.0f : found.maximum - found.minimum;
+    if (kind == DepthKind::kDisparity) least_ = 0.0f, range_ = found.maximum;
     if (kind == DepthKind::kInverse && !format.nearest && depth.codes == 0) least_ = 0.0f, range_ = 1.0f;
     if (kind == DepthKind::kMetres || kind == DepthKind::kMillimetres) {
       least_ = 0.0f, range_ = 1.0f / static_cast<float>(std::max(depth.codes, 1));

@@ -132,13 +132,13 @@ std::vector<DepthNumbers> depth_of_eyes(DepthNumbers depth, const StoredPicture&
   return eyes;
 }
 
-static void say_invalid(int64_t invalid, const std::string& path, DepthReport& report) {
+static void note_invalid(int64_t invalid, const std::string& path, DepthReport& report) {
   if (invalid == 0) return;
-  report.notes.push_back(
-      fmt::format("'{}': {} of its numbers are no depth (NaN, negative, 0 metres): taken for far away", path, invalid));
+  report.notes.push_back(fmt::format(
+      "'{}': {} of its numbers are not depths (NaN, negative, 0 metres): treated as far away", path, invalid));
 }
 
-static void say_sharpened(double share, DepthReport& report) {
+static void note_sharpened(double share, DepthReport& report) {
   if (share == 0.0) return;
   report.notes.push_back(
       fmt::format("{:.2g} % of the depth was on soft edges, which are as sharp as the picture's now "
@@ -214,8 +214,8 @@ DepthReport add_depth(StoredPicture& picture, const std::vector<DepthNumbers>& d
     all += static_cast<int64_t>(fitted.pixels.size());
     kept->depth.push_back(metres_of(std::move(fitted), report.scale));
   }
-  say_invalid(invalid, depth[0].path, report);
-  say_sharpened(static_cast<double>(sharpened) / static_cast<double>(all), report);
+  note_invalid(invalid, depth[0].path, report);
+  note_sharpened(static_cast<double>(sharpened) / static_cast<double>(all), report);
   set_layer(picture, kept->depth);
   picture.memory = std::shared_ptr<Scratch>(kept, kept->memory.get());
   return report;

@@ -82,10 +82,10 @@ double remainder_of(const Sample& sample, const Fit& fit) {
   return rest;
 }
 
-double spread_of(const std::vector<Sample>& samples, const Fit& fit, double least) {
+double spread_of(const std::vector<Sample>& samples, const Fit& fit, double minimum) {
   std::vector<double> sizes;
   for (const Sample& sample : samples) sizes.push_back(std::abs(remainder_of(sample, fit)));
-  return std::max(1.4826 * median(std::move(sizes)), least);
+  return std::max(1.4826 * median(std::move(sizes)), minimum);
 }
 
 // One step of reweighted least squares. Returns false if the matches do not determine the columns.
@@ -114,14 +114,14 @@ bool refit(const std::vector<Sample>& samples, const Columns& columns, Fit& fit)
 }
 
 // Starts from a wide distribution, so that no mismatch decides, and narrows it down.
-Fit fit_columns(const std::vector<Sample>& samples, const Columns& columns, double least) {
+Fit fit_columns(const std::vector<Sample>& samples, const Columns& columns, double minimum) {
   Fit fit;
-  fit.spread = std::max(spread_of(samples, fit, least), 1.0);
+  fit.spread = std::max(spread_of(samples, fit, minimum), 1.0);
   for (int i = 0; i < 12 && !columns.empty(); i++) {
     if (!refit(samples, columns, fit)) return {};
-    fit.spread = std::max(spread_of(samples, fit, least), i < 4 ? 0.5 * fit.spread : 0.0);
+    fit.spread = std::max(spread_of(samples, fit, minimum), i < 4 ? 0.5 * fit.spread : 0.0);
   }
-  fit.spread = spread_of(samples, fit, least);
+  fit.spread = spread_of(samples, fit, minimum);
   return fit;
 }
 
@@ -136,8 +136,8 @@ double cost_of(const std::vector<Sample>& samples, const Fit& fit, double spread
 }
 
 // Adds the term that explains most, as long as it is significant.
-Fit simplest_fit(const std::vector<Sample>& samples, Columns columns, double least) {
-  Fit best = fit_columns(samples, columns, least);
+Fit simplest_fit(const std::vector<Sample>& samples, Columns columns, double minimum) {
+  Fit best = fit_columns(samples, columns, minimum);
   while (true) {
     std::optional<size_t> next;
     Fit better = best;
@@ -146,7 +146,7 @@ Fit simplest_fit(const std::vector<Sample>& samples, Columns columns, double lea
       if (std::find(columns.begin(), columns.end(), term) != columns.end()) continue;
       Columns more = columns;
       more.push_back(term);
-      const Fit fit = fit_columns(samples, more, least);
+      const Fit fit = fit_columns(samples, more, minimum);
       const double fit_cost = cost_of(samples, fit, best.spread);
       if (fit_cost >= cost || std::abs(fit.value[term]) < kSure * fit.error[term]) continue;
       next = term, better = fit, cost = fit_cost;
@@ -211,9 +211,9 @@ Alignment find_alignment(const std::vector<std::vector<GrayView>>& scales, bool 
     alignment.headings = 0.0;
     if (matches.found.size() < kEnough || matches.share() < 0.1) return alignment;
     const std::vector<Sample> samples = samples_of(matches);
-    const double least = kPrecision * static_cast<double>(matches.pixel) / kDegree;
+    const double minimum = kPrecision * static_cast<double>(matches.pixel) / kDegree;
     const Columns always = two_cameras ? kTwoCameras : Columns();
-    const Fit fit = simplest_fit(samples, always, least), whole = fit_columns(samples, kAllTerms, least);
+    const Fit fit = simplest_fit(samples, always, minimum), whole = fit_columns(samples, kAllTerms, minimum);
     for (size_t term = 0; term < kAlignmentTerms; term++) {
       alignment.terms[term].value += fit.value[term];
       alignment.terms[term].error = fit.error[term] > 0.0 ? fit.error[term] : whole.error[term];

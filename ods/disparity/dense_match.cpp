@@ -30,7 +30,7 @@ constexpr double kSpeck = 3.0;         // square degrees: smaller isolated patch
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 using Cost = int16_t;
-constexpr Cost kMost = 4096;  // more than the cost of any path
+constexpr Cost kMax = 4096;  // more than the cost of any path
 
 // The rows of a view that are matched, around the sphere.
 struct Band {
@@ -64,7 +64,7 @@ Census census_of(const Band& band) {
     for (int x = 0; x < band.width(); x++) {
       const float middle = window[static_cast<size_t>(kDown * wide + x + reach)];
       uint64_t bits = 0;
-      float most = 0.0f;
+      float maximum = 0.0f;
       for (int j = 0; j <= 2 * kDown; j++) {
         const float* row = &window[static_cast<size_t>(j * wide + x)];
         float low = row[0], high = row[0];
@@ -73,10 +73,10 @@ Census census_of(const Band& band) {
           bits = bits << 1 | (value > middle ? 1u : 0u);
           low = std::min(low, value), high = std::max(high, value);
         }
-        most = std::max(most, high - low);
+        maximum = std::max(maximum, high - low);
       }
       const size_t at = static_cast<size_t>(y) * static_cast<size_t>(band.width()) + static_cast<size_t>(x);
-      census.bits[at] = bits, census.seen[at] = !std::isnan(middle), census.detailed[at] = most > kDetail;
+      census.bits[at] = bits, census.seen[at] = !std::isnan(middle), census.detailed[at] = maximum > kDetail;
     }
   });
   return census;
@@ -151,12 +151,12 @@ int Volume::jump(int x, int y, int from_x, int from_y) const {
 // The costs of a path's last pixel, between two unreachable ones.
 struct Volume::Path {
   std::vector<Cost> costs;
-  std::vector<Cost> least;  // per pixel
+  std::vector<Cost> minimum;  // per pixel
   int shifts;
 
   Path(int count, int n)
-      : costs(static_cast<size_t>(count) * static_cast<size_t>(n + 2), kMost),
-        least(static_cast<size_t>(count), 0),
+      : costs(static_cast<size_t>(count) * static_cast<size_t>(n + 2), kMax),
+        minimum(static_cast<size_t>(count), 0),
         shifts(n) {
     for (int x = 0; x < count; x++) std::fill_n(at(x), n, Cost{0});
   }
@@ -165,7 +165,7 @@ struct Volume::Path {
   // Continues from pixel `from` of another path to pixel x of this one.
   void go(int x, Path& other, int from, int jump, const uint8_t* cost, Cost* sums) {
     const Cost* before = other.at(from);
-    const Cost base = other.least[static_cast<size_t>(from)], far = static_cast<Cost>(base + jump);
+    const Cost base = other.minimum[static_cast<size_t>(from)], far = static_cast<Cost>(base + jump);
     Cost* now = at(x);
     for (int i = 0; i < shifts; i++) {
       const Cost beside = static_cast<Cost>(std::min(before[i - 1], before[i + 1]) + kSlope);
@@ -174,7 +174,7 @@ struct Volume::Path {
     for (int i = 0; i < shifts; i++) sums[i] = static_cast<Cost>(sums[i] + now[i]);
     Cost lowest = now[0];
     for (int i = 1; i < shifts; i++) lowest = std::min(lowest, now[i]);
-    least[static_cast<size_t>(x)] = lowest;
+    minimum[static_cast<size_t>(x)] = lowest;
   }
 };
 
@@ -212,16 +212,16 @@ void Volume::sum_paths() {
 // The shift whose sum is clearly smaller than all others, except the adjacent ones.
 Volume::Best Volume::best_of(const Cost* sums) const {
   Best best;
-  Cost least = kMost, second = kMost;
+  Cost minimum = kMax, second = kMax;
   for (int i = 0; i < shifts_; i++) {
-    if (sums[i] < least) least = sums[i], best.index = i;
+    if (sums[i] < minimum) minimum = sums[i], best.index = i;
   }
   for (int i = 0; i < shifts_; i++) {
     if (std::abs(i - best.index) > 1) second = std::min(second, sums[i]);
   }
-  if (best.index <= 0 || best.index >= shifts_ - 1 || least >= 0.97 * second) return {};
+  if (best.index <= 0 || best.index >= shifts_ - 1 || minimum >= 0.97 * second) return {};
   const double before = sums[best.index - 1], after = sums[best.index + 1];
-  const double bend = before + after - 2.0 * least;
+  const double bend = before + after - 2.0 * minimum;
   best.shift = static_cast<float>(least_ + best.index + (bend > 0.0 ? 0.5 * (before - after) / bend : 0.0));
   return best;
 }

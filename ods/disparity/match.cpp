@@ -11,7 +11,7 @@ namespace ods {
 namespace {
 
 // Minimum standard deviation of a tile with enough detail. One step of 8 bits is 0.004.
-constexpr double kLeastDetail = 0.015;
+constexpr double kMinDetail = 0.015;
 
 // A tile is ambiguous if a second peak, not adjacent to the first, is less than this below it.
 constexpr double kPeakLead = 0.04;
@@ -85,7 +85,7 @@ class Matcher {
     const double n = count();
     const Sums::Sum sum = from_.over(turned(tile.x), tile.y, tile.columns, tile.rows);
     const double square = sum.square - sum.value * sum.value / n;
-    if (sum.unseen > 0 || square < kLeastDetail * kLeastDetail * n) return false;
+    if (sum.unseen > 0 || square < kMinDetail * kMinDetail * n) return false;
     const float mean = static_cast<float>(sum.value / n), scale = static_cast<float>(1.0 / std::sqrt(square));
     pattern_.clear();
     for (int y = 0; y < tile.rows; y++) {
@@ -124,7 +124,7 @@ class Matcher {
   double correlate(int x, int y) const {
     const Sums::Sum sum = to_.over(turned(x), y, tile_.columns, tile_.rows);
     const double spread = sum.square - sum.value * sum.value / count();
-    if (sum.unseen > 0 || spread < 0.25 * kLeastDetail * kLeastDetail * count()) return -1.0;
+    if (sum.unseen > 0 || spread < 0.25 * kMinDetail * kMinDetail * count()) return -1.0;
     float product = 0.0f;
     const float* pattern = pattern_.data();
     for (int j = 0; j < tile_.rows; j++, pattern += tile_.columns) {

@@ -9,9 +9,9 @@
 namespace ods {
 
 constexpr int kRays = 720;
-constexpr float kLeastDark = 0.03f;  // video black, and the noise and ringing of codecs
-constexpr float kLeastShare = 0.2f;  // minimum fraction of the circle
-constexpr float kRound = 0.012f;     // relative to the radius: maximum distance of a border from the circle
+constexpr float kMinDark = 0.03f;  // video black, and the noise and ringing of codecs
+constexpr float kMinShare = 0.2f;  // minimum fraction of the circle
+constexpr float kRound = 0.012f;   // relative to the radius: maximum distance of a border from the circle
 
 static float sample(const Image& image, vec2 at) {
   const float x = std::clamp(at.x - 0.5f, 0.0f, static_cast<float>(image.width - 1));
@@ -28,12 +28,12 @@ static float dark_level(const Image& image) {
   float darkest = 1.0f;
   for (const int x : {0, image.width - side}) {
     for (const int y : {0, image.height - side}) {
-      float most = 0.0f;
-      for (int i = 0; i < side * side; i++) most = std::max(most, *image.at(x + i % side, y + i / side));
-      darkest = std::min(darkest, most);
+      float maximum = 0.0f;
+      for (int i = 0; i < side * side; i++) maximum = std::max(maximum, *image.at(x + i % side, y + i / side));
+      darkest = std::min(darkest, maximum);
     }
   }
-  return darkest + kLeastDark;
+  return darkest + kMinDark;
 }
 
 // The length of a ray from `from` inside the image.
@@ -88,9 +88,9 @@ static float off(const Rim& rim, vec2 point) {
 
 // The circle through three points with the most borders on it, and few outside: dark objects at the rim move borders
 // inwards.
-static std::optional<Rim> circle_of_most(const std::vector<vec2>& borders) {
+static std::optional<Rim> circle_of_max(const std::vector<vec2>& borders) {
   std::optional<Rim> best;
-  int most = 0;
+  int maximum = 0;
   uint32_t state = 1;
   const auto draw = [&] {
     state = state * 1664525u + 1013904223u;
@@ -104,7 +104,7 @@ static std::optional<Rim> circle_of_most(const std::vector<vec2>& borders) {
       const float away = off(*rim, border) / rim->radius;
       votes += std::abs(away) < kRound ? 1 : away > kRound ? -2 : 0;
     }
-    if (votes > most) most = votes, best = rim;
+    if (votes > maximum) maximum = votes, best = rim;
   }
   return best;
 }
@@ -135,8 +135,8 @@ std::optional<Rim> find_rim(const Image& image) {
       borders.push_back(*border);
     }
   }
-  if (static_cast<float>(borders.size()) < kRays * kLeastShare) return std::nullopt;
-  std::optional<Rim> rim = circle_of_most(borders);
+  if (static_cast<float>(borders.size()) < kRays * kMinShare) return std::nullopt;
+  std::optional<Rim> rim = circle_of_max(borders);
   size_t on = 0;
   for (int i = 0; rim && i < 5; i++) {
     std::vector<vec2> near;
@@ -145,13 +145,13 @@ std::optional<Rim> find_rim(const Image& image) {
       if (std::abs(off(*rim, border)) < width) near.push_back(border);
     }
     on = near.size();
-    if (static_cast<float>(on) < kRays * kLeastShare * 0.5f) return std::nullopt;
+    if (static_cast<float>(on) < kRays * kMinShare * 0.5f) return std::nullopt;
     rim = fit(near);
   }
   if (!rim) return std::nullopt;
   const float inside = share_inside(image, *rim);
-  const float least = 0.3f * static_cast<float>(std::min(image.width, image.height));
-  if (rim->radius < least || inside < kLeastShare) return std::nullopt;
+  const float minimum = 0.3f * static_cast<float>(std::min(image.width, image.height));
+  if (rim->radius < minimum || inside < kMinShare) return std::nullopt;
   // The fraction of borders on the circle, out of the circle's part inside the image.
   rim->share = std::min(1.0f, static_cast<float>(on) / (kRays * inside));
   return rim->share > 0.5f ? rim : std::nullopt;

@@ -19,7 +19,7 @@ def put(owner, name, value):
     try:
         setattr(owner, name, value)
     except (AttributeError, TypeError) as error:
-        print("ods: not as asked: this Blender has no", name, "=", value, "-", error)
+        print("ods: unsupported: this Blender has no", name, "=", value, "-", error)
 
 
 scene = bpy.context.scene
@@ -42,7 +42,7 @@ class Script {
     lens();
     stereo();
     picture();
-    for (const std::string& warning : warnings_) line("print(\"ods: not as asked: {}\")", warning);
+    for (const std::string& warning : warnings_) line("print(\"ods: unsupported: {}\")", warning);
   }
 
   const std::string& text() const { return text_; }
@@ -75,7 +75,7 @@ class Script {
     if (setting.kind == kFisheye) return fisheye();
     line("panorama.panorama_type = \"EQUIRECTANGULAR\"");
     if (setting.kind != kLatLong) {
-      warn(fmt::format("Blender is not told the projection {}, using lat-long instead; --for osl has it",
+      warn(fmt::format("Blender cannot set the projection {}; using lat-long instead (--for osl has it)",
                        projection_name(setting)));
     }
     const ProjectionSetting range = setting.kind == kLatLong ? setting : ProjectionSetting();
@@ -150,7 +150,7 @@ class Script {
     const bool wide = eyes.how == EyePacking::kBeside;
     const bool high = eyes.how == EyePacking::kStacked && !eyes.right_first;
     if (!wide && !high) {
-      warn(fmt::format("Blender is not told the layout {}; using top-bottom instead", layout_name(file_.layout)));
+      warn(fmt::format("Blender cannot set the layout {}; using top-bottom instead", layout_name(file_.layout)));
     }
     line("packing.display_mode = \"{}\"", wide ? "SIDEBYSIDE" : "TOPBOTTOM");
     line("packing.use_squeezed_frame = {}", eyes.squeezed ? "True" : "False");

@@ -98,7 +98,7 @@ std::vector<std::string> lacking(const Sidecar& file, const Abilities& can) {
 
 std::string comment_block(const std::string& mark, const std::string& title, const std::vector<std::string>& warnings) {
   std::string text = fmt::format("{} {}\n", mark, title);
-  for (const std::string& warning : warnings) text += fmt::format("{} Not as asked: {}.\n", mark, warning);
+  for (const std::string& warning : warnings) text += fmt::format("{} Unsupported: {}.\n", mark, warning);
   return text;
 }
 

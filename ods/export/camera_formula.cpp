@@ -376,11 +376,11 @@ class Writer {
 
 std::string formula_fault(const Sidecar& file) {
   const StereoCamera& stereo = file.camera;
-  if (stereo.top.mode == kMergeMap || stereo.bottom.mode == kMergeMap) return "a merge map is no formula";
-  if (stereo.head_tilt_map) return "a head-tilt map is no formula";
+  if (stereo.top.mode == kMergeMap || stereo.bottom.mode == kMergeMap) return "a merge map is not a formula";
+  if (stereo.head_tilt_map) return "a head-tilt map is not a formula";
   const EyeArrangement eyes = arrangement_of(file.layout);
   if (file.eyes.size() == 2 && !eyes.is_halves() && eyes.how != EyePacking::kAlone) {
-    return fmt::format("{} mixes the eyes in a way that is no formula of the image position; export top-bottom",
+    return fmt::format("{} mixes the eyes in a way that is not a function of the image position; export top-bottom",
                        layout_name(file.layout));
   }
   return {};

@@ -132,7 +132,7 @@ class PovrayVector {
 
   // The number of times that a component computes a step if all steps are written out; the maximum over the components.
   double evaluations(const std::string& name) const {
-    double most = 0.0;
+    double maximum = 0.0;
     for (const Formula& part : v_) {
       std::vector<double> counts(chain_.size());
       size_t found = 0;
@@ -143,9 +143,9 @@ class PovrayVector {
         }
         if (chain_[i].name == name) found = i;
       }
-      most = std::max(most, counts[found]);
+      maximum = std::max(maximum, counts[found]);
     }
-    return most;
+    return maximum;
   }
 
   // Occurrences in the text.

@@ -125,7 +125,7 @@ RigExport rig_to_blender(const SlitRig& rig, const std::string& name) {
   std::string text = commented("#", lines);
   text +=
       "\nFOLDER = \"//views\"  # // is where the .blend is, or where Blender was started; a third word is another\n";
-  text += "COMPOSITING = False  # True: the scene's compositor has its say on every view\nSEED = 0\n";
+  text += "COMPOSITING = False  # True: the scene's compositor is applied to every view\nSEED = 0\n";
   text += fmt::format("MARK = {}\n", mark_literal(rig));
   text += fmt::format("DEPTH = {}\nSIZE = ({}, {})\n", depth ? "True" : "False", rig.view.width, rig.view.height);
   text += fmt::format("HALF_WIDTH = {:.10g}  # of a view, a metre ahead of it\n", half_size(rig).x);

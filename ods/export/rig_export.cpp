@@ -110,7 +110,7 @@ std::vector<std::string> head_lines(const SlitRig& rig, const std::string& name,
                   rig.options.padding));
   lines.emplace_back("(ods rig --padding).");
   lines.push_back(fmt::format("Then: ods stitch {}.json '{}' -o picture.exr", name, head.views));
-  for (const std::string& warning : warnings) lines.push_back("Not as asked: " + warning + ".");
+  for (const std::string& warning : warnings) lines.push_back("Unsupported: " + warning + ".");
   return lines;
 }
 

@@ -80,7 +80,7 @@ RigExport rig_to_povray(const SlitRig& rig, const std::string& name) {
         fmt::format("  povray {}.povray.ini +Iscene.pov", name),
         fmt::format("  povray {}.povray.ini +Iscene.pov +SF1 +EF100    views 1 to 100, for a farm", name),
         fmt::format("  povray {}.povray.ini +Iscene.pov +KI2.5 +KF2.5  all at clock 2.5", name),
-        fmt::format("  povray {}.povray.ini +Iscene.pov +C             goes on where it stopped", name),
+        fmt::format("  povray {}.povray.ini +Iscene.pov +C             resumes where it stopped", name),
         "Random numbers: seed() gives a scene the same ones in every view."}},
       result.warnings);
   result.scripts.push_back({".povray.inc", camera_text(rig, head)});

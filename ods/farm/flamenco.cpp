@@ -61,7 +61,7 @@ function compileJob(job) {{
 
 }  // namespace
 
-std::vector<FarmFile> write_flamenco(const FarmPlan& plan, const SchedulerWishes&) {
+std::vector<FarmFile> write_flamenco(const FarmPlan& plan, const SchedulerChoices&) {
   std::string groups;
   for (const TaskGroup& group : plan.groups) groups += group_text(plan, group);
   return {{plan.name + ".js", fmt::format(kFlamencoScript, json_text(plan.name), flamenco_word(plan.program), groups)}};

@@ -39,7 +39,7 @@ std::string resources(const FarmPlan& plan, const TaskGroup& group) {
 
 // An exit code of 2 is a command line that is wrong on every machine, 5 a verdict, which is the same on all; an evicted
 // pod is not a failure of its task.
-std::string job_of(const FarmPlan& plan, const TaskGroup& group, const SchedulerWishes& wishes) {
+std::string job_of(const FarmPlan& plan, const TaskGroup& group, const SchedulerChoices& wishes) {
   std::vector<std::string> words = {"exec", plan.program};
   words.insert(words.end(), group.command.begin(), group.command.end());
   words.insert(words.end(), {"--threads", fmt::format("{}", plan.cpus)});
@@ -83,7 +83,7 @@ spec:
                      json_text(wishes.volume));
 }
 
-void check_mount(const FarmPlan& plan, const SchedulerWishes& wishes) {
+void check_mount(const FarmPlan& plan, const SchedulerChoices& wishes) {
   for (const PlanPath& path : plan.paths) {
     if (path.path == wishes.mount || path.path.starts_with(wishes.mount + "/") || wishes.mount == "/") continue;
     throw Error(ErrorKind::kUsage, fmt::format("'{}' is outside '{}', where the pods see the volume: --mount DIR names "
@@ -138,11 +138,11 @@ run() {  # JOB FILE
 
 }  // namespace
 
-std::vector<FarmFile> write_kubernetes(const FarmPlan& plan, const SchedulerWishes& wishes) {
+std::vector<FarmFile> write_kubernetes(const FarmPlan& plan, const SchedulerChoices& wishes) {
   check_mount(plan, wishes);
   if (plan.cpus == 0) {
     throw Error(ErrorKind::kUsage,
-                "Kubernetes has no word for a whole machine: --cpus N says how many of its processors");
+                "Kubernetes cannot request a whole machine: --cpus N sets how many of its processors");
   }
   std::vector<FarmFile> files;
   std::string submit = kKubernetesSubmit;

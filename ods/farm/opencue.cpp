@@ -60,7 +60,7 @@ std::string depend_of(const FarmPlan& plan, const TaskGroup& group, const TaskGr
 
 }  // namespace
 
-std::vector<FarmFile> write_opencue(const FarmPlan& plan, const SchedulerWishes&) {
+std::vector<FarmFile> write_opencue(const FarmPlan& plan, const SchedulerChoices&) {
   std::string layers, depends;
   for (const TaskGroup& group : plan.groups) {
     layers += layer_of(plan, group);

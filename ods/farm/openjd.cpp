@@ -62,7 +62,7 @@ std::string with_parameter(const std::string& word, const std::vector<PathParame
     if (word != path && !(parameter.path.is_folder && word.starts_with(path + "/"))) continue;
     return "{{Param." + parameter.name + "}}" + word.substr(path.size());
   }
-  if (word.size() > kLongest) throw Error(ErrorKind::kUsage, "a word has more than 1024 characters");
+  if (word.size() > kLongest) throw Error(ErrorKind::kUsage, "an argument has more than 1024 characters");
   return word;
 }
 
@@ -94,7 +94,7 @@ Json step_of(const FarmPlan& plan, const TaskGroup& group, const std::vector<Pat
 
 }  // namespace
 
-std::vector<FarmFile> write_openjd(const FarmPlan& plan, const SchedulerWishes&) {
+std::vector<FarmFile> write_openjd(const FarmPlan& plan, const SchedulerChoices&) {
   const std::vector<PathParameter> parameters = parameters_of(plan);
   Json job = {{"specificationVersion", "jobtemplate-2023-09"},
               {"name", plan.name},

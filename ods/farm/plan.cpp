@@ -61,7 +61,7 @@ size_t memory_of(const FarmPlan& plan, const TaskGroup& group) {
   return group.memory > 0 ? group.memory : plan.memory;
 }
 
-std::vector<std::string> task_words(const FarmPlan& plan, const TaskGroup& group, int number) {
+std::vector<std::string> task_arguments(const FarmPlan& plan, const TaskGroup& group, int number) {
   assert(number >= 1 && number <= group.tasks);
   std::vector<std::string> words = {plan.program};
   words.insert(words.end(), group.command.begin(), group.command.end());
@@ -82,7 +82,7 @@ std::string write_plan(const FarmPlan& plan) {
 FarmPlan read_plan(std::string_view text, const std::string& path) {
   const Json json = parse_json(text, path, "plan of a farm's job");
   const auto bad = [&](const std::string& why) {
-    return Error(ErrorKind::kInput, fmt::format("'{}' is no plan of a farm's job: {}", path, one_line(why)));
+    return Error(ErrorKind::kInput, fmt::format("'{}' is not the plan of a farm's job: {}", path, one_line(why)));
   };
   try {
     if (json.at(kPlanMark) != kVersion) throw bad("it was made by another version of ods");
@@ -121,7 +121,7 @@ void check_quotable(const FarmPlan& plan) {
     if (is_quotable(word)) return;
     throw Error(ErrorKind::kUsage,
                 fmt::format("'{}' has a line break, another control character or bytes that are not UTF-8: schedulers "
-                            "cannot be told such a word; rename the file",
+                            "cannot take such an argument; rename the file",
                             one_line(word)));
   };
   for (const std::string& word : {plan.folder, plan.program}) check(word);
@@ -135,22 +135,22 @@ double halo_cost(int halo, int tasks, size_t frames) {
 
 static constexpr double kTaskSeconds = 600.0;
 
-int least_chunk(int halo) {
-  return std::max(1, static_cast<int>(std::ceil(2.0 * halo / kMostHaloCost)));
+int min_chunk(int halo) {
+  return std::max(1, static_cast<int>(std::ceil(2.0 * halo / kMaxHaloCost)));
 }
 
 int suitable_chunk(double seconds_per_frame, size_t frames, int halo) {
   assert(seconds_per_frame > 0.0 && frames > 0);
   const auto by_time = std::clamp(kTaskSeconds / seconds_per_frame, 1.0, 1e6);
   const auto by_machines = std::max(1.0, std::ceil(static_cast<double>(frames) / 16.0));
-  return std::max(static_cast<int>(std::min(by_time, by_machines)), least_chunk(halo));
+  return std::max(static_cast<int>(std::min(by_time, by_machines)), min_chunk(halo));
 }
 
 bool raw_first_is_cheaper(double seconds_per_frame, size_t frames, int halo, size_t raw_bytes) {
-  if (seconds_per_frame * least_chunk(halo) < kTaskSeconds) return false;
+  if (seconds_per_frame * min_chunk(halo) < kTaskSeconds) return false;
   const double kDiskSpeed = 1e8;
   const double twice = halo_cost(halo, tasks_for(frames, suitable_chunk(seconds_per_frame, frames, halo)), frames);
-  const double written_and_read = 2.0 + kMostHaloCost;  // tasks that denoise read those beside theirs, too
+  const double written_and_read = 2.0 + kMaxHaloCost;  // tasks that denoise read those beside theirs, too
   return seconds_per_frame * twice > written_and_read * static_cast<double>(raw_bytes) / kDiskSpeed;
 }
 

@@ -44,7 +44,7 @@ struct FarmPlan {
 size_t memory_of(const FarmPlan& plan, const TaskGroup& group);
 
 // The program and the arguments of task `number`, counted from 1.
-std::vector<std::string> task_words(const FarmPlan& plan, const TaskGroup& group, int number);
+std::vector<std::string> task_arguments(const FarmPlan& plan, const TaskGroup& group, int number);
 
 // Write a plan as JSON (docs/farm.md has its keys), and read it. Throws Error(kInput) if the text is not such a plan;
 // `path` names it in messages.
@@ -71,18 +71,18 @@ void check_quotable(const FarmPlan& plan);
 double halo_cost(int halo, int tasks, size_t frames);
 
 // The largest halo_cost() of a chunk that ods chooses.
-inline constexpr double kMostHaloCost = 0.25;
+inline constexpr double kMaxHaloCost = 0.25;
 
 // The number of frames of a task with this cost.
-int least_chunk(int halo);
+int min_chunk(int halo);
 
 // The number of frames of a task that takes about ten minutes, or fewer, so that there are at least sixteen tasks and
-// no machine is idle, unless that would cost more than kMostHaloCost. Precondition: seconds_per_frame > 0, frames > 0.
+// no machine is idle, unless that would cost more than kMaxHaloCost. Precondition: seconds_per_frame > 0, frames > 0.
 int suitable_chunk(double seconds_per_frame, size_t frames, int halo);
 
 // Returns whether it is cheaper to render all frames first, each once, and to denoise them by a second group, than to
 // render the frames beside a task's own twice. A rendered frame has raw_bytes, and a shared disk takes 100 MB a second.
-// Returns false if tasks of ten minutes have least_chunk() frames or more. Preconditions: as for suitable_chunk().
+// Returns false if tasks of ten minutes have min_chunk() frames or more. Preconditions: as for suitable_chunk().
 bool raw_first_is_cheaper(double seconds_per_frame, size_t frames, int halo, size_t raw_bytes);
 
 // The number of tasks of at most `chunk` frames.

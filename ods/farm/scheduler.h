@@ -22,7 +22,7 @@
 namespace ods {
 
 // Settings that only some schedulers need, and that are not in the plan.
-struct SchedulerWishes {
+struct SchedulerChoices {
   int largest_array = 1001;         // Slurm's MaxArraySize: indices are below it
   std::vector<std::string> extras;  // Slurm: options of sbatch, "--partition=render"
   std::string image = "ods";        // Kubernetes: of the containers
@@ -36,18 +36,18 @@ struct FarmFile {
 };
 
 // Throw Error(kUsage) for arguments that the scheduler's language cannot express. Precondition: check_quotable().
-std::vector<FarmFile> write_slurm(const FarmPlan& plan, const SchedulerWishes& wishes);
-std::vector<FarmFile> write_openjd(const FarmPlan& plan, const SchedulerWishes& wishes);
-std::vector<FarmFile> write_opencue(const FarmPlan& plan, const SchedulerWishes& wishes);
-std::vector<FarmFile> write_flamenco(const FarmPlan& plan, const SchedulerWishes& wishes);
-std::vector<FarmFile> write_kubernetes(const FarmPlan& plan, const SchedulerWishes& wishes);
+std::vector<FarmFile> write_slurm(const FarmPlan& plan, const SchedulerChoices& wishes);
+std::vector<FarmFile> write_openjd(const FarmPlan& plan, const SchedulerChoices& wishes);
+std::vector<FarmFile> write_opencue(const FarmPlan& plan, const SchedulerChoices& wishes);
+std::vector<FarmFile> write_flamenco(const FarmPlan& plan, const SchedulerChoices& wishes);
+std::vector<FarmFile> write_kubernetes(const FarmPlan& plan, const SchedulerChoices& wishes);
 
 enum class Scheduler { kSlurm, kOpenJd, kOpenCue, kFlamenco, kKubernetes };
 
 struct SchedulerRow {
   Scheduler member;
   std::string_view name;
-  std::vector<FarmFile> (*write)(const FarmPlan& plan, const SchedulerWishes& wishes);
+  std::vector<FarmFile> (*write)(const FarmPlan& plan, const SchedulerChoices& wishes);
   std::string_view next;  // the next step for people, in the plan's folder
 };
 

@@ -27,15 +27,15 @@ struct Array {
 };
 
 std::vector<Array> arrays_of(const TaskGroup& group, int largest_array) {
-  const int most = std::max(1, largest_array - 1);  // indices count from 1
+  const int maximum = std::max(1, largest_array - 1);  // indices count from 1
   std::vector<Array> arrays;
-  for (int before = 0; before < group.tasks; before += most) {
-    arrays.push_back({group, arrays.size() + 1, before, std::min(most, group.tasks - before)});
+  for (int before = 0; before < group.tasks; before += maximum) {
+    arrays.push_back({group, arrays.size() + 1, before, std::min(maximum, group.tasks - before)});
   }
   return arrays;
 }
 
-std::string directives(const FarmPlan& plan, const Array& array, const SchedulerWishes& wishes) {
+std::string directives(const FarmPlan& plan, const Array& array, const SchedulerChoices& wishes) {
   std::string text = fmt::format("#SBATCH --job-name={}.{}\n", plan.name, array.group.name);
   if (!array.group.option.empty()) text += fmt::format("#SBATCH --array=1-{}\n", array.tasks);
   text += "#SBATCH --output=/dev/null\n#SBATCH --requeue\n#SBATCH --signal=B:USR1@60\n#SBATCH --ntasks=1\n";
@@ -111,7 +111,7 @@ again() {{  # CODE
 }}
 
 if is_stuck; then
-  echo "ods: error: three starts have ended without a file and without a word, on $(in_vain | paste -sd ' ')"
+  echo "ods: error: three starts have ended without a file or a message, on $(in_vain | paste -sd ' ')"
   end 1
 fi
 echo "$SLURM_JOB_ID $before $node" >>"$starts"
@@ -134,7 +134,7 @@ end "$code"
 )sh";
 
 // Returns whether no option of sbatch restricts the nodes of the tasks.
-bool runs_anywhere(const SchedulerWishes& wishes) {
+bool runs_anywhere(const SchedulerChoices& wishes) {
   constexpr std::array<std::string_view, 9> kOthers = {"--partition", "-p", "--time",    "-t",    "--qos",
                                                        "-q",          "-A", "--account", "--nice"};
   return std::ranges::all_of(wishes.extras, [&](const std::string& extra) {
@@ -143,7 +143,7 @@ bool runs_anywhere(const SchedulerWishes& wishes) {
   });
 }
 
-std::string script_of(const FarmPlan& plan, const Array& array, const SchedulerWishes& wishes) {
+std::string script_of(const FarmPlan& plan, const Array& array, const SchedulerChoices& wishes) {
   const std::string task =
       array.group.option.empty() ? "1" : fmt::format("$((SLURM_ARRAY_TASK_ID + {}))", array.before);
   return fmt::format(kSlurmScript, directives(plan, array, wishes), shell_word(plan.folder), task, array.group.name,
@@ -170,7 +170,7 @@ send() {{  # SCRIPT COMMENT
 
 }  // namespace
 
-std::vector<FarmFile> write_slurm(const FarmPlan& plan, const SchedulerWishes& wishes) {
+std::vector<FarmFile> write_slurm(const FarmPlan& plan, const SchedulerChoices& wishes) {
   std::vector<FarmFile> files;
   std::string submit = fmt::format(kSlurmSubmit, shell_word(plan.folder));
   for (const TaskGroup& group : plan.groups) {

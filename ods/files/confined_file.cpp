@@ -19,7 +19,7 @@ namespace ods {
 ConfinedFile::ConfinedFile(const std::string& path, const std::string& folder, Reach reach)
     : path_(path), opened_(path) {
   if (folder.empty()) return;
-  const Error outside = cannot_read(path, fmt::format("it lies outside '{}'", folder));
+  const Error outside = cannot_read(path, fmt::format("it is outside '{}'", folder));
   std::error_code error;
   const auto is_allowed = [&](const fs::path& real) {
     if (reach == Reach::kDirectly) return real == fs::path(folder) / fs::path(path).filename();

@@ -59,7 +59,8 @@ void PartsFile::check(bool is_well) const {
 
 void PartsFile::open_old(const Settings& settings, bool restart) {
   if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path_))) {
-    throw Error(ErrorKind::kOutput, fmt::format("'{}' is no file of parts: remove it, or choose another name", path_));
+    throw Error(ErrorKind::kOutput,
+                fmt::format("'{}' is not a file of parts: remove it, or choose another name", path_));
   }
   const int file = open(path_.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   check(file >= 0);

@@ -53,11 +53,11 @@ std::vector<unsigned char> read_start(const std::string& path, size_t count) {
   return bytes;
 }
 
-std::vector<unsigned char> read_file(const std::string& path, size_t most) {
+std::vector<unsigned char> read_file(const std::string& path, size_t maximum) {
   const size_t size = file_size(path);
-  if (size > most) {
+  if (size > maximum) {
     throw cannot_read(path,
-                      fmt::format("it has {}; the limit for such a file is {}", bytes_text(size), bytes_text(most)));
+                      fmt::format("it has {}; the limit for such a file is {}", bytes_text(size), bytes_text(maximum)));
   }
   return read_start(path, size);
 }

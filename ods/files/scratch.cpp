@@ -95,8 +95,8 @@ static void* allocate(size_t size) {
   return memory;
 }
 
-Scratch::Scratch(size_t size, const std::string& folder, size_t most_in_memory)
-    : size_(std::max<size_t>(size, 1)), on_disk_(size > most_in_memory && !folder.empty()) {
+Scratch::Scratch(size_t size, const std::string& folder, size_t max_in_memory)
+    : size_(std::max<size_t>(size, 1)), on_disk_(size > max_in_memory && !folder.empty()) {
   data_ = static_cast<std::byte*>(on_disk_ ? map_file(folder, size_) : allocate(size_));
 }
 

@@ -12,9 +12,9 @@ namespace ods {
 
 class Scratch {
  public:
-  // Zero-initialized. A block above `most_in_memory` bytes goes into an unlinked file in `folder`; without a folder it
+  // Zero-initialized. A block above `max_in_memory` bytes goes into an unlinked file in `folder`; without a folder it
   // stays in memory. Throws Error(kOutput) if the disk is too small, Error(kMemory) if memory is.
-  Scratch(size_t size, const std::string& folder, size_t most_in_memory);
+  Scratch(size_t size, const std::string& folder, size_t max_in_memory);
   // A block in a file that outlives the process. Keeps the bytes that an earlier process left if the size matches;
   // otherwise zeros after `mark`, with which the file begins. After a power loss the caller must find out which bytes
   // had reached the disk. Throws Error(kOutput) as the constructor above, if another process has the file open, and if

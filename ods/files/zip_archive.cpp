@@ -45,8 +45,8 @@ static std::string plain_name(std::string name) {
 
 ZipArchive::ZipArchive(std::span<const unsigned char> bytes, const std::string& path)
     : path_(path), handle_(std::make_unique<Handle>()) {
-  constexpr size_t kSmall = size_t{1} << 28, kMostPerByte = 100;
-  budget_ = kSmall + kMostPerByte * bytes.size();
+  constexpr size_t kSmall = size_t{1} << 28, kMaxPerByte = 100;
+  budget_ = kSmall + kMaxPerByte * bytes.size();
   zip_error_t error;
   zip_error_init(&error);
   zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);

@@ -62,14 +62,14 @@ std::optional<Identity> identify_if_open(const std::string& path, const StereoFo
 }
 
 std::optional<Identity> identify_video(const std::string& path, uint64_t track, const FormatHint& known) {
-  constexpr int kMostFrames = 61, kStep = 20;  // films start with dark frames
+  constexpr int kMaxFrames = 61, kStep = 20;  // films start with dark frames
   std::optional<Identity> best;
   try {
     VideoDecoder decoder(path, track);
     VideoInput video;
     video.prototype.size = decoder.stream().size;
     video.prototype.eyes.resize(1);
-    for (int i = 0; i < kMostFrames; i++) {
+    for (int i = 0; i < kMaxFrames; i++) {
       const std::optional<DecodedFrame> frame = decoder.next();
       if (!frame) break;
       if (i % kStep != 0) continue;
@@ -89,14 +89,14 @@ std::optional<Identity> identify_video(const std::string& path, uint64_t track, 
 static void refuse_unlikely(const std::string& path, const Identity& identity) {
   if (identity.is_likely()) return;
   throw Error(ErrorKind::kInput,
-              fmt::format("nothing tells what '{}' shows: it may be {}", path, doubt_text(identity)));
+              fmt::format("the format of '{}' is ambiguous: it may be {}", path, doubt_text(identity)));
 }
 
 // Rejects a picture that shows nothing and whose aspect ratio suggests nothing.
 static void refuse_shapeless(const std::string& path, const StereoFormat& format) {
   if (format.layout.source != LayoutSource::kNothing) return;
   throw Error(ErrorKind::kInput,
-              fmt::format("nothing tells what '{}' shows, and its pixels show too little: say it with "
+              fmt::format("the format of '{}' is not recorded, and its pixels show too little: specify it with "
                           "`layout` and `projection`",
                           path));
 }
@@ -111,7 +111,7 @@ static FormatHint identified_picture(const std::string& path, const FormatHint& 
     refuse_shapeless(path, format);
     notes.emplace_back(
         "taken for what its shape suggests, because its pixels show too little: if it is something else, "
-        "say which with `layout` and `projection`");
+        "specify it with `layout` and `projection`");
     return known;
   }
   refuse_unlikely(path, *identity);

@@ -23,8 +23,8 @@ namespace ods {
 namespace {
 
 constexpr double kSure = 0.9, kLikely = 0.5;
-constexpr int kLeastSide = 128;         // pixels of the file
-constexpr double kLeastDetail = 0.001;  // mean difference of adjacent pixels
+constexpr int kMinSide = 128;         // pixels of the file
+constexpr double kMinDetail = 0.001;  // mean difference of adjacent pixels
 
 // One way to cut the file, and the evidence in the resulting eyes. Squeezed layouts cut it as full ones do.
 struct Cut {
@@ -112,9 +112,9 @@ std::vector<Cut> all_cuts(const StoredPicture& whole, const Thumbnail& thumbnail
   for (const EyePacking how : {EyePacking::kRows, EyePacking::kColumns, EyePacking::kCheckerboard}) {
     if (unpacked_size(*layout_with({how}), thumbnail.file)) cuts.push_back(interleaved(whole, thumbnail, how));
   }
-  double most = 0.0;
-  for (const Cut& cut : cuts) most = std::max(most, cut.two_eyes);
-  cuts[0].two_eyes = -most;
+  double maximum = 0.0;
+  for (const Cut& cut : cuts) maximum = std::max(maximum, cut.two_eyes);
+  cuts[0].two_eyes = -maximum;
   cuts[0].reason = "no two parts of it match";
   const double broken = breaks_in_middle(shown(cuts[0].eyes[0]));
   for (Cut& cut : cuts) cut.broken = broken;
@@ -135,7 +135,7 @@ constexpr double kEyes = 6.0, kCircle = 5.0, kBall = 2.5, kDome = 1.6, kPoles = 
 constexpr double kTurnedCube = 12.0, kBroken = 4.0;
 constexpr double kUnknownUp = 0.15;  // against our cubes, if the direction of up is undecided
 constexpr double kLevel = 0.25;      // weight of the likelihood of parallax: its pairs are not independent
-constexpr double kMostLevel = 12.0;
+constexpr double kMaxLevel = 12.0;
 constexpr int kManyPairs = 120;
 constexpr double kLeftFirst = 2.0;  // nearly all files have the left eye first
 constexpr double kOrder = 7.0;
@@ -328,19 +328,19 @@ void judge_parallax(const std::vector<Cut>& cuts, std::vector<Candidate>& candid
       judged.emplace_back(&each, parallax.level * std::min(parallax.count, kManyPairs));
       best = std::max(best, judged.back().second);
     }
-    for (const auto& [candidate, level] : judged) candidate->odds += std::max(kLevel * (level - best), -kMostLevel);
+    for (const auto& [candidate, level] : judged) candidate->odds += std::max(kLevel * (level - best), -kMaxLevel);
   }
 }
 
 // Evidence for two circles that show nothing in common.
 double front_and_back_mark(const std::vector<Cut>& cuts) {
-  double most = 0.0;
+  double maximum = 0.0;
   for (const Cut& cut : cuts) {
     const bool is_halves = cut.how == EyePacking::kStacked || cut.how == EyePacking::kBeside;
     if (!is_halves || cut.two_eyes >= 0.0 || cut.eyes.size() != 2) continue;
-    most = std::max(most, std::min(cut.marks.circle, marks_of(shown(cut.eyes[1])).circle) * -cut.two_eyes);
+    maximum = std::max(maximum, std::min(cut.marks.circle, marks_of(shown(cut.eyes[1])).circle) * -cut.two_eyes);
   }
-  return most;
+  return maximum;
 }
 
 // Converts odds to certainties. An unknown projection always remains possible. seen: evidence that it is a known
@@ -372,12 +372,12 @@ std::string reading_text(const Reading& reading) {
 }
 
 static Identity identify_all(const StoredPicture& whole, const FormatHint& known, bool has_bars) {
-  if (std::min(whole.size.width, whole.size.height) < kLeastSide) return {};
+  if (std::min(whole.size.width, whole.size.height) < kMinSide) return {};
   const Thumbnail thumbnail = make_thumbnail(whole);
   std::vector<Candidate> candidates;
   std::vector<Cut> cuts = all_cuts(whole, thumbnail);
   Identity identity;
-  if (cuts[0].marks.detail < kLeastDetail) return identity;
+  if (cuts[0].marks.detail < kMinDetail) return identity;
   for (Cut& cut : cuts) {
     cut.has_bars = has_bars;
     for (const Layout layout : layouts_of(cut.how)) add_candidates(cut, layout, known, thumbnail.file, candidates);
@@ -416,7 +416,7 @@ static bool is_whole(const Reading& reading) {
 }
 
 Identity identify(const StoredPicture& whole, const FormatHint& known) {
-  if (std::min(whole.size.width, whole.size.height) < kLeastSide) return {};
+  if (std::min(whole.size.width, whole.size.height) < kMinSide) return {};
   const Bars bars = bars_of(whole);
   if (bars.any()) {
     Identity inner = identify_all(without_bars(whole, bars), known, false);
@@ -430,18 +430,18 @@ Identity identify(const StoredPicture& whole, const FormatHint& known) {
 
 std::string doubt_text(const Identity& identity) {
   constexpr double kNamed = 0.05;
-  constexpr size_t kMostNamed = 3;
+  constexpr size_t kMaxNamed = 3;
   if (identity.readings.empty() || identity.is_sure()) return {};
   std::vector<std::string> texts;
   for (const Reading& reading : identity.readings) {
-    if ((reading.certainty < kNamed && texts.size() >= 2) || texts.size() == kMostNamed) break;
+    if ((reading.certainty < kNamed && texts.size() >= 2) || texts.size() == kMaxNamed) break;
     texts.push_back(fmt::format("{} ({:.2f})", reading_text(reading), reading.certainty));
   }
   if (identity.has_other_faces)
     texts.emplace_back("faces of a cube in another order than ods has, to be reordered first");
   if (identity.is_anaglyph) texts.emplace_back("an anaglyph, whose eyes cannot be taken apart again");
   if (identity.is_front_and_back) texts.emplace_back("a front and a back fisheye, to be stitched first");
-  return fmt::format("{}: say which with `layout` and `projection`", fmt::join(texts, " or "));
+  return fmt::format("{}: specify it with `layout` and `projection`", fmt::join(texts, " or "));
 }
 
 }  // namespace ods

@@ -22,7 +22,7 @@ namespace ods {
 
 // --- front and back --------------------------------------------------------------------------------------------------
 
-constexpr float kLeastAlike = 0.5f, kLeastSame = 0.7f;
+constexpr float kMinAlike = 0.5f, kMinSame = 0.7f;
 
 static float sample(const Image& image, vec2 uv) {
   const float x = uv.x * static_cast<float>(image.width) - 0.5f, y = uv.y * static_cast<float>(image.height) - 0.5f;
@@ -64,11 +64,11 @@ static float alikeness(const Halves& halves, const std::vector<FisheyeLens>& len
   FisheyeLens back = lenses[1];
   back.yaw += 180.0f;
   const auto first = make_map(lenses[0], size), second = make_map(back, size);
-  const float most = 0.9f * glm::radians(0.5f * lenses[0].fov - 90.0f);  // the outermost rim is dark
+  const float maximum = 0.9f * glm::radians(0.5f * lenses[0].fov - 90.0f);  // the outermost rim is dark
   Correlation both;
   for (int i = 0; i < kAround * kAcross; i++) {
     const float around = 2.0f * kPi * static_cast<float>(i % kAround) / kAround;
-    const float behind = most * (2.0f * static_cast<float>(i / kAround) / (kAcross - 1) - 1.0f);
+    const float behind = maximum * (2.0f * static_cast<float>(i / kAround) / (kAcross - 1) - 1.0f);
     const vec3 d(std::cos(behind) * std::cos(around), std::cos(behind) * std::sin(around), std::sin(behind));
     const ImagePoint p = first->place(d), q = second->place(d);
     if (!p.seen || !q.seen) continue;
@@ -168,17 +168,17 @@ static void turn_upright(const Halves& halves, std::vector<FisheyeLens>& lenses)
 // Aligns the lenses where both see the same, and returns the best correlation.
 static float align(const Halves& halves, std::vector<FisheyeLens>& lenses) {
   std::vector<FisheyeLens> best = lenses;
-  float most = -1.0f;
+  float maximum = -1.0f;
   for (const float roll : {0.0f, 90.0f, 180.0f, 270.0f}) {
     for (float fov = 184.0f; fov <= 230.0f; fov += 2.0f) {
       std::vector<FisheyeLens> tried = lenses;
       set_fov(tried, fov);
       tried[1].roll = roll;
       const float alike = alikeness(halves, tried);
-      if (alike > most) most = alike, best = tried;
+      if (alike > maximum) maximum = alike, best = tried;
     }
   }
-  if (most < 0.3f) return most;
+  if (maximum < 0.3f) return maximum;
   lenses = best;
   return refine(halves, lenses);
 }
@@ -197,8 +197,8 @@ std::optional<SeenLenses> find_lenses(const Image& first, const Image& second, f
   seen.alike = align(halves, aligned);
   const PointPairs pairs = find_pairs(first, second);
   const bool is_stereo = (pairs.places > 0 && static_cast<double>(pairs.found.size()) > 0.3 * pairs.places) ||
-                         sameness(halves, seen.lenses) > std::max(seen.alike, kLeastSame);
-  seen.front_and_back = !is_stereo && seen.alike > kLeastAlike;
+                         sameness(halves, seen.lenses) > std::max(seen.alike, kMinSame);
+  seen.front_and_back = !is_stereo && seen.alike > kMinAlike;
   if (!seen.front_and_back && !is_stereo && pairs.places > 0) return std::nullopt;
   if (!seen.front_and_back) return seen;
   turn_upright(halves, aligned);
@@ -268,7 +268,7 @@ static bool is_untold(const std::string& path, const FormatHint& known) {
   if (!is_video(path)) return find_format(read_info(path), path, known).is_open;
   const VideoFile file = read_video_file(path);
   const VideoTrack& track = choose_track(file, {}, path);
-  const std::optional<SphericalMetadata> said = said_metadata(track);
+  const std::optional<SphericalMetadata> said = declared_metadata(track);
   return said ? said->projection == VideoProjection::kOther : is_told_by_shape({}, track, path);
 }
 

@@ -221,12 +221,12 @@ double row_difference(const Image& eye, const Image& other, int y) {
 // or ends at an edge from side to side. It has detail, whereas a nadir would be one point.
 int covered_rows(const Image& eye, const Image* other) {
   constexpr double kSame = 0.02, kBreak = -0.2, kPoint = 0.04;
-  const int most = eye.height / 4, least = std::max(2, eye.height / 50);
+  const int maximum = eye.height / 4, minimum = std::max(2, eye.height / 50);
   if (far_apart(eye, eye.height - 1) < kPoint) return 0;
   int same = 0;
-  while (other != nullptr && same < most && row_difference(eye, *other, eye.height - 1 - same) < kSame) same++;
-  if (same >= least) return same;
-  for (int rows = least; rows < most; rows++) {
+  while (other != nullptr && same < maximum && row_difference(eye, *other, eye.height - 1 - same) < kSame) same++;
+  if (same >= minimum) return same;
+  for (int rows = minimum; rows < maximum; rows++) {
     if (continues_upwards(eye, eye.height - rows) < kBreak) return rows;
   }
   return 0;
@@ -234,18 +234,18 @@ int covered_rows(const Image& eye, const Image* other) {
 
 // Towards a pole, a picture is increasingly stretched along its rows.
 double stretched_at_ends(const Image& eye, bool has_nadir) {
-  double most = -1e9;
+  double maximum = -1e9;
   for (const bool is_top : {true, false}) {
     if (!is_top && !has_nadir) continue;
     const auto at = is_top ? stretch_in_rows(eye, 0.0, 0.06) : stretch_in_rows(eye, 0.94, 1.0);
     const auto off = is_top ? stretch_in_rows(eye, 0.02, 0.12) : stretch_in_rows(eye, 0.88, 0.98);
-    if (at && off && *off > 0.0) most = std::max(most, std::log(*at / *off));
+    if (at && off && *off > 0.0) maximum = std::max(maximum, std::log(*at / *off));
   }
-  return most < -1e8 ? 0.0 : std::clamp((most - 0.35) / 0.2, -1.0, 1.0);
+  return maximum < -1e8 ? 0.0 : std::clamp((maximum - 0.35) / 0.2, -1.0, 1.0);
 }
 
 void find_poles(const Image& eye, bool has_nadir, Marks& marks) {
-  double least = 1.0, both = 0.0;
+  double minimum = 1.0, both = 0.0;
   marks.spread = 0.0;
   for (const bool is_top : {true, false}) {
     if (!is_top && !has_nadir) continue;
@@ -256,11 +256,11 @@ void find_poles(const Image& eye, bool has_nadir, Marks& marks) {
     const double spread = (at_pole + 0.001) / (off + 0.001);
     const double likely = std::clamp(std::log(0.45 / spread) / std::log(2.0), -1.0, 1.0);
     const double weight = enough(std::max(off, at_pole));
-    least = std::min(least, weight * likely);
+    minimum = std::min(minimum, weight * likely);
     both += 0.5 * weight * likely;
     marks.spread = std::max(marks.spread, spread);
   }
-  both = std::min(both, least + 0.5);  // a sky without clouds looks like a pole; both ends together do not
+  both = std::min(both, minimum + 0.5);  // a sky without clouds looks like a pole; both ends together do not
   marks.poles = std::clamp(std::max(both, -0.6) + stretched_at_ends(eye, has_nadir), -1.0, 1.0);
 }
 

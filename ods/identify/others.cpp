@@ -20,10 +20,10 @@ namespace ods {
 // Fraction of the places of one part that are shifted sideways in the other, all by the same height: cameras need not
 // be level.
 static double aside(const Image& one, const Image& other) {
-  constexpr size_t kLeast = 16;                               // places
+  constexpr size_t kMin = 16;                                 // places
   constexpr float kAside = 0.9f, kLevel = 0.6f, kFar = 2.5f;  // pixels; colour fringes of lenses are narrower
   const PointPairs pairs = find_pairs(one, other);
-  if (pairs.found.size() < kLeast) return 0.0;
+  if (pairs.found.size() < kMin) return 0.0;
   std::vector<float> heights;
   for (const PointPair& pair : pairs.found) heights.push_back(pair.right.y - pair.left.y);
   const float height = median(std::move(heights));
@@ -39,8 +39,8 @@ double anaglyph_mark(const StoredPicture& whole, Extent size) {
   constexpr double kNone = 0.12, kAll = 0.4;
   const std::vector<Image> colors = color_parts(whole, size);
   const Image red = shown(colors[0]), green = shown(colors[1]), blue = shown(colors[2]);
-  const double most = std::max({aside(red, blue), aside(red, green), aside(green, blue)});
-  return std::clamp((most - kNone) / (kAll - kNone), 0.0, 1.0);
+  const double maximum = std::max({aside(red, blue), aside(red, green), aside(green, blue)});
+  return std::clamp((maximum - kNone) / (kAll - kNone), 0.0, 1.0);
 }
 
 // --- cubes whose Y is up ---------------------------------------------------------------------------------------------

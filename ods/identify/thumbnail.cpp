@@ -40,9 +40,9 @@ Rows rows_of(const StoredPicture& whole, const std::function<float(vec3)>& part 
 }
 
 // The largest size up to `most` that keeps halves, thirds and sixths of a side on pixel borders.
-int reduced(int side, int most) {
+int reduced(int side, int maximum) {
   constexpr int kParts = 12;
-  return side <= most ? side : most / kParts * kParts;
+  return side <= maximum ? side : maximum / kParts * kParts;
 }
 
 Image reduce(const Rows& rows, Extent file, Extent size) {
@@ -140,9 +140,9 @@ int bar_of(int count, const std::function<double(int)>& lit, bool from_end) {
 
 // The width of the bars at both ends, if they are equal; otherwise 0.
 int bars_at_ends(int count, const std::function<double(int)>& lit) {
-  const int first = bar_of(count, lit, false), last = bar_of(count, lit, true), least = std::max(3, count / 100);
-  return std::min(first, last) >= least && std::abs(first - last) <= std::max(2, count / 200) ? std::min(first, last)
-                                                                                              : 0;
+  const int first = bar_of(count, lit, false), last = bar_of(count, lit, true), minimum = std::max(3, count / 100);
+  return std::min(first, last) >= minimum && std::abs(first - last) <= std::max(2, count / 200) ? std::min(first, last)
+                                                                                                : 0;
 }
 
 }  // namespace

@@ -124,14 +124,14 @@ static ColorSpace read_png(const FileInput& file) {
   std::map<std::string, std::string> chunks = color_chunks(file);
   ColorSpace color;
   if (chunks.contains("cICP")) color = of_cicp(chunks["cICP"]);
-  const auto goes_on = [&] { return color.name.empty() || !color.fault.empty(); };
-  if (goes_on() && chunks.contains("iCCP")) color = of_iccp(chunks["iCCP"]);
-  if (goes_on() && chunks.contains("sRGB")) {
+  const auto is_open = [&] { return color.name.empty() || !color.fault.empty(); };
+  if (is_open() && chunks.contains("iCCP")) color = of_iccp(chunks["iCCP"]);
+  if (is_open() && chunks.contains("sRGB")) {
     color = {};
     color.name = "sRGB";
     color.curve = ColorSpace::Curve::kSrgb;
   }
-  if (goes_on() && (chunks.contains("gAMA") || chunks.contains("cHRM"))) {
+  if (is_open() && (chunks.contains("gAMA") || chunks.contains("cHRM"))) {
     color = of_gama_and_chrm(chunks["gAMA"], chunks["cHRM"]);
   }
   return color;
@@ -249,7 +249,7 @@ static ColorSpace read_exr(const FileInfo& info) {
   return of_curve("chromaticities", [](double code) { return code; }, {xy(0), xy(1), xy(2), xy(3)});
 }
 
-static ColorSpace read_said(const std::string& path, FileFormat format, const FileInfo& info) {
+static ColorSpace read_declared(const std::string& path, FileFormat format, const FileInfo& info) {
   switch (format) {
     case FileFormat::kPng:
       return read_png(FileInput(path));
@@ -272,7 +272,7 @@ static ColorSpace read_said(const std::string& path, FileFormat format, const Fi
 ColorSpace read_color_space(const std::string& path, FileFormat format, const FileInfo& info) {
   ColorSpace color;
   try {
-    color = read_said(path, format, info);
+    color = read_declared(path, format, info);
   } catch (const Error&) {
     return {};  // reading the pixels reports the error
   } catch (const MalformedFile&) {

@@ -52,9 +52,9 @@ static Parts read_parts(Box& meta) {
 
 // A few hundred bytes can request billions of tiles, or a grid of itself, which decoders would follow.
 static void count_parts(const Parts& parts, uint32_t item, int depth, int& count) {
-  constexpr int kDeepest = 4, kMost = 1 << 18;
+  constexpr int kDeepest = 4, kMax = 1 << 18;
   if (depth > kDeepest) throw MalformedFile("its pictures are made of each other, again and again");
-  if (++count > kMost) throw MalformedFile("its pictures are made of too many others");
+  if (++count > kMax) throw MalformedFile("its pictures are made of too many others");
   const auto found = parts.find(item);
   if (found == parts.end()) return;
   for (const uint32_t part : found->second) count_parts(parts, part, depth + 1, count);

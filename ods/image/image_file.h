@@ -88,7 +88,7 @@ struct FileHeader {
   std::vector<Channel> channels;      // alpha of integers is unassociated
   std::vector<Attribute> attributes;  // GPano:* becomes XMP; except in EXR, only text and GPano
   int quality = 95;                   // for JPEG (4:4:4) and WebP, 1 to 100
-  bool says_srgb = false;             // PNG: writes an sRGB chunk
+  bool writes_srgb = false;           // PNG: writes an sRGB chunk
   bool is_environment = false;        // EXR: marks it as a whole lat-long
   bool rows_alone = false;            // EXR: compresses each row separately, not 16 together
   bool has_checksum = false;          // EXR: has the attribute kExrChecksum (ods/image/format/exr_header.h)

@@ -7,8 +7,8 @@
 
 namespace ods {
 
-// Like open_rows(), but decodes a JPEG at an eighth, a quarter or half of its size, if that is at least `least_wide`
+// Like open_rows(), but decodes a JPEG at an eighth, a quarter or half of its size, if that is at least `min_width`
 // pixels wide, which avoids nearly all of libjpeg's work. Throws like open_rows().
-std::unique_ptr<RowReader> open_small_rows(const std::string& path, int least_wide);
+std::unique_ptr<RowReader> open_small_rows(const std::string& path, int min_width);
 
 }  // namespace ods

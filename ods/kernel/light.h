@@ -20,8 +20,8 @@ const float kChanceBesidePortals = 0.05f;
 const float kFarAway = 1e30f;  // distance of the environment and of directional lights
 
 const int kTreeRoot = 0;
-const int kTreeOfLights = -1;     // value of LightPick::light: a light picked by the tree
-const float kLeastFacing = 0.1f;  // minimum facing factor of a light at grazing angles: normals may be bent
+const int kTreeOfLights = -1;   // value of LightPick::light: a light picked by the tree
+const float kMinFacing = 0.1f;  // minimum facing factor of a light at grazing angles: normals may be bent
 
 // The receiving point, for light sampling.
 struct Receiver {
@@ -47,7 +47,7 @@ inline float node_importance(LightNode node, Receiver receiver) {
   float power = node.power * clamp(node.spread + seen - along, 0.0f, 1.0f) +
                 node.back_power * clamp(node.spread + seen + along, 0.0f, 1.0f);
   bool one_sided = receiver.normal != vec3(0.0f);
-  if (one_sided) power = power * clamp(dot(receiver.normal, to_node) * scale + seen, kLeastFacing, 1.0f);
+  if (one_sided) power = power * clamp(dot(receiver.normal, to_node) * scale + seen, kMinFacing, 1.0f);
   return min(power / distance2, 1e30f);
 }
 

@@ -53,9 +53,9 @@ static void check_highlights(const Subject& subject, LintReport& report) {
 
 namespace {
 
-constexpr float kFlat = 0.75f;       // code values: deviation within a stair from its mean
-constexpr float kLeastStair = 2.5f;  // code values: minimum step between stairs; 8-bit quantization makes steps of 1
-constexpr float kMost = 24.0f;
+constexpr float kFlat = 0.75f;     // code values: deviation within a stair from its mean
+constexpr float kMinStair = 2.5f;  // code values: minimum step between stairs; 8-bit quantization makes steps of 1
+constexpr float kMax = 24.0f;
 constexpr int kWide = 6;     // minimum width of a stair, pixels
 constexpr int kSteps = 3;    // consecutive steps that make stairs
 constexpr int kAcross = 8;   // lines that are averaged
@@ -75,7 +75,7 @@ int stairs_in(const std::vector<float>& line) {
     const bool is_wide = i - start >= kWide;
     const float level = line[start + (i - start) / 2], step = level - last_level;
     const bool is_like = steps == 0 || (step * last_step > 0.0f && std::abs(step - last_step) < 0.5f * std::abs(step));
-    const bool is_step = is_wide && std::abs(step) >= kLeastStair && std::abs(step) <= kMost && is_like;
+    const bool is_step = is_wide && std::abs(step) >= kMinStair && std::abs(step) <= kMax && is_like;
     if (is_step) steps++;
     if (is_wide && !is_step) steps = 0;
     if (i - start > 2 && !is_wide) steps = 0;  // a slope, not a step
@@ -90,11 +90,11 @@ int stairs_in(const std::vector<float>& line) {
 // stairs.
 std::vector<float> codes_of(const Image& eye, bool is_row, int index) {
   std::vector<float> codes;
-  const int count = is_row ? eye.width : eye.height, most = (is_row ? eye.height : eye.width) - 1;
+  const int count = is_row ? eye.width : eye.height, maximum = (is_row ? eye.height : eye.width) - 1;
   for (int i = 0; i < count; i++) {
     float light = 0.0f;
     for (int k = 0; k < kAcross; k++) {
-      const int beside = std::min(index + k, most);
+      const int beside = std::min(index + k, maximum);
       light += std::clamp(is_row ? eye.at(i, beside)[1] : eye.at(beside, i)[1], 0.0f, 1.0f) / kAcross;
     }
     codes.push_back(255.0f * srgb_encode(light));
@@ -121,7 +121,7 @@ static void check_banding(const Subject& subject, LintReport& report) {
   report.findings.push_back({Fault::kBanding, certainty,
                              fmt::format("{:.0f} % of {} rows and columns have stairs of {} or more steps of {} to {} "
                                          "code values: {} in all",
-                                         100.0 * share, lines, kSteps, kLeastStair, kMost, stairs),
+                                         100.0 * share, lines, kSteps, kMinStair, kMax, stairs),
                              "keep 10 bits or more until the last step, or add grain before it"});
 }
 

@@ -174,8 +174,8 @@ void check_colors(const Subject& subject, LintReport& report) {
                                fmt::format("{}, by {} places that both eyes show", evidence, response.places),
                                cure_of(subject, response)});
   };
-  const double most = std::max({gain.x, gain.y, gain.z}), least = std::min({gain.x, gain.y, gain.z});
-  add(Fault::kEyeTinted, certainty_of({most / least - 1.0, response.error, response.places}, 0.025, 0.06),
+  const double maximum = std::max({gain.x, gain.y, gain.z}), minimum = std::min({gain.x, gain.y, gain.z});
+  add(Fault::kEyeTinted, certainty_of({maximum / minimum - 1.0, response.error, response.places}, 0.025, 0.06),
       fmt::format("the right eye has {:.1f} % of the left one's red, {:.1f} % of its green and {:.1f} % of its blue",
                   100.0 * gain.x, 100.0 * gain.y, 100.0 * gain.z));
   const double stops = std::log2(gain.x * gain.y * gain.z) / 3.0;

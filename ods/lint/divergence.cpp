@@ -23,7 +23,7 @@ namespace {
 constexpr double kHighest = 50.0;  // degrees: closer to the poles, a difference of headings is a small angle
 constexpr double kFar = 0.25;      // the fraction of the places that is considered distant
 constexpr double kHarmless = 0.3, kPainful = 0.7;  // degrees; reported from the middle between them on
-constexpr size_t kLeastPlaces = 20;                // places
+constexpr size_t kMinPlaces = 20;                  // places
 
 // The parallax at this percentile; its error is a quarter of the spread between its neighbours.
 Difference percentile(std::vector<double> angles, double share) {
@@ -45,7 +45,7 @@ void check_divergence(const Subject& subject, double swapped, LintReport& report
     if (std::abs(phi) > kHighest * kDegree) continue;
     angles.push_back((static_cast<double>(match.around) + convergence_at(subject, phi)) / kDegree);
   }
-  if (angles.size() < kLeastPlaces) return skip(report, Check::kConvergence, "not enough detail that both eyes show");
+  if (angles.size() < kMinPlaces) return skip(report, Check::kConvergence, "not enough detail that both eyes show");
   judge(report, Check::kConvergence);
   Difference far = percentile(angles, kFar);
   const double yaw = -far.size;
@@ -64,12 +64,12 @@ void check_divergence(const Subject& subject, double swapped, LintReport& report
 
 // --- the nearest object
 
-constexpr double kLeastSure = 0.2;  // minimum matched fraction of the picture for a statement
+constexpr double kMinSure = 0.2;  // minimum matched fraction of the picture for a statement
 
 void note_nearest(const Subject& subject, LintReport& report) {
   const std::vector<GrayView>& views = subject.scales[std::min<size_t>(1, subject.scales.size() - 1)];
   const MatchedEyes matched = match_views_for_depth(views, subject.format.camera);
-  if (matched.share < kLeastSure) return;
+  if (matched.share < kMinSure) return;
   const Image& depth = matched.seen[0].depth;
   float nearest = kFarDepth;
   size_t where = 0;

@@ -30,11 +30,11 @@ constexpr float kTurns = 0.01f;       // minimum of Change::bands if the camera 
 
 float value_at(const Planes& planes, int x, int y) {
   const std::byte* row = planes.first[0] + static_cast<size_t>(y) * planes.stride[0];
-  const float most = static_cast<float>((1 << planes.bits) - 1);
-  if (planes.bits == 8) return static_cast<float>(row[x]) / most;
+  const float maximum = static_cast<float>((1 << planes.bits) - 1);
+  if (planes.bits == 8) return static_cast<float>(row[x]) / maximum;
   uint16_t value;
   std::memcpy(&value, row + 2 * static_cast<size_t>(x), sizeof(value));
-  return static_cast<float>(value) / most;
+  return static_cast<float>(value) / maximum;
 }
 
 }  // namespace
@@ -142,13 +142,13 @@ void FrameTrace::check_cuts(LintReport& report) const {
 // The motion just before (-1) or after (1) a change. Returns 0 if motion comes to rest there or pauses.
 float FrameTrace::motion_beside(int i, int way) const {
   const int count = static_cast<int>(changes_[0].size());
-  float nearest = 0.0f, most = 0.0f;
+  float nearest = 0.0f, maximum = 0.0f;
   for (int k = i + way; k >= 0 && k < count && std::abs(k - i) <= kNeighbours; k += way) {
     const float change = changes_[0][static_cast<size_t>(k)].motion;
     if (nearest < kMoves / 8.0f) nearest = change;
-    most = std::max(most, change);
+    maximum = std::max(maximum, change);
   }
-  return nearest >= 0.6f * most ? most : 0.0f;
+  return nearest >= 0.6f * maximum ? maximum : 0.0f;
 }
 
 void FrameTrace::check_duplicates(LintReport& report) const {
@@ -211,15 +211,15 @@ FrameTrace::Series FrameTrace::rises() const {
 // The speed at which the whole picture changes.
 FrameTrace::Series FrameTrace::speeds() const {
   Series series;
-  float most = 0.0f;
+  float maximum = 0.0f;
   for (size_t eye = 0; eye < 2; eye++) {
     for (const Change& change : changes_[eye]) {
       series.eyes[eye].push_back(change.bands);
-      most = std::max(most, *std::max_element(change.bands.begin(), change.bands.end()));
+      maximum = std::max(maximum, *std::max_element(change.bands.begin(), change.bands.end()));
     }
   }
-  series.counts =
-      most < kTurns ? std::vector<bool>(series.eyes[0].size(), false) : count_all_but_jumps(series.eyes[0].size(), 1);
+  series.counts = maximum < kTurns ? std::vector<bool>(series.eyes[0].size(), false)
+                                   : count_all_but_jumps(series.eyes[0].size(), 1);
   return series;
 }
 
@@ -249,19 +249,19 @@ void FrameTrace::check_time(LintReport& report) const {
   if (changes_.size() < 2) return skip(report, Check::kEyeTime, "there is only one eye");
   if (changes_[0].size() < kEnoughFrames) return skip(report, Check::kEyeTime, "the video is too short");
   int best = 0;
-  double most = 0.0, here = 0.0;
+  double maximum = 0.0, here = 0.0;
   for (const Series& series : {rises(), speeds()}) {
-    if (most >= 0.7) break;
-    best = 0, here = most = correlation(series, 0);
+    if (maximum >= 0.7) break;
+    best = 0, here = maximum = correlation(series, 0);
     for (int lag = -kReachInTime; lag <= kReachInTime; lag++) {
       const double alike = correlation(series, lag);
-      if (alike > most) most = alike, best = lag;
+      if (alike > maximum) maximum = alike, best = lag;
     }
   }
-  if (most < 0.6) return skip(report, Check::kEyeTime, "nothing moves unevenly enough");
+  if (maximum < 0.6) return skip(report, Check::kEyeTime, "nothing moves unevenly enough");
   judge(report, Check::kEyeTime);
-  const double better = (most - here) / (1.0 - here);
-  const double certainty = std::clamp((most - 0.4) / 0.3, 0.0, 1.0) * std::clamp(better / 0.2, 0.0, 1.0);
+  const double better = (maximum - here) / (1.0 - here);
+  const double certainty = std::clamp((maximum - 0.4) / 0.3, 0.0, 1.0) * std::clamp(better / 0.2, 0.0, 1.0);
   if (best == 0 || certainty < 0.1) return;
   report.findings.push_back(
       {Fault::kEyeLate, certainty,
@@ -269,7 +269,7 @@ void FrameTrace::check_time(LintReport& report) const {
            "motion is seen {} frames ({:.3f} s) {} by the right eye than by the left one: changes correlate by {:.2f} "
            "then, and by {:.2f} at the same frame",
            std::abs(best), std::abs(best) * (times_.back() - times_.front()) / (frames_ - 1),
-           best > 0 ? "later" : "earlier", most, here),
+           best > 0 ? "later" : "earlier", maximum, here),
        fmt::format("drop the first {} frames of the {} eye's video before the eyes are put together", std::abs(best),
                    best > 0 ? "right" : "left")});
 }

@@ -17,7 +17,7 @@ namespace ods {
 
 namespace {
 
-constexpr double kMostTilt = 15.0;  // degrees
+constexpr double kMaxTilt = 15.0;   // degrees
 constexpr double kWidth = 2.0;      // degrees: width of the peak of vertical edges
 constexpr double kNearly = 30.0;    // degrees: edges this far from vertical are compared with the peak
 constexpr float kEdge = 0.05f;      // minimum gradient, per pixel of the view
@@ -25,7 +25,7 @@ constexpr double kLine = 0.85;      // minimum coherence of a line
 constexpr int kDirectionReach = 2;  // pixels around a point that determine its direction
 constexpr int kFewestAround = 384;  // minimum pixels per turn; at 256, level rooms seem to lean by 14 degrees
 constexpr size_t kEnoughPlaces = 400;
-constexpr size_t kMostEdges = 20000;
+constexpr size_t kMaxEdges = 20000;
 
 struct Edge {
   glm::dvec3 normal;
@@ -57,14 +57,14 @@ Tensor tensor_at(const GrayView& view, int x, int y, double stretch) {
 std::vector<Edge> find_edges(const GrayView& view) {
   std::vector<Edge> edges;
   const double pixel = 2.0 * std::numbers::pi / view.width;
-  const double least = static_cast<double>(kEdge * kEdge) * (2 * kDirectionReach + 1);
+  const double minimum = static_cast<double>(kEdge * kEdge) * (2 * kDirectionReach + 1);
   for (int y = kDirectionReach + 1; y + kDirectionReach + 1 < view.height; y++) {
     const double phi = pixel * (0.5 * view.height - y - 0.5);
     if (std::abs(phi) > 60.0 * kDegree) continue;
     for (int x = 0; x < view.width; x++) {
       const Tensor tensor = tensor_at(view, x, y, 1.0 / std::cos(phi));
       const double angle = tensor.angle();
-      if (!(tensor.across + tensor.up > least) || tensor.coherence() < kLine) continue;
+      if (!(tensor.across + tensor.up > minimum) || tensor.coherence() < kLine) continue;
       if (std::abs(angle) > 40.0 * kDegree) continue;
       const double theta = pixel * (x + 0.5 - 0.5 * view.width);
       const glm::dvec3 east(std::cos(theta), 0.0, std::sin(theta));
@@ -77,7 +77,7 @@ std::vector<Edge> find_edges(const GrayView& view) {
 
 std::vector<Edge> some_of(const std::vector<Edge>& edges) {
   std::vector<Edge> some;
-  const size_t step = edges.size() / kMostEdges + 1;
+  const size_t step = edges.size() / kMaxEdges + 1;
   for (size_t i = 0; i < edges.size(); i += step) some.push_back(edges[i]);
   return some;
 }
@@ -123,7 +123,7 @@ Tilt find_tilt(const std::vector<Edge>& edges) {
   const size_t few = edges.size() / 3000 + 1;
   std::vector<Edge> sparse;
   for (size_t i = 0; i < edges.size(); i += few) sparse.push_back(edges[i]);
-  Tilt best = best_around(sparse, {}, kMostTilt, 1.0);
+  Tilt best = best_around(sparse, {}, kMaxTilt, 1.0);
   best.share = share_of(edges, zenith(best.right, best.back));
   for (const double step : {0.5, 0.1}) best = best_around(edges, best, 2.0 * step, step);
   return best;

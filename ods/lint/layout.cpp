@@ -81,7 +81,7 @@ void add_misread(const Subject& subject, const Cut& cut, double certainty, const
       case LayoutSource::kSidecar:
         return {Fault::kMetadata, fmt::format("correct the sidecar: it is {}", truth)};
       case LayoutSource::kFile:
-        return {Fault::kMetadata, fmt::format("correct what the file says: it is {}", truth)};
+        return {Fault::kMetadata, fmt::format("correct its metadata: it is {}", truth)};
       default:
         return {Fault::kLayoutMisread, fmt::format("read it as {} (`layout` {})", truth, truth)};
     }

@@ -31,9 +31,9 @@ static void check_gpano(const Subject& subject, LintReport& report) {
 }
 
 static void check_name(const Subject& subject, LintReport& report) {
-  FileInfo no_words = subject.info;
-  no_words.text.clear(), no_words.channels.clear();
-  const LayoutGuess named = guess_layout(no_words, subject.path);
+  FileInfo no_metadata = subject.info;
+  no_metadata.text.clear(), no_metadata.channels.clear();
+  const LayoutGuess named = guess_layout(no_metadata, subject.path);
   if (named.source != LayoutSource::kName || names_eye(subject.path) || named.layout == report.layout) return;
   const Extent size = report.file;
   if (named.layout) {
@@ -54,10 +54,12 @@ static void check_sidecar(const Subject& subject, LintReport& report) {
   const char* cure = "write the sidecar again, or remove it";
   const int count = static_cast<int>(said.eyes.size());
   if (count != report.eye_count) {
-    return add(report, 0.9, fmt::format("'{}' says {} eyes, and the file has {}", name, count, report.eye_count), cure);
+    return add(report, 0.9, fmt::format("'{}' declares {} eyes, but the file has {}", name, count, report.eye_count),
+               cure);
   }
   if (report.layout && said.layout != *report.layout) {
-    add(report, 0.9, fmt::format("'{}' says {}, and it is {}", name, layout_name(said.layout), read_as(report)), cure);
+    add(report, 0.9, fmt::format("'{}' declares {}, but it is {}", name, layout_name(said.layout), read_as(report)),
+        cure);
   }
   const Extent stored = squeezed_eye(said.layout, said.eye, count);
   // A copy of another size is consistent; another aspect ratio is not.
@@ -66,8 +68,8 @@ static void check_sidecar(const Subject& subject, LintReport& report) {
                               1.0);
   if (said.eye.width > 0 && said.eye.height > 0 && off > 0.02) {
     add(report, off / (off + 0.02),
-        fmt::format("'{}' says eyes of {}x{}, and they have {}x{}", name, stored.width, stored.height, report.eye.width,
-                    report.eye.height),
+        fmt::format("'{}' declares eyes of {}x{}, but they have {}x{}", name, stored.width, stored.height,
+                    report.eye.width, report.eye.height),
         cure);
   }
 }

@@ -41,13 +41,13 @@ struct Parallaxes {
 // The agreement of a pattern of signs with the data, -1..1.
 template <class Pattern>
 double explained(const Parallaxes& parallaxes, Pattern pattern) {
-  double sum = 0.0, most = 0.0;
+  double sum = 0.0, maximum = 0.0;
   for (const Parallax& each : parallaxes.all) {
     const double expected = std::clamp(2.0 * pattern(each.theta), -1.0, 1.0);
     sum += each.weight * each.sign * expected;
-    most += each.weight * std::abs(each.sign * expected);
+    maximum += each.weight * std::abs(each.sign * expected);
   }
-  return most > 0.0 ? sum / most : 0.0;
+  return maximum > 0.0 ? sum / maximum : 0.0;
 }
 
 // cos(waves (theta - turn)), with the turn that explains the data best.
@@ -172,18 +172,18 @@ static bool check_twice(const Subject& subject, const std::vector<Matches>& scal
     report.findings.push_back({Fault::kOneEyeTwice, 1.0, "every pixel is the same in both eyes", cure});
     return true;
   }
-  Stillness least{2.0, 0.0, 0.0, 0};
+  Stillness minimum{2.0, 0.0, 0.0, 0};
   double degrees = 0.0;
   for (const Matches& matches : scales) {
     const Stillness still = stillness_of(matches);
-    if (still.certainty >= least.certainty) continue;
-    least = still;
+    if (still.certainty >= minimum.certainty) continue;
+    minimum = still;
     degrees = static_cast<double>(matches.pixel) * 360.0 / kPi2;
   }
   // In small pictures, objects that are merely distant have no measurable parallax either.
   const double width = kPi2 / static_cast<double>(scales.back().pixel);
   const double large = std::clamp((width - 256.0) / 768.0, 0.0, 1.0);
-  least.certainty *= large;
+  minimum.certainty *= large;
   if (detailed == 0) {
     skip(report, Check::kTwoEyes, "not enough detail");
   } else if (large < 0.5) {
@@ -192,13 +192,13 @@ static bool check_twice(const Subject& subject, const std::vector<Matches>& scal
   } else {
     judge(report, Check::kTwoEyes);
   }
-  if (least.certainty < 0.1) return false;
+  if (minimum.certainty < 0.1) return false;
   report.findings.push_back(
-      {Fault::kOneEyeTwice, least.certainty,
+      {Fault::kOneEyeTwice, minimum.certainty,
        fmt::format("{} places are at the same spot in both eyes: {:.3f} degrees apart, give or take {:.3f}",
-                   least.count, least.middle * degrees, least.spread * degrees),
+                   minimum.count, minimum.middle * degrees, minimum.spread * degrees),
        cure});
-  return least.certainty > 0.5;
+  return minimum.certainty > 0.5;
 }
 
 // --- the signs -----------------------------------------------------------------------------------------------------
@@ -228,9 +228,9 @@ static double check_swap(const Subject& subject, const Parallaxes& parallaxes, d
   const EyeArrangement eyes = arrangement_of(subject.layout());
   const bool stacked = eyes.how == EyePacking::kStacked && !eyes.right_first;
   const char* cure = stacked && !eyes.squeezed
-                         ? "the right eye is on top: exchange the halves, or tell the player bottom-top"
+                         ? "the right eye is on top: swap the halves, or set the player to bottom-top"
                      : stacked ? "the right eye is on top: exchange the halves"
-                               : "exchange the eyes, or tell the player the other order";
+                               : "swap the eyes, or set the player to the other order";
   report.findings.push_back({stacked ? Fault::kRightOnTop : Fault::kEyesSwapped, certainty, evidence, cure});
   return certainty;
 }

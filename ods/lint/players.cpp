@@ -26,30 +26,30 @@ static std::string shown_as(SphericalMetadata metadata) {
 }
 
 static PlayerView v2_view(const VideoFile& video, const VideoTrack& track) {
-  const char* place = is_matroska(video) ? "StereoMode and Projection say so" : "st3d and sv3d say so";
+  const char* place = is_matroska(video) ? "from StereoMode and Projection" : "from st3d and sv3d";
   if (track.v2) return {"reads V2", shown_as(*track.v2), place};
-  if (track.v1) return {"reads V2", shown_as(*track.v1), "there is no V2, and V1 says so"};
-  return {"reads V2", shown_as({}), "it says nothing"};
+  if (track.v1) return {"reads V2", shown_as(*track.v1), "from V1, without V2"};
+  return {"reads V2", shown_as({}), "it has neither V2 nor V1"};
 }
 
 static PlayerView v1_view(const VideoTrack& track) {
-  if (track.v1) return {"reads only V1", shown_as(*track.v1), "V1 says so"};
+  if (track.v1) return {"reads only V1", shown_as(*track.v1), "from V1"};
   return {"reads only V1", shown_as({}), "it has no V1"};
 }
 
 static PlayerView apple_view(const VideoTrack& track) {
-  if (track.vexu) return {"is Apple's", shown_as(*track.vexu), "vexu says so"};
+  if (track.vexu) return {"is Apple's", shown_as(*track.vexu), "from vexu"};
   return {"is Apple's", shown_as({}), "it has no vexu"};
 }
 
 static PlayerView name_view(const std::string& path) {
   const NameWords words = read_name(path);
-  if (words.layout_word.empty() && words.projection == nullptr) {
-    return {"goes by the name", "mono, flat", "its name ends in no word for it"};
+  if (words.layout_token.empty() && words.projection == nullptr) {
+    return {"goes by the name", "mono, flat", "its name has no token for it"};
   }
   std::string text(words.layout ? layout_name(*words.layout) : "mono");
   text += fmt::format(", {}", words.projection != nullptr ? words.projection->name : "lat-long or flat");
-  return {"goes by the name", text, fmt::format("its name ends in {}{}", words.projection_word, words.layout_word)};
+  return {"goes by the name", text, fmt::format("its name ends in {}{}", words.projection_token, words.layout_token)};
 }
 
 static PlayerView shape_view(Extent size) {
@@ -117,14 +117,14 @@ static std::string advice(const VideoFile& video, const VideoTrack& track, const
                           std::string_view what) {
   std::vector<std::string> guesses;
   try {
-    if (!can_say(video.container, track, complete_metadata({}, track, path, guesses))) return "";
+    if (!can_express(video.container, track, complete_metadata({}, track, path, guesses))) return "";
   } catch (const Error&) {
     return "";
   }
   const std::string which = video.tracks.size() > 1 ? fmt::format(" `track` {}", track.id) : "";
   std::string options;
   for (const MetadataConflict& conflict : find_conflicts({}, track, path)) {
-    options += fmt::format("{}{}", options.empty() ? ", told which is true: " : ", and ", conflict.options);
+    options += fmt::format("{}{}", options.empty() ? ", with the true value: " : ", and ", conflict.options);
   }
   return fmt::format(" (ods inject{} {}{})", which, what, options);
 }
@@ -137,7 +137,7 @@ std::vector<std::string> video_warnings(const VideoFile& video, const VideoTrack
   }
   const std::string make_one = advice(video, track, path, "makes them one");
   if (track.v1 && track.v2 && !agree(shown_as(*track.v1), shown_as(*track.v2))) {
-    warnings.push_back(fmt::format("its V1 says {}, its V2 {}: players differ{}", metadata_text(*track.v1),
+    warnings.push_back(fmt::format("its V1 declares {}, its V2 {}: players differ{}", metadata_text(*track.v1),
                                    metadata_text(*track.v2), make_one));
   }
   if (track.v2 && !track.v1 && !is_matroska(video) && fits_v1(*track.v2)) {
@@ -145,17 +145,17 @@ std::vector<std::string> video_warnings(const VideoFile& video, const VideoTrack
   }
   if (track.v1 && !track.v2) warnings.push_back("it has no V2" + advice(video, track, path, "adds it"));
   if (track.v2 && track.vexu && !agree(shown_as(*track.vexu), v2.takes_it_for)) {
-    warnings.push_back(fmt::format("its vexu says {}, its V2 {}: players differ{}", metadata_text(*track.vexu),
+    warnings.push_back(fmt::format("its vexu declares {}, its V2 {}: players differ{}", metadata_text(*track.vexu),
                                    metadata_text(*track.v2), make_one));
   }
   const NameWords words = read_name(path);
-  const bool is_named = !words.layout_word.empty() || words.projection != nullptr;
+  const bool is_named = !words.layout_token.empty() || words.projection != nullptr;
   if (is_named && !agree(v2.takes_it_for, name.takes_it_for)) {
     warnings.push_back(
-        fmt::format("its name says {}, the file {}: players differ", name.takes_it_for,
+        fmt::format("its name declares {}, the file {}: players differ", name.takes_it_for,
                     track.v2 || track.v1 ? v2.takes_it_for : "nothing" + advice(video, track, path, "tags it")));
   }
-  const std::optional<SphericalMetadata> said = said_metadata(track);
+  const std::optional<SphericalMetadata> said = declared_metadata(track);
   const std::string fault = said ? shape_fault(*said, track.size) : "";
   if (!fault.empty()) warnings.push_back(fault);
   warn_of_size(track, warnings);
@@ -173,7 +173,7 @@ static std::string picture_text(const StereoFormat& format) {
 std::vector<PlayerView> picture_views(const FileInfo& info, const StereoFormat& format, bool has_gpano,
                                       const std::string& path) {
   PlayerView gpano{"reads GPano", "mono, flat", "it has no GPano"};
-  if (has_gpano) gpano.takes_it_for = "mono, lat-long", gpano.reason = "GPano says so, which knows no stereo";
+  if (has_gpano) gpano.takes_it_for = "mono, lat-long", gpano.reason = "from GPano, which cannot express stereo";
   std::vector<PlayerView> views{{"ods", picture_text(format), format.layout.reason}, gpano};
   if (format.is_photo && !info.is_pair) {
     views.push_back({"reads VR photos", picture_text(format), "GImage has the right eye"});
@@ -193,14 +193,14 @@ std::vector<std::string> picture_warnings(const FileInfo& info, const StereoForm
   }
   const PlayerView name = name_view(path), shape = shape_view({info.width, info.height});
   const NameWords words = read_name(path);
-  const bool is_named = !words.layout_word.empty() || words.projection != nullptr;
+  const bool is_named = !words.layout_token.empty() || words.projection != nullptr;
   if (is_named && !agree(is, name.takes_it_for)) {
-    warnings.push_back(fmt::format("its name says {}, the file {}: players differ", name.takes_it_for, is));
+    warnings.push_back(fmt::format("its name declares {}, the file {}: players differ", name.takes_it_for, is));
   }
   if (!is_named && format.layout.layout && !agree(is, shape.takes_it_for)) {
     warnings.push_back(
         fmt::format("players that go by its name or shape do not see that it is {} (a name that ends in "
-                    "_360_TB, _180_LR ... tells most)",
+                    "_360_TB, _180_LR ... is read by most)",
                     is));
   }
   return warnings;

@@ -19,7 +19,7 @@ namespace ods {
 struct PlayerView {
   std::string_view player;   // "reads V2", "reads only V1", "is Apple's", "goes by the name", "goes by the shape"
   std::string takes_it_for;  // "top-bottom, lat-long"
-  std::string reason;        // "st3d and sv3d say so"
+  std::string reason;        // "from st3d and sv3d"
 };
 
 std::vector<PlayerView> video_views(const VideoFile& video, const VideoTrack& track, const std::string& path);

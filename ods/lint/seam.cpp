@@ -33,7 +33,7 @@ constexpr double kUnseen = 0.004, kSeen = 0.008;  // steps at the seam, as displ
 constexpr double kStructure = 0.1;                // minimum sharpness of columns with structure that could break
 constexpr size_t kNear = 8;                       // columns on either side that give the usual variation of a row
 constexpr double kGrain = 0.015;                  // as displayed: the usual variation of a row
-constexpr double kMostExcess = 3.0;               // maximum weight of a step
+constexpr double kMaxExcess = 3.0;                // maximum weight of a step
 constexpr double kHalfPixel = 2.5;  // times the adjacent steps: the step if a picture was resized without its seam
 
 using Columns = std::vector<double>;
@@ -102,7 +102,7 @@ Columns excess_of(const Columns& row) {
     double near = 0.0;
     for (size_t i = 2; i < 2 + kNear; i++) near += (step[(x + i) % n] + step[(x + n - i) % n]) / (2.0 * kNear);
     const double beside = std::max(step[(x + 1) % n], step[(x + n - 1) % n]);
-    excess[x] = std::min(std::max(step[x] - kHalfPixel * beside, 0.0) / (near + kGrain), kMostExcess);
+    excess[x] = std::min(std::max(step[x] - kHalfPixel * beside, 0.0) / (near + kGrain), kMaxExcess);
   }
   return compared_columns(excess);
 }
@@ -129,8 +129,8 @@ struct Break {
   double ratio() const { return seam / others; }
 };
 
-Break break_of(const Columns& score, double least) {
-  return {score.back(), std::max(least, *std::max_element(score.begin(), score.end() - 1))};
+Break break_of(const Columns& score, double minimum) {
+  return {score.back(), std::max(minimum, *std::max_element(score.begin(), score.end() - 1))};
 }
 
 double ramp(double value, double from, double to) {
@@ -208,13 +208,13 @@ void check_doubled(const std::vector<Image>& eyes, LintReport& report) {
     const Columns row = row_of(eyes[0], i);
     for (size_t x = 0; x < row.size(); x++) steps[x] += std::abs(row[(x + 1) % row.size()] - row[x]) / kBlocks;
   }
-  const double seam = steps.back(), least = *std::min_element(steps.begin(), steps.end() - 1);
-  const double certainty = least > 5e-4 ? 1.0 - 4.0 * seam / least : 0.0;
+  const double seam = steps.back(), minimum = *std::min_element(steps.begin(), steps.end() - 1);
+  const double certainty = minimum > 5e-4 ? 1.0 - 4.0 * seam / minimum : 0.0;
   if (certainty < 0.1) return;
   report.findings.push_back(
       {Fault::kRaggedSeam, certainty,
        fmt::format("the last column repeats the first: they differ by {:.2g}, all neighbours by at least {:.2g}", seam,
-                   least),
+                   minimum),
        "leave out the last column, and render the directions of the pixels' middles"});
 }
 
@@ -238,17 +238,17 @@ double likeness(const std::vector<Image>& eyes, int one, int other, int width) {
       product += a * b, square += a * a, square_other += b * b;
     }
   }
-  const double least = 1e-5 * kBlocks * width;
-  return square > least && square_other > least ? product / std::sqrt(square * square_other) : 0.0;
+  const double minimum = 1e-5 * kBlocks * width;
+  return square > minimum && square_other > minimum ? product / std::sqrt(square * square_other) : 0.0;
 }
 
 // Finds last columns that repeat the first ones, for example because a stitcher's overlap was left in. The similarity
 // at the same distance elsewhere in the picture is the reference.
 void check_overlap(const std::vector<Image>& eyes, LintReport& report) {
-  const int width = eyes[0].width, least = std::max(4, width / 200), most = width * 15 / 100;
+  const int width = eyes[0].width, minimum = std::max(4, width / 200), maximum = width * 15 / 100;
   int overlap = 0;
   double best = 0.0;
-  for (int s = least; s <= most; s++) {
+  for (int s = minimum; s <= maximum; s++) {
     const double alike = likeness(eyes, width - s, 0, std::min(s, width / 16));
     if (alike > best) best = alike, overlap = s;
   }

@@ -17,9 +17,9 @@ namespace ods {
 
 namespace {
 
-constexpr int kStep = 2;              // pixels of the eye: a single resampling removes only finer detail
-constexpr int kHalf = 12;             // half size of a patch
-constexpr size_t kMostPatches = 400;  // more do not improve the result
+constexpr int kStep = 2;             // pixels of the eye: a single resampling removes only finer detail
+constexpr int kHalf = 12;            // half size of a patch
+constexpr size_t kMaxPatches = 400;  // more do not improve the result
 constexpr size_t kEnoughBlocks = 20;
 constexpr float kContrast = 1e-3f;  // minimum variance of a patch, of the square root of light
 
@@ -61,7 +61,7 @@ std::optional<double> fineness_of(const Image& eye, Center center, float unit) {
 std::vector<double> ratios_of(const Subject& subject) {
   const Projection projection = make_projection(subject.projection());
   const std::vector<Match>& found = subject.matches.back().found;
-  const size_t step = found.size() / kMostPatches + 1;
+  const size_t step = found.size() / kMaxPatches + 1;
   float unit = 1.0f;
   if (subject.info.is_float) {
     double sum = 0.0;

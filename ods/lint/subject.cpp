@@ -106,7 +106,7 @@ static void load(Subject& subject, const LintOptions& options) {
   look_at_pixels(subject, picture, known);
   const Extent size{subject.info.width, subject.info.height};
   if (!unpacked_size(subject.layout(), size)) {
-    throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}x{} pixels are not two eyes, {}; say `layout`",
+    throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}x{} pixels are not two eyes, {}; specify `layout`",
                                                path, size.width, size.height, layout_name(subject.layout())));
   }
   subject.packed = grey_eyes(picture)[0];

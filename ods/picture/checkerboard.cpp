@@ -103,7 +103,7 @@ void take_checkerboard_apart(StoredPicture& picture, const OpenOptions& options)
   for (const StoredEye& eye : picture.eyes) {
     for (const LayerPixels& layer : eye.layers) bytes += pixels * pixel_size(layer);
   }
-  const auto memory = std::make_shared<Scratch>(bytes, options.scratch_folder, options.most_in_memory);
+  const auto memory = std::make_shared<Scratch>(bytes, options.scratch_folder, options.max_in_memory);
   std::byte* to = memory->data();
   for (size_t i = 0; i < picture.eyes.size(); i++) {
     for (LayerPixels& layer : picture.eyes[i].layers) {

@@ -83,14 +83,14 @@ float matte_number(std::string_view name) {
 
 // The names of a manifest that is a file: NAME.json, not hidden, beside the picture. None if it cannot be read.
 static std::map<float, std::string> names_beside(const std::string& picture, const std::string& name) {
-  constexpr size_t kMostBytes = size_t{64} << 20u;
+  constexpr size_t kMaxBytes = size_t{64} << 20u;
   if (name.find('/') != std::string::npos || name.starts_with('.') || !small_letters(name).ends_with(".json"))
     return {};
   try {
     const std::filesystem::path folder = std::filesystem::canonical(picture).parent_path();
     const ConfinedFile file((folder / name).string(), folder.string(), Reach::kDirectly);
     const std::vector<unsigned char> bytes =
-        file.read([](const std::string& opened) { return read_file(opened, kMostBytes); });
+        file.read([](const std::string& opened) { return read_file(opened, kMaxBytes); });
     return read_manifest({bytes.begin(), bytes.end()});
   } catch (const Error&) {
   } catch (const std::filesystem::filesystem_error&) {

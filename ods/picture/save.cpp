@@ -287,7 +287,7 @@ static FileHeader make_header(const File& file, const StereoCamera* camera) {
   header.width = size.width;
   header.height = size.height;
   header.attributes.push_back({"Software", std::string("Omnistereo " ODS_VERSION)});
-  header.says_srgb = !is_scene_referred(format);
+  header.writes_srgb = !is_scene_referred(format);
   header.quality = file.options.jpeg_quality;
   header.rows_alone = file.options.rows_alone;
   header.has_checksum = file.options.has_checksum;

@@ -338,7 +338,7 @@ static std::shared_ptr<Scratch> make_room(std::vector<FileShare>& shares, const 
       starts.push_back(starts.back() + plane_size(plane, info));
     }
   }
-  auto memory = std::make_shared<Scratch>(starts.back(), options.scratch_folder, options.most_in_memory);
+  auto memory = std::make_shared<Scratch>(starts.back(), options.scratch_folder, options.max_in_memory);
   for (size_t i = 0; i < planes.size(); i++) planes[i]->to = memory->data() + starts[i];
   return memory;
 }

@@ -61,8 +61,8 @@ struct StoredPicture {
 struct OpenOptions {
   FormatHint format;
   bool color_only = false;     // skip all other layers
-  std::string scratch_folder;  // for pixels beyond `most_in_memory` bytes; if empty, all are kept in memory
-  size_t most_in_memory = size_t{512} << 20;
+  std::string scratch_folder;  // for pixels beyond `max_in_memory` bytes; if empty, all are kept in memory
+  size_t max_in_memory = size_t{512} << 20;
 };
 
 // Colour is R, G, B and perhaps A, and grey is expanded to three channels; without bare names, it is the layer whose

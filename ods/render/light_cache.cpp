@@ -35,15 +35,15 @@ int64_t fixed(float light) {
 
 int64_t light_cache_paths(const RenderOptions& options) {
   constexpr int64_t kSamplesPerPath = 16;  // per eye
-  constexpr int64_t kFewest = 1 << 16, kMost = 1 << 22;
+  constexpr int64_t kFewest = 1 << 16, kMax = 1 << 22;
   constexpr double kPathsPerSecond = 2e4;  // for a time limit
   // With a single bounce no path meets a surface whose light could be cached.
   if (options.indirect != Indirect::kCache || options.bounces < 2) return 0;
   if (options.cache_paths > 0) return options.cache_paths;
   const int expected = options.noise > 0.0f ? options.samples / 4 : options.samples;  // most pixels are clean by then
   const int64_t share = int64_t{options.width} * options.height * expected / kSamplesPerPath;
-  const int64_t most = options.time_limit > 0.0 ? std::llrint(options.time_limit * kPathsPerSecond) : kMost;
-  return share < kFewest ? 0 : std::clamp(most, kFewest, std::min(share, kMost));
+  const int64_t maximum = options.time_limit > 0.0 ? std::llrint(options.time_limit * kPathsPerSecond) : kMax;
+  return share < kFewest ? 0 : std::clamp(maximum, kFewest, std::min(share, kMax));
 }
 
 LightCacheSums::LightCacheSums() : slots_(size_t{1} << 16) {}

@@ -55,10 +55,10 @@ struct Group {
   // extent.
   double cost() const {
     if (count == 0) return 0.0;
-    const double most = std::min(cone.open + 0.5 * pi, pi);
+    const double maximum = std::min(cone.open + 0.5 * pi, pi);
     const double angle = 2.0 * pi * (1.0 - std::cos(cone.open)) +
                          0.5 * pi *
-                             (2.0 * most * std::sin(cone.open) - std::cos(cone.open - 2.0 * most) -
+                             (2.0 * maximum * std::sin(cone.open) - std::cos(cone.open - 2.0 * maximum) -
                               2.0 * cone.open * std::sin(cone.open) + std::cos(cone.open));
     return (power + back_power) * angle * glm::dot(high - low, high - low);
   }
@@ -89,7 +89,7 @@ Split best_split(std::span<const TreeLight> lights) {
   const dvec3 size = high - low;
   const double longest = std::max({size.x, size.y, size.z});
   Split best;
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; axis++) {
     if (!(size[axis] > 0.0)) continue;
     Group bins[kBins];
@@ -108,7 +108,7 @@ Split best_split(std::span<const TreeLight> lights) {
       before.add(bins[i - 1]);
       if (after[i].count == 0) break;
       const double cost = longest / size[axis] * (before.cost() + after[i].cost());
-      if (cost < least) least = cost, best = {axis, low[axis] + size[axis] * i / kBins};
+      if (cost < minimum) minimum = cost, best = {axis, low[axis] + size[axis] * i / kBins};
     }
   }
   return best;

@@ -196,7 +196,7 @@ SampledPicture read_part_header(const std::string& path) {
   const std::optional<Part> part = parse_part(text(kPart));
   options.samples = samples == info.numbers.end() ? 0 : static_cast<int>(samples->second.front());
   if (!part || options.samples < 1 || options.samples > kMaxSamples || picture.camera.empty()) {
-    fail(path, "is no part of a picture: ods render `part` makes those");
+    fail(path, "is not a part of a picture: ods render `part` makes those");
   }
   check_header(path, info);
   if (!settings) fail(path, "is damaged: its settings are not as they were written; render the part again");
@@ -271,10 +271,10 @@ PartsReader::File PartsReader::open(const std::string& path) const {
 
 PartsReader::PartsReader(std::vector<std::string> paths, const RenderOptions& options)
     : paths_(std::move(paths)), options_(options) {
-  constexpr size_t kMostOpen = 200;  // out of the 1024 files that a process may have open
+  constexpr size_t kMaxOpen = 200;  // out of the 1024 files that a process may have open
   for (const std::string& path : paths_) {
     File file = open(path);
-    if (open_.size() < kMostOpen) open_.push_back(std::move(file));
+    if (open_.size() < kMaxOpen) open_.push_back(std::move(file));
   }
 }
 

@@ -81,7 +81,7 @@ class Reader {
     uint64_t count = 0;
     number(count);
     if (count > (file_.size() - at_) / kSize) fail();
-    check_memory(count * kSize, fmt::format("'{}'", file_.path()), "go on where there is more");
+    check_memory(count * kSize, fmt::format("'{}'", file_.path()), "resume where there is more");
     values.resize(count);
     bytes(std::as_writable_bytes(std::span(values)));
   }
@@ -160,7 +160,7 @@ SampledPicture read_unfinished(const std::string& path, PictureSamples& samples)
   reader.bytes(std::as_writable_bytes(std::span(mark)));
   reader.number(version);
   if (mark != kMark || version != kVersion) {
-    throw Error(ErrorKind::kInput, fmt::format("'{}' is no unfinished picture of this version of ods", path));
+    throw Error(ErrorKind::kInput, fmt::format("'{}' is not an unfinished picture of this version of ods", path));
   }
   size_t eyes = 0;
   reader.number(eyes);

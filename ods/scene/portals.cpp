@@ -15,12 +15,12 @@ namespace ods {
 
 namespace {
 
-constexpr float kThickest = 0.1f;     // thickness of a pane over its shorter side
-constexpr float kLeastFilled = 0.8f;  // fraction of the rectangle that the pane fills
-constexpr float kSmallest = 0.02f;    // minimum area over the area of the largest pane
-constexpr int kLooks = 1024;          // rays from the viewer
-constexpr float kMostSky = 0.25f;     // maximum fraction that leaves the scene, in a room,
-constexpr float kLeastShare = 0.9f;   // and minimum fraction of these that leaves through portals
+constexpr float kThickest = 0.1f;   // thickness of a pane over its shorter side
+constexpr float kMinFilled = 0.8f;  // fraction of the rectangle that the pane fills
+constexpr float kSmallest = 0.02f;  // minimum area over the area of the largest pane
+constexpr int kLooks = 1024;        // rays from the viewer
+constexpr float kMaxSky = 0.25f;    // maximum fraction that leaves the scene, in a room,
+constexpr float kMinShare = 0.9f;   // and minimum fraction of these that leaves through portals
 
 struct Triangle {
   vec3 corner[3];
@@ -86,7 +86,7 @@ std::vector<Portal> rectangle_of(const std::vector<Triangle>& part) {
     }
   }
   const float wide = high[0] - low[0], tall = high[1] - low[1], thick = high[2] - low[2];
-  if (!(thick <= kThickest * std::min(wide, tall)) || facing < kLeastFilled * wide * tall) return {};
+  if (!(thick <= kThickest * std::min(wide, tall)) || facing < kMinFilled * wide * tall) return {};
   const vec3 corner = along * low[0] + across * low[1] + normal * (0.5f * (low[2] + high[2]));
   return {{corner, along * wide, across * tall}};
 }
@@ -109,7 +109,7 @@ std::vector<Portal> find_portals(const Scene& scene) {
   std::stable_sort(portals.begin(), portals.end(),
                    [](const Portal& a, const Portal& b) { return area_of(a) > area_of(b); });
   std::erase_if(portals, [&](const Portal& portal) { return area_of(portal) < kSmallest * area_of(portals.front()); });
-  portals.resize(std::min(portals.size(), kMostPortals));
+  portals.resize(std::min(portals.size(), kMaxPortals));
   return portals;
 }
 
@@ -126,8 +126,8 @@ bool show_the_sky(const std::vector<Portal>& portals, vec3 viewer, const std::fu
     const auto passes = [&](const Portal& portal) { return sampler.portal_distance(portal, viewer, direction) > 0.0f; };
     by_portal += std::any_of(portals.begin(), portals.end(), passes);
   }
-  return out > 0 && static_cast<float>(out) <= kMostSky * kLooks &&
-         static_cast<float>(by_portal) >= kLeastShare * static_cast<float>(out);
+  return out > 0 && static_cast<float>(out) <= kMaxSky * kLooks &&
+         static_cast<float>(by_portal) >= kMinShare * static_cast<float>(out);
 }
 
 }  // namespace ods

@@ -10,9 +10,9 @@
 
 namespace ods {
 
-// The flat, nearly rectangular panes of clear thin glass, the largest first, at most kMostPortals. Panes may be single
+// The flat, nearly rectangular panes of clear thin glass, the largest first, at most kMaxPortals. Panes may be single
 // sheets or thin boxes, and many may be one mesh.
-inline constexpr size_t kMostPortals = 8;
+inline constexpr size_t kMaxPortals = 8;
 std::vector<Portal> find_portals(const Scene& scene);
 
 // Returns whether the viewer sees little sky, and nearly all of it through the portals. escapes: whether a ray from the

@@ -10,7 +10,7 @@
 
 #include "ods/camera/stereo_camera.h"
 #include "ods/kernel/scene_data.h"
-#include "ods/scene/animation/animation.h"
+#include "ods/scene/animation.h"
 
 namespace ods {
 

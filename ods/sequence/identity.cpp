@@ -194,10 +194,10 @@ void add(Settings& settings, std::string_view name, const std::string& value) {
 // The fields of one structure that change as much as `least`.
 template <typename Struct, typename... Members>
 void add_fields(Settings& settings, const std::tuple<Field<Struct, Members>...>& fields, const Struct& of,
-                const SequenceOptions& all, Changes least) {
+                const SequenceOptions& all, Changes minimum) {
   const auto add_field = [&](const auto& field) {
     if constexpr (requires { text_of(of.*field.member).empty(); }) {
-      if (field.name.empty() || field.changes < least) return;
+      if (field.name.empty() || field.changes < minimum) return;
       const std::string text = !field.matters || field.matters(all) ? text_of(of.*field.member) : "any";
       add(settings, field.name, text.empty() ? std::string(field.otherwise) : text);
     }
@@ -228,16 +228,16 @@ void add_stereo(Settings& settings, const SequenceOptions& options) {
   add(settings, "`left-handed`", text_of(stereo.mirrored));
 }
 
-Settings identity(const SequenceOptions& options, Changes least) {
+Settings identity(const SequenceOptions& options, Changes minimum) {
   Settings settings = {{"version of ods", ODS_VERSION, ""}};
   settings.insert(settings.end(), options.scene.begin(), options.scene.end());
-  add_fields(settings, kCameraFields, options.camera, options, least);
+  add_fields(settings, kCameraFields, options.camera, options, minimum);
   add_stereo(settings, options);
-  add_fields(settings, kSequenceFields, options, options, least);
-  add_fields(settings, kMoveFields, options.camera.move, options, least);
-  add_fields(settings, kRenderFields, options.render, options, least);
-  add_fields(settings, kSaveFields, options.finish.save, options, least);
-  add_fields(settings, kFinishFields, options.finish, options, least);
+  add_fields(settings, kSequenceFields, options, options, minimum);
+  add_fields(settings, kMoveFields, options.camera.move, options, minimum);
+  add_fields(settings, kRenderFields, options.render, options, minimum);
+  add_fields(settings, kSaveFields, options.finish.save, options, minimum);
+  add_fields(settings, kFinishFields, options.finish, options, minimum);
   return settings;
 }
 

@@ -19,7 +19,7 @@
 
 namespace ods {
 
-std::set<size_t> looks_at(const std::vector<SequenceFrame>& frames, size_t count) {
+std::set<size_t> sampled_frames(const std::vector<SequenceFrame>& frames, size_t count) {
   assert(!frames.empty());
   std::set<size_t> chosen;
   for (size_t i = 0; i < count; i++) chosen.insert((2 * i + 1) * frames.size() / (2 * count));
@@ -28,7 +28,7 @@ std::set<size_t> looks_at(const std::vector<SequenceFrame>& frames, size_t count
 
 static std::optional<float> exposure_for(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames) {
   std::vector<Picture> looks;
-  for (const size_t i : looks_at(frames, kLooks)) {
+  for (const size_t i : sampled_frames(frames, kLooks)) {
     const Shot shot = renderer.set(frames[i]);
     looks.push_back(
         renderer.renderer().render(first_look_camera(shot.camera()), first_look(renderer.options().render)));
@@ -39,9 +39,9 @@ static std::optional<float> exposure_for(FrameRenderer& renderer, const std::vec
 static Image merge_for(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames, float limit) {
   constexpr size_t kMergeLooks = 16;
   std::vector<float> shares(kMergeRows, 1.0f);
-  for (const size_t i : looks_at(frames, kMergeLooks)) {
+  for (const size_t i : sampled_frames(frames, kMergeLooks)) {
     const Shot shot = renderer.set(frames[i]);
-    take_least(shares, shares_seen(renderer.renderer(), shot.camera(), limit));
+    min_in_place(shares, shares_seen(renderer.renderer(), shot.camera(), limit));
   }
   return merge_map_of(std::move(shares));
 }

@@ -14,7 +14,7 @@ namespace ods {
 
 // Returns the indices of `count` frames, spread evenly; of all if there are fewer. Precondition here and below: there
 // are frames.
-std::set<size_t> looks_at(const std::vector<SequenceFrame>& frames, size_t count);
+std::set<size_t> sampled_frames(const std::vector<SequenceFrame>& frames, size_t count);
 inline constexpr size_t kLooks = 5;
 
 enum class ExposureReason {

@@ -44,7 +44,7 @@ std::optional<Image> parse_map(const std::string& text) {
 std::optional<float> parse_stops(const std::string& text) {
   std::istringstream number(text);
   float stops = 0.0f;
-  return number >> stops && std::abs(stops) <= kMostStops ? std::optional(stops) : std::nullopt;
+  return number >> stops && std::abs(stops) <= kMaxStops ? std::optional(stops) : std::nullopt;
 }
 
 template <typename Value>

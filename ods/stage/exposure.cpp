@@ -120,12 +120,12 @@ std::optional<float> suitable_exposure(std::span<const Picture> looks) {
   }
   const double stops =
       std::min(std::log2(double{kExposedMean}) - sum / weight, std::log2(double{kHighlight} / highlight));
-  const double limit = double{kMostStops};
+  const double limit = double{kMaxStops};
   return static_cast<float>(std::round(10.0 * std::clamp(stops, -limit, limit)) / 10.0) + 0.0f;
 }
 
 float brightened(float exposure, float brighter) {
-  const double sum = std::clamp(double{exposure} + double{brighter}, -double{kMostStops}, double{kMostStops});
+  const double sum = std::clamp(double{exposure} + double{brighter}, -double{kMaxStops}, double{kMaxStops});
   return static_cast<float>(std::round(1e4 * sum) / 1e4);
 }
 

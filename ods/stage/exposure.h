@@ -25,13 +25,13 @@ StereoCamera first_look_camera(const StereoCamera& camera);
 // are noise.
 std::optional<float> suitable_exposure(std::span<const Picture> looks);
 
-// That exposure and some stops more, within kMostStops; rounded, so that it is the same number where it is printed.
+// That exposure and some stops more, within kMaxStops; rounded, so that it is the same number where it is printed.
 float brightened(float exposure, float brighter);
 
 inline constexpr float kExposedMean = 0.18f;  // middle grey
 inline constexpr float kHighlight = 1.5f;     // PBR Neutral shows it at 0.93
 inline constexpr float kHighlightShare = 0.05f;
 inline constexpr float kWindowShare = 0.15f;
-inline constexpr float kMostStops = 30.0f;
+inline constexpr float kMaxStops = 30.0f;
 
 }  // namespace ods

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kNearDirections = 256;
 constexpr int kOpenDirections = 512;
-constexpr int kMostPanes = 32;  // panes of glass behind each other
+constexpr int kMaxPanes = 32;  // panes of glass behind each other
 constexpr float kSteepest = 0.7071f;
 
 LightTable without_lights(const Scene& scene) {
@@ -58,7 +58,7 @@ Sight SceneRays::look(vec3 from, vec3 direction) const {
 }
 
 bool SceneRays::is_open(vec3 from, vec3 direction) const {
-  for (int pane = 0; pane < kMostPanes; pane++) {
+  for (int pane = 0; pane < kMaxPanes; pane++) {
     const Sight sight = look(from, direction);
     if (sight.leaves()) return true;
     if (!sight.clear) return false;

@@ -14,7 +14,7 @@ namespace ods {
 namespace {
 
 constexpr int kGridColumns = 20;  // cells of the grid over the scene, each way
-constexpr int kMostStoreys = 24;  // maximum number of surfaces above each other that are examined
+constexpr int kMaxStoreys = 24;   // maximum number of surfaces above each other that are examined
 constexpr int kAzimuths = 16;
 constexpr float kLevel = 0.7071f;                                      // minimum upward component of a floor's normal
 constexpr float kElevations[] = {-20.0f, -10.0f, 5.0f, 20.0f, 40.0f};  // degrees: the directions examined from a stand
@@ -104,7 +104,7 @@ bool is_flat(const Bounds& core, float unit) {
 
 // Returns whether most of the scene is visible from a point: the walls of a room, as opposed to the inside of one
 // object among many.
-bool sees_most(const SceneRays& rays, const Bounds& core, vec3 eye) {
+bool sees_max(const SceneRays& rays, const Bounds& core, vec3 eye) {
   const Bounds seen = seen_bounds(rays, eye);
   const vec3 seen_size = seen.high - seen.low, size = core.high - core.low;
   return seen_size.x * seen_size.y * seen_size.z >= 0.3f * size.x * size.y * size.z;
@@ -116,7 +116,7 @@ Stand judge_floor(const SceneRays& rays, const Bounds& core, vec3 foot, float he
   stand.floor = foot.y;
   stand.headroom = headroom;
   const float height = std::min(kEyeHeight, headroom * unit - kElbowRoom);
-  if (height < kLeastEyeHeight) return stand;
+  if (height < kMinEyeHeight) return stand;
   stand.eye = foot + vec3(0.0f, height / unit, 0.0f);
   const float firm = footing(rays, stand.eye, foot.y, unit);
   if (firm == 0.0f || !is_free(rays, stand.eye, kElbowRoom / unit)) return stand;
@@ -134,7 +134,7 @@ Stand best_in_column(const SceneRays& rays, const Bounds& core, vec3 top, float 
   Stand best;
   const vec3 down(0.0f, -1.0f, 0.0f);
   const float step = 1e-4f * std::max(length(core.high - core.low), 1e-6f);
-  for (int storey = 0; storey < kMostStoreys; storey++) {
+  for (int storey = 0; storey < kMaxStoreys; storey++) {
     const Sight sight = rays.look(top, down);
     const vec3 foot = top + down * sight.distance;
     if (sight.leaves() || foot.y < core.low.y - step) break;
@@ -142,7 +142,7 @@ Stand best_in_column(const SceneRays& rays, const Bounds& core, vec3 top, float 
       const float headroom = rays.distance(foot - down * step, -down);
       const Stand stand = judge_floor(rays, core, foot, headroom, unit);
       const bool within_solid = stand.worth < 3.0f * kWithinSolid;
-      if (stand.worth > best.worth && !(within_solid && !sees_most(rays, core, stand.eye))) best = stand;
+      if (stand.worth > best.worth && !(within_solid && !sees_max(rays, core, stand.eye))) best = stand;
     }
     top = foot + down * step;
   }
@@ -176,7 +176,7 @@ std::optional<Stand> best_stand(const SceneRays& rays, const Bounds& core, float
 }
 
 std::optional<Stand> best_float(const SceneRays& rays, const Bounds& core, float metres_per_unit) {
-  constexpr int kCells = 7, kSectors = 16, kLeastSectors = 13, kLeastThings = 12;
+  constexpr int kCells = 7, kSectors = 16, kMinSectors = 13, kMinThings = 12;
   constexpr float kSteep = 0.26f;  // the sine of 15 degrees: objects above and below do not surround the viewer
   static const std::vector<vec3> kDirections = sphere_directions(2048);
   Stand best;
@@ -195,7 +195,7 @@ std::optional<Stand> best_float(const SceneRays& rays, const Bounds& core, float
       sectors.insert(std::min(static_cast<int>(turn * kSectors), kSectors - 1));
       things.insert(sight.instance);
     }
-    if (static_cast<int>(sectors.size()) < kLeastSectors || things.size() < kLeastThings || backs > fronts) continue;
+    if (static_cast<int>(sectors.size()) < kMinSectors || things.size() < kMinThings || backs > fronts) continue;
     const float worth = static_cast<float>(fronts) / 512.0f + 0.6f * depth_within(core, eye);
     if (worth > best.worth) best = {eye, std::nullopt, std::numeric_limits<float>::infinity(), 0.0f, worth, {}};
   }

@@ -14,7 +14,7 @@ namespace ods {
 
 namespace {
 
-constexpr size_t kMostSamples = 200000;  // triangles
+constexpr size_t kMaxSamples = 200000;  // triangles
 
 struct Triangle {
   vec3 corners[3];
@@ -29,9 +29,9 @@ size_t visible_triangles(const Scene& scene) {
   return count;
 }
 
-// Every n-th triangle, at most kMostSamples in all.
+// Every n-th triangle, at most kMaxSamples in all.
 std::vector<Triangle> sampled_triangles(const Scene& scene) {
-  const size_t stride = visible_triangles(scene) / kMostSamples + 1;
+  const size_t stride = visible_triangles(scene) / kMaxSamples + 1;
   std::vector<Triangle> triangles;
   size_t number = 0;
   for (size_t i = 0; i < scene.instances.size(); i++) {

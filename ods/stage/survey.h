@@ -40,7 +40,7 @@ static_assert(has_every_member(kTakenForTable));
 
 // The position of a viewer's eyes, metres: height above the floor, and minimum distance from all surfaces.
 inline constexpr float kEyeHeight = 1.6f;
-inline constexpr float kLeastEyeHeight = 1.0f;  // under a low ceiling
+inline constexpr float kMinEyeHeight = 1.0f;  // under a low ceiling
 inline constexpr float kElbowRoom = 0.6f;
 
 // A place with a larger fraction of the upper directions blocked is a closed room.

@@ -82,7 +82,7 @@ void put_on_table(Scene& scene, int table, const dvec3& middle) {
 }  // namespace
 
 void turn_object(Scene& scene, vec3 middle, double turns, double seconds, double end) {
-  assert(seconds > 0.0 && std::abs(turns) / seconds * end <= kMostTurns);
+  assert(seconds > 0.0 && std::abs(turns) / seconds * end <= kMaxTurns);
   if (turns == 0.0) return;
   Animation& animation = scene.animation;
   const int table = add_table(animation, dvec3(middle));

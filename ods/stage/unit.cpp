@@ -88,7 +88,7 @@ UnitGuess model(const SceneRays& rays, Survey own) {
   const float size = distance_to_see(rays.scene(), own.core);
   const bool fits = size >= kSmallestObject && size <= kLargestObject;
   if (fits || size <= 0.0f) return {1.0f, "", std::move(own)};
-  const float exact = std::clamp(kModelSize / size, kLeastUnit, kMostUnit);
+  const float exact = std::clamp(kModelSize / size, kMinUnit, kMaxUnit);
   const float metres = std::strtof(fmt::format("{:.3g}", exact).c_str(), nullptr);  // so that users can repeat it
   const float longest = extent(own.core);
   const std::string what =
@@ -136,7 +136,7 @@ UnitGuess guess_unit(const SceneRays& rays, bool shows_models, TakenFor taken_fo
 }
 
 void scale_scene(Scene& scene, float factor) {
-  assert(factor >= kLeastUnit && factor <= kMostUnit && scene.animation.playing.empty());
+  assert(factor >= kMinUnit && factor <= kMaxUnit && scene.animation.playing.empty());
   if (factor == 1.0f) return;
   const Bounds bounds = scene_bounds(scene);
   const vec3 reach = max(glm::abs(bounds.low), glm::abs(bounds.high)) * factor;

@@ -36,8 +36,8 @@ static_assert(has_every_member(kUnitTable));
 const UnitRow* unit_of(float metres);
 
 // The range of metres per unit.
-inline constexpr float kLeastUnit = 1e-6f;
-inline constexpr float kMostUnit = 1e6f;
+inline constexpr float kMinUnit = 1e-6f;
+inline constexpr float kMaxUnit = 1e6f;
 
 // Limits between plausible sizes and wrong units, metres.
 inline constexpr float kSmallestPlace = 0.05f;   // size of a whole room: even a doll's house is larger
@@ -68,8 +68,8 @@ UnitGuess guess_unit(const SceneRays& rays, bool shows_models = true, TakenFor t
 // Multiplies all lengths of a scene: instances, lights and their range, view points, volumes, and animated values. The
 // picture does not change, except that the eyes are smaller or larger: the power of point and spot lights is multiplied
 // by the square of the factor, so that they light their surroundings as before; directional lights, emission and
-// environment do not depend on lengths. Leaves the scene at rest, at time 0. Precondition: kLeastUnit <= factor <=
-// kMostUnit, and no clip plays.
+// environment do not depend on lengths. Leaves the scene at rest, at time 0. Precondition: kMinUnit <= factor <=
+// kMaxUnit, and no clip plays.
 // Throws Error(kInput) if the scene would extend further than kFarthest (ods/scene/placement.h).
 void scale_scene(Scene& scene, float factor);
 

@@ -13,7 +13,7 @@ namespace ods {
 
 namespace {
 
-constexpr size_t kLeastInstances = 8;
+constexpr size_t kMinInstances = 8;
 constexpr float kSlack = 0.01f;  // relative to the scene's height: tolerance for equal heights
 
 // The lowest floor along an axis and the objects on it.
@@ -45,15 +45,15 @@ std::pair<float, float> common_height(const std::vector<Bounds>& boxes, int axis
   std::vector<float> lows;
   for (const Bounds& box : boxes) lows.push_back(box.low[axis]);
   std::ranges::sort(lows);
-  size_t most = 0, first = 0;
+  size_t maximum = 0, first = 0;
   float height = 0.0f;
   for (size_t last = 0; last < lows.size(); last++) {
     while (lows[last] - lows[first] > slack) first++;
-    if (last - first + 1 <= most) continue;
-    most = last - first + 1;
+    if (last - first + 1 <= maximum) continue;
+    maximum = last - first + 1;
     height = lows[last];
   }
-  return {height, static_cast<float>(most) / static_cast<float>(lows.size())};
+  return {height, static_cast<float>(maximum) / static_cast<float>(lows.size())};
 }
 
 float floor_area(const Scene& scene, int axis, float height, float slack) {
@@ -86,14 +86,14 @@ Ground ground_along(const Scene& scene, const std::vector<Bounds>& boxes, const 
 }  // namespace
 
 bool lies_on_its_back(const Scene& scene) {
-  constexpr float kMost = 0.5f, kFew = 0.2f, kFloor = 0.5f;
+  constexpr float kMax = 0.5f, kFew = 0.2f, kFloor = 0.5f;
   constexpr int kY = 1, kZ = 2;
   if (scene.generator.find("Blender") != std::string::npos) return false;
   const std::vector<Bounds> boxes = boxes_of(scene);
-  if (boxes.size() < kLeastInstances) return false;
+  if (boxes.size() < kMinInstances) return false;
   const Bounds bounds = scene_bounds(scene);
   const Ground z = ground_along(scene, boxes, bounds, kZ);
-  if (z.standing < kMost || z.floor < kFloor) return false;
+  if (z.standing < kMax || z.floor < kFloor) return false;
   return ground_along(scene, boxes, bounds, kY).standing < kFew;
 }
 

@@ -101,7 +101,7 @@ std::string mark_in_file(const std::string& text) {
 }
 
 std::string mark_difference(const std::string& mark, const std::string& expected) {
-  constexpr size_t kMaxSaid = 5, kLongest = 64;
+  constexpr size_t kMaxReported = 5, kLongest = 64;
   if (mark == expected) return "";
   const std::string version = value_of(mark, "ods-rig");
   if (version.empty() || value_of(mark, "views").empty()) return "the mark is damaged";
@@ -121,7 +121,7 @@ std::string mark_difference(const std::string& mark, const std::string& expected
     if (value_of(expected, name).empty()) compare(name);
   }
   if (parts.empty()) return "the views have other positions or directions";
-  const size_t more = parts.size() - std::min(parts.size(), kMaxSaid);
+  const size_t more = parts.size() - std::min(parts.size(), kMaxReported);
   parts.resize(parts.size() - more);
   return fmt::format("{}{}", fmt::join(parts, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
 }

@@ -58,14 +58,14 @@ struct Batch {
 struct RowSums {
   int left = 0;
   int right = 0;
-  std::vector<float> sums;   // per pixel and channel
-  std::vector<float> whole;  // per pixel: the sum of the views' weights
-  std::vector<float> most;   // per pixel: the largest weight; its view gives the channels that are not averaged
+  std::vector<float> sums;     // per pixel and channel
+  std::vector<float> whole;    // per pixel: the sum of the views' weights
+  std::vector<float> maximum;  // per pixel: the largest weight; its view gives the channels that are not averaged
 
   void start(int from, int to, size_t channels) {
     const size_t count = static_cast<size_t>(to - from);
     left = from, right = to;
-    sums.assign(count * channels, 0.0f), whole.assign(count, 0.0f), most.assign(count, 0.0f);
+    sums.assign(count * channels, 0.0f), whole.assign(count, 0.0f), maximum.assign(count, 0.0f);
   }
 };
 
@@ -314,15 +314,15 @@ std::vector<Part> Stitcher::parts_of(const Batch& batch) const {
 // Adds one view's contribution to a row of a batch.
 void Stitcher::add_part(const Part& part, const float* seen, float share, RowSums& row) const {
   const size_t channels = layers_.channels, from = static_cast<size_t>(part.left - row.left);
-  float *sums = &row.sums[from * channels], *whole = &row.whole[from], *most = &row.most[from];
+  float *sums = &row.sums[from * channels], *whole = &row.whole[from], *maximum = &row.maximum[from];
   for (size_t i = 0; i < part.channel_weights.size(); i++) sums[i] += share * part.channel_weights[i] * seen[i];
   for (size_t i = 0; i < part.weights.size(); i++) whole[i] += share * part.weights[i];
   if (layers_.first_nearest == channels) return;
   for (const float in_slit : part.weights) {
     for (size_t c = layers_.first_nearest; c < channels; c++) {
-      if (layers_.is_nearest[c] && share * in_slit > *most) sums[c] = seen[c];
+      if (layers_.is_nearest[c] && share * in_slit > *maximum) sums[c] = seen[c];
     }
-    *most = std::max(*most, share * in_slit), most++;
+    *maximum = std::max(*maximum, share * in_slit), maximum++;
     seen += channels, sums += channels;
   }
 }

@@ -43,9 +43,9 @@ static_assert(kSteps[kFirstOfPatch].is_patch);
 constexpr size_t kFirstCached = 5;
 constexpr int kCachePaths = 1 << 18;
 
-constexpr float kScreen = 1280.0f;      // pixels across a view
-constexpr float kMostOfPatch = 0.8e6f;  // maximum pixels of an eye
-constexpr float kLookMargin = 1.15f;    // the patch is larger than the view, so that it covers small turns
+constexpr float kScreen = 1280.0f;        // pixels across a view
+constexpr float kMaxPatchShare = 0.8e6f;  // maximum pixels of an eye
+constexpr float kLookMargin = 1.15f;      // the patch is larger than the view, so that it covers small turns
 
 // A picture that is refined step by step.
 struct Canvas {
@@ -156,7 +156,7 @@ Extent patch_extent(const StereoCamera& patch) {
   const vec2 longitude = patch.projection.longitude, latitude = patch.projection.latitude;
   const float width = longitude.y - longitude.x, height = latitude.y - latitude.x;
   const float wanted = kScreen * kLookMargin / std::min(width, height * 2.0f);  // pixels per degree
-  const float per_degree = std::min(wanted, std::sqrt(kMostOfPatch / (width * height)));
+  const float per_degree = std::min(wanted, std::sqrt(kMaxPatchShare / (width * height)));
   const auto pixels = [&](float degrees) { return std::max(static_cast<int>(degrees * per_degree), 1); };
   return {pixels(width), pixels(height)};
 }

@@ -199,7 +199,7 @@ static void put_beside(const AVFrame& left, const AVFrame& right, AVFrame& both)
 
 // --- decoding --------------------------------------------------------------------------------------------------------
 
-static std::vector<std::string> unkept_words(const AVFrame& frame) {
+static std::vector<std::string> dropped_metadata(const AVFrame& frame) {
   constexpr std::pair<AVFrameSideDataType, const char*> kKinds[] = {
       {AV_FRAME_DATA_A53_CC, "closed captions in the pictures (CEA-608, CEA-708)"},
       {AV_FRAME_DATA_DYNAMIC_HDR_PLUS, "HDR10+ words in the pictures"},
@@ -405,7 +405,7 @@ std::optional<DecodedFrame> VideoDecoder::next() {
   state.check(*frame);
   DecodedFrame result;
   result.time = state.last = state.time_of(*frame);
-  if (state.count == 0) state.stream.unkept = unkept_words(*frame);
+  if (state.count == 0) state.stream.unkept = dropped_metadata(*frame);
   if (state.count++ == 0 && !state.has_skipped)
     state.stream.start = static_cast<double>(result.time.start) / state.ticks();
   if (state.stream.is_turned) frame = upright(*frame);

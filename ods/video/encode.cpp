@@ -197,14 +197,14 @@ static void set_threads(AVCodecContext& context, const EncoderFacts& facts, cons
 // SVT-AV1. Units of the first two: 1/50,000 of a chromaticity and 1/10,000 of a candela per square metre.
 namespace {
 
-struct LightWords {
+struct LightMetadata {
   std::string display, level;  // empty if unspecified
 };
 
 }  // namespace
 
-static LightWords light_words(const ColorWords& words, bool in_units) {
-  LightWords result;
+static LightMetadata light_metadata(const ColorWords& words, bool in_units) {
+  LightMetadata result;
   AVMasteringDisplayMetadata display;
   if (words.mastering_display.size() == sizeof display) {
     std::memcpy(&display, words.mastering_display.data(), sizeof display);
@@ -227,7 +227,7 @@ static LightWords light_words(const ColorWords& words, bool in_units) {
 }
 
 // ":NAME=VALUE" for each existing value.
-static std::string light_options(const LightWords& light, std::string_view display, std::string_view level) {
+static std::string light_options(const LightMetadata& light, std::string_view display, std::string_view level) {
   std::string text;
   if (!light.display.empty()) text += fmt::format(":{}={}", display, light.display);
   if (!light.level.empty()) text += fmt::format(":{}={}", level, light.level);
@@ -235,9 +235,9 @@ static std::string light_options(const LightWords& light, std::string_view displ
 }
 
 static std::string light_options(std::string_view encoder, const ColorWords& words) {
-  if (encoder == "libx264") return light_options(light_words(words, true), "mastering-display", "cll");
-  if (encoder == "libx265") return light_options(light_words(words, true), "master-display", "max-cll");
-  if (encoder == "libsvtav1") return light_options(light_words(words, false), "mastering-display", "content-light");
+  if (encoder == "libx264") return light_options(light_metadata(words, true), "mastering-display", "cll");
+  if (encoder == "libx265") return light_options(light_metadata(words, true), "master-display", "max-cll");
+  if (encoder == "libsvtav1") return light_options(light_metadata(words, false), "mastering-display", "content-light");
   return "";
 }
 
@@ -250,7 +250,7 @@ static bool has_avx512() {
 #endif
 }
 
-static void set_own_words(AVCodecContext& context, const EncoderFacts& facts, const EncodeOptions& options) {
+static void set_codec_options(AVCodecContext& context, const EncoderFacts& facts, const EncodeOptions& options) {
   const std::string_view name = facts.name;
   const Extent size{context.width, context.height};
   const std::string light = light_options(name, options.words);
@@ -290,7 +290,7 @@ static Owned<AVCodecContext> open_encoder(Extent size, const EncodeOptions& opti
   set_groups(*context, options);
   set_quality(*context, facts, options);
   set_threads(*context, facts, options);
-  set_own_words(*context, facts, options);
+  set_codec_options(*context, facts, options);
   checked(avcodec_open2(context.get(), codec, nullptr), ErrorKind::kUsage,
           fmt::format("{} cannot encode {}x{} pixels of {} bits, {}", facts.name, size.width, size.height,
                       options.packing.bits, chroma_name(options.packing.chroma)));

@@ -89,7 +89,7 @@ static void set_orientation(StereoCamera& stereo, const SphericalMetadata& metad
 }
 
 // Sets the metadata of a lat-long that covers the directions of these meshes.
-static void say_lat_long(SphericalMetadata& metadata, const std::vector<TextureMesh>& eyes, Layout layout) {
+static void set_lat_long(SphericalMetadata& metadata, const std::vector<TextureMesh>& eyes, Layout layout) {
   const bool is_half = std::all_of(eyes.begin(), eyes.end(), is_front_half);
   set_projection(metadata, find_projection(is_half ? "vr180" : "lat-long")->setting);
   metadata.stereo = layout == Layout::kSeparate ? VideoStereo::kOneView : video_stereo(layout);
@@ -105,7 +105,7 @@ static void take_mesh(VideoInput& video, const VideoTrack& track) {
     if (!meshes.fits_checksum)
       notes.emplace_back("the checksum of its mesh does not match: another program changed it");
     for (const TextureMesh& eye : eyes.eyes) video.prototype.maps.push_back(make_map(eye));
-    say_lat_long(video.metadata, eyes.eyes, eyes.layout);
+    set_lat_long(video.metadata, eyes.eyes, eyes.layout);
     notes.push_back(fmt::format("it has its camera's lenses as a mesh ({} triangles)", eyes.eyes[0].triangles.size()));
   } catch (const MalformedFile& fault) {
     if (!track.v1 || track.v1->projection != VideoProjection::kEquirect) {
@@ -171,11 +171,11 @@ static uint16_t code16(float code) {
 
 static uint16_t alpha16(const DecodedFrame& frame, int x, int y) {
   const std::byte* row = frame.alpha + static_cast<size_t>(y) * frame.alpha_stride;
-  const int bits = frame.planes.bits, most = (1 << bits) - 1;
+  const int bits = frame.planes.bits, maximum = (1 << bits) - 1;
   if (bits == 8) return static_cast<uint16_t>(static_cast<int>(row[x]) * 257);
   uint16_t value;
   std::memcpy(&value, row + 2 * static_cast<size_t>(x), sizeof(value));
-  return static_cast<uint16_t>((std::min<int>(value, most) * 65535 + most / 2) / most);
+  return static_cast<uint16_t>((std::min<int>(value, maximum) * 65535 + maximum / 2) / maximum);
 }
 
 StoredPicture picture_of(const VideoInput& video, const VideoStream& stream, const DecodedFrame& frame) {

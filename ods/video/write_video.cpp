@@ -129,7 +129,7 @@ static OtherTags other_tags(const EncodeOptions& options, Container container) {
   return tags;
 }
 
-static void tell_lost_tags(const KeepOptions& keep, const std::string& made) {
+static void report_lost_tags(const KeepOptions& keep, const std::string& made) {
   if (!keep.tell) return;
   for (const std::string& tag : lost_tags(keep, made)) keep.tell(fmt::format("{} has no place in the new file", tag));
 }
@@ -149,7 +149,7 @@ WrittenVideo write_video(const NewVideo& video, const std::function<std::optiona
   const VideoFile made = read_video_file(untagged.temporary());
   written.tags =
       tag_video(untagged.temporary(), path, choose_track(made, {}, path).id, metadata, other_tags(options, container));
-  tell_lost_tags(options.keep, path);
+  report_lost_tags(options.keep, path);
   parts.remove();
   return written;
 }

@@ -41,7 +41,7 @@ struct Weights {
 struct Scale {
   float luma_zero, luma, chroma_zero, chroma;  // at 8 bits
   float unit;                                  // one step of 8 bits, in codes of this bit depth
-  float most;                                  // maximum code
+  float maximum;                               // maximum code
 };
 
 // The chroma of several rows, before rounding.
@@ -64,9 +64,9 @@ static Weights weights_of(YcbcrMatrix matrix) {
 }
 
 static Scale scale_of(int bits, bool has_full_range) {
-  const float unit = static_cast<float>(1 << (bits - 8)), most = static_cast<float>((1 << bits) - 1);
-  if (has_full_range) return {0.0f, most / unit, 128.0f, most / unit, unit, most};
-  return {16.0f, 219.0f, 128.0f, 224.0f, unit, most};
+  const float unit = static_cast<float>(1 << (bits - 8)), maximum = static_cast<float>((1 << bits) - 1);
+  if (has_full_range) return {0.0f, maximum / unit, 128.0f, maximum / unit, unit, maximum};
+  return {16.0f, 219.0f, 128.0f, 224.0f, unit, maximum};
 }
 
 template <typename T>
@@ -77,7 +77,7 @@ ODS_WIDE static void put_row(std::span<const float> row, const Weights& weights,
   for (size_t x = 0; x < width; x++) {
     const float luma = weights.red * red[x] + weights.green * green[x] + weights.blue * blue[x];
     const float number = (scale.luma_zero + scale.luma * luma) * scale.unit + 0.5f;
-    out[x] = static_cast<T>(std::clamp(number, 0.0f, scale.most));
+    out[x] = static_cast<T>(std::clamp(number, 0.0f, scale.maximum));
     color.cb[x] += (blue[x] - luma) * (share / (2.0f * (1.0f - weights.blue)));
     color.cr[x] += (red[x] - luma) * (share / (2.0f * (1.0f - weights.red)));
   }
@@ -87,7 +87,7 @@ template <typename T>
 ODS_WIDE static void put_color(const std::vector<float>& color, const Scale& scale, int step, T* out) {
   const auto code = [&](float value) {
     const float number = (scale.chroma_zero + scale.chroma * value) * scale.unit + 0.5f;
-    return static_cast<T>(std::clamp(number, 0.0f, scale.most));
+    return static_cast<T>(std::clamp(number, 0.0f, scale.maximum));
   };
   if (step == 1) {
     for (size_t x = 0; x < color.size(); x++) out[x] = code(color[x]);
@@ -107,9 +107,9 @@ static void put_blocks(const CodeBands& bands, Extent size, const Planes& planes
   const auto row_of = [&](size_t plane, int y) {
     return reinterpret_cast<T*>(planes.first[plane] + static_cast<size_t>(y) * planes.stride[plane]);
   };
-  tbb::parallel_for(0, (size.height + kMostCodeRows - 1) / kMostCodeRows, [&](int band) {
+  tbb::parallel_for(0, (size.height + kMaxCodeRows - 1) / kMaxCodeRows, [&](int band) {
     const size_t width = static_cast<size_t>(size.width);
-    const int top = band * kMostCodeRows, count = std::min(kMostCodeRows, size.height - top);
+    const int top = band * kMaxCodeRows, count = std::min(kMaxCodeRows, size.height - top);
     thread_local std::vector<float> rows;
     thread_local Color color;
     rows.resize(3 * width * static_cast<size_t>(count));

@@ -59,8 +59,8 @@ struct ColorCode {
 // range of the codes. Precondition: `size` is a multiple of the chroma block.
 void put_ycbcr(const CodeRows& rows, Extent size, const Planes& planes, const ColorCode& color = {});
 
-// Converts several rows at once, at most kMostCodeRows: `rows` are laid out as in CodeRows, one after the other.
-constexpr int kMostCodeRows = 16;
+// Converts several rows at once, at most kMaxCodeRows: `rows` are laid out as in CodeRows, one after the other.
+constexpr int kMaxCodeRows = 16;
 using CodeBands = std::function<void(int y, int count, std::span<float> rows)>;
 void put_ycbcr_bands(const CodeBands& bands, Extent size, const Planes& planes, const ColorCode& color = {});
 

@@ -16,27 +16,27 @@ namespace ods {
 namespace {
 
 // Bytes, but of hotspots their number.
-constexpr size_t kMostNotes = 256 << 10;
-constexpr size_t kMostSubtitles = 2 << 20;
-constexpr size_t kMostHotspots = 200;
-constexpr size_t kMostCaption = 400;
-constexpr size_t kMostTitle = 100;
-constexpr size_t kMostText = 1000;
+constexpr size_t kMaxNotes = 256 << 10;
+constexpr size_t kMaxSubtitles = 2 << 20;
+constexpr size_t kMaxHotspots = 200;
+constexpr size_t kMaxCaption = 400;
+constexpr size_t kMaxTitle = 100;
+constexpr size_t kMaxText = 1000;
 
 // The file with another extension beside a file, and its contents; empty if there is none.
-std::string text_beside(const std::string& path, const char* end, size_t most, std::string& name) {
+std::string text_beside(const std::string& path, const char* end, size_t maximum, std::string& name) {
   name = std::filesystem::path(path).replace_extension(end).native();
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(name, ignored)) return "";
-  const std::vector<unsigned char> bytes = read_file(name, most);
+  const std::vector<unsigned char> bytes = read_file(name, maximum);
   return {bytes.begin(), bytes.end()};
 }
 
-std::string text_of(JsonReader& reader, const std::string& key, size_t most, bool is_needed) {
+std::string text_of(JsonReader& reader, const std::string& key, size_t maximum, bool is_needed) {
   const Json* const found = reader.find(key);
   if (!found && !is_needed) return "";
-  if (!found || !found->is_string() || found->get_ref<const std::string&>().size() > most) {
-    reader.fail(key, fmt::format("must be text of at most {} bytes", most));
+  if (!found || !found->is_string() || found->get_ref<const std::string&>().size() > maximum) {
+    reader.fail(key, fmt::format("must be text of at most {} bytes", maximum));
   }
   return found->get<std::string>();
 }
@@ -45,32 +45,32 @@ std::string text_of(JsonReader& reader, const std::string& key, size_t most, boo
 
 Notes read_notes(const std::string& picture) {
   std::string name;
-  const std::string text = text_beside(picture, ".notes.json", kMostNotes, name);
+  const std::string text = text_beside(picture, ".notes.json", kMaxNotes, name);
   Notes notes;
   if (text.empty()) return notes;
   const Json json = parse_json(text, name, "notes");
   std::vector<std::string> warnings;
   JsonReader reader(json, name, "notes", "", warnings);
-  notes.caption = text_of(reader, "caption", kMostCaption, false);
+  notes.caption = text_of(reader, "caption", kMaxCaption, false);
   const Json* const list = reader.find("hotspots");
   if (!list) return notes;
-  if (!list->is_array() || list->size() > kMostHotspots) {
-    reader.fail("hotspots", fmt::format("must be a list of at most {}", kMostHotspots));
+  if (!list->is_array() || list->size() > kMaxHotspots) {
+    reader.fail("hotspots", fmt::format("must be a list of at most {}", kMaxHotspots));
   }
   for (const Json& each : *list) {
     JsonReader entry(each, name, "notes", fmt::format("hotspots.{}", notes.hotspots.size()), warnings);
     Hotspot& hotspot = notes.hotspots.emplace_back();
     entry.number("yaw", hotspot.yaw, -360.0f, 360.0f);
     entry.number("pitch", hotspot.pitch, -90.0f, 90.0f);
-    hotspot.title = text_of(entry, "title", kMostTitle, true);
-    hotspot.text = text_of(entry, "text", kMostText, false);
+    hotspot.title = text_of(entry, "title", kMaxTitle, true);
+    hotspot.text = text_of(entry, "text", kMaxText, false);
   }
   return notes;
 }
 
 std::string read_subtitles(const std::string& video) {
   std::string name;
-  const std::string text = valid_utf8(text_beside(video, ".vtt", kMostSubtitles, name));
+  const std::string text = valid_utf8(text_beside(video, ".vtt", kMaxSubtitles, name));
   if (text.empty()) return "";
   const size_t at = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
   if (text.compare(at, 6, "WEBVTT") != 0) {

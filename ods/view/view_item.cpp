@@ -290,16 +290,16 @@ std::string thumbnail_jpeg(const ViewItem& item) {
                       eye_part(item.picture.layout, static_cast<int>(item.picture.eyes.size()), 0));
   }
   EyeOptions options;
-  options.most_wide = kThumbnailWidth;
+  options.max_width = kThumbnailWidth;
   return eye_jpeg(open_shown(item), item.picture.eyes[0].eye, options);
 }
 
 std::string eye_jpeg(const StoredPicture& picture, int eye, const EyeOptions& options) {
   ConvertTarget target = same_format(picture);
   target.eyes = {eye};
-  if (options.most_wide > 0 && target.eye.width > options.most_wide) {
-    target.eye.height = std::max(target.eye.height * options.most_wide / target.eye.width, 1);
-    target.eye.width = options.most_wide;
+  if (options.max_width > 0 && target.eye.width > options.max_width) {
+    target.eye.height = std::max(target.eye.height * options.max_width / target.eye.width, 1);
+    target.eye.width = options.max_width;
   }
   return jpeg_of(picture, target, options);
 }

@@ -70,7 +70,7 @@ std::string light_png(const StoredPicture& picture);
 struct EyeOptions {
   float exposure = 0.0f;  // stops, and with the tone curve only for scene-linear pictures
   ToneCurve tone = ToneCurve::kNeutral;
-  int most_wide = 0;  // pixels; 0: the picture's width
+  int max_width = 0;  // pixels; 0: the picture's width
 };
 
 // Returns one eye (kLeft, kRight, kMono) as a JPEG. Precondition: the picture has its pixels. Throws Error(kUsage) if

@@ -130,7 +130,7 @@ TEST_P(OutOfMemory, SavingAndOpeningPictures) {
     SCOPED_TRACE(name);
     const TemporaryFolder folder;
     const std::string path = folder.path(name);
-    const size_t least = name == "a.exr" ? kLibraries : 0;
+    const size_t minimum = name == "a.exr" ? kLibraries : 0;
     const auto save = [&] {
       std::filesystem::remove(path);
       try {
@@ -141,10 +141,10 @@ TEST_P(OutOfMemory, SavingAndOpeningPictures) {
         throw;
       }
     };
-    EXPECT_GT(survive(save, GetParam(), least), 0);
+    EXPECT_GT(survive(save, GetParam(), minimum), 0);
     save();
-    EXPECT_GT(survive([&] { read_image(path); }, GetParam(), least), 0);
-    EXPECT_GT(survive([&] { open_picture(path); }, GetParam(), least), 0);
+    EXPECT_GT(survive([&] { read_image(path); }, GetParam(), minimum), 0);
+    EXPECT_GT(survive([&] { open_picture(path); }, GetParam(), minimum), 0);
   }
 }
 

@@ -41,8 +41,8 @@ TEST(TerminalText, HasNothingThatMovesATerminal) {
 }
 
 TEST(LibraryWords, AreOneLineOfText) {
-  EXPECT_EQ(library_words("bad\nchannel \"\x80R\"\n"), "bad channel \"\xef\xbf\xbdR\"");
-  EXPECT_THROW(library_words("std::bad_alloc"), std::bad_alloc);
+  EXPECT_EQ(library_message("bad\nchannel \"\x80R\"\n"), "bad channel \"\xef\xbf\xbdR\"");
+  EXPECT_THROW(library_message("std::bad_alloc"), std::bad_alloc);
 }
 
 }  // namespace

@@ -95,10 +95,10 @@ TEST(CameraFields, EveryFieldHasItsOwnPlacesAndARange) {
   for (const CameraFieldRow& row : camera_fields()) {
     EXPECT_TRUE(names.insert(row.name).second) << row.name;
     EXPECT_TRUE(places.insert(row.place).second) << row.name;
-    EXPECT_LT(row.range.least, row.range.most) << row.name;
+    EXPECT_LT(row.range.minimum, row.range.maximum) << row.name;
     EXPECT_FALSE(row.numbers(camera).empty()) << row.name;
     for (const float number : values_of(camera, row)) EXPECT_TRUE(row.range.contains(number));
-    for (const float beyond : {row.range.least - 1.0f, row.range.most * 1.01f, std::nanf("")}) {
+    for (const float beyond : {row.range.minimum - 1.0f, row.range.maximum * 1.01f, std::nanf("")}) {
       StereoCamera bad = full_rig(lens);
       *row.numbers(bad)[0] = beyond;
       EXPECT_NE(camera_fault(bad).find(row.name), std::string::npos) << camera_fault(bad);
@@ -154,17 +154,17 @@ TEST(CameraFields, ExtremesComeBack) {
     const CameraField field = row.member;
     int legal[2] = {0, 0};
     for (const NamedProjection& named : named_projections()) {
-      for (const bool most : {false, true}) {
+      for (const bool maximum : {false, true}) {
         StereoCamera camera = full_rig(named.setting);
         const std::vector<float*> numbers = row.numbers(camera);
         if (numbers.empty()) continue;
-        *numbers.back() = most ? row.range.most : row.range.least;
+        *numbers.back() = maximum ? row.range.maximum : row.range.minimum;
         if (field == kLongitude) camera.projection.longitude.x = camera.projection.longitude.y - 300.0f;
-        if (field == kLongitude && !most) camera.projection.longitude += 300.0f;
-        if (field == kLatitude && !most) std::swap(camera.projection.latitude.x, camera.projection.latitude.y);
+        if (field == kLongitude && !maximum) camera.projection.longitude += 300.0f;
+        if (field == kLatitude && !maximum) std::swap(camera.projection.latitude.x, camera.projection.latitude.y);
         if (!camera_fault(camera).empty()) continue;
         SCOPED_TRACE(std::string(row.name) + " " + std::string(named.name));
-        legal[most ? 1 : 0]++;
+        legal[maximum ? 1 : 0]++;
         expect_round_trips(camera);
       }
     }
@@ -199,7 +199,7 @@ TEST(CameraFields, RandomCamerasComeBack) {
         if (dice.next() < 0.5f) continue;
         // Near either end as often as anywhere.
         const float share = dice.next(), power = dice.next() < 0.5f ? 1.0f : 6.0f;
-        *number = range.least + (range.most - range.least) * std::pow(share, power);
+        *number = range.minimum + (range.maximum - range.minimum) * std::pow(share, power);
       }
     }
     camera.top.mode = any_closed_merge(dice);  // but for maps, which only a sidecar holds

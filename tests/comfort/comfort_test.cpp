@@ -142,22 +142,22 @@ TEST(Comfort, TheMergeOfAVideoIsSteady) {
   }
   const SteadyMerge merge(looks, kStep);
   ASSERT_TRUE(merge.varies());
-  float least = 1.0f, most = 0.0f;
+  float minimum = 1.0f, maximum = 0.0f;
   for (int i = 0; i < kPictures; i++) {
     const auto map = merge.at(i), next = merge.at(i + 1);
     for (size_t k = 0; k < map->pixels.size(); k++) {
       EXPECT_LE(std::abs(map->pixels[k] - next->pixels[k]), 1.0f / (17 * kStep) + 0.001f) << i;
-      EXPECT_GE(map->pixels[k], merge.least().pixels[k]);
+      EXPECT_GE(map->pixels[k], merge.minimum().pixels[k]);
     }
-    least = std::min(least, map->pixels[0]), most = std::max(most, map->pixels[0]);
+    minimum = std::min(minimum, map->pixels[0]), maximum = std::max(maximum, map->pixels[0]);
     if (i % 10 != 0) continue;
     StereoCamera merged;
     use_merge_map(merged, *map);
     const ComfortVerdict report = judge_comfort(see(merged, kLeft, things_at(i), 256));
     EXPECT_LE(report.max[Strain::kVertical], double{kLimit}) << i;
   }
-  EXPECT_LT(least, 0.5f);
-  EXPECT_EQ(most, 1.0f);
+  EXPECT_LT(minimum, 0.5f);
+  EXPECT_EQ(maximum, 1.0f);
   // One look is for all.
   const SteadyMerge still({looks[0]}, 1);
   EXPECT_FALSE(still.varies());

@@ -105,7 +105,7 @@ TEST_F(ComfortVideo, AStillCameraCarriesNobody) {
 // However long it is, so many frames are looked at.
 TEST_F(ComfortVideo, TheNumberOfFramesIsBounded) {
   VideoComfortOptions options;
-  options.most_moments = 8;
+  options.max_moments = 8;
   EXPECT_EQ(judge_video(make(20, 20, 0.0f, 0.0f), options).moments.size(), 8u);
 }
 

@@ -273,18 +273,18 @@ TEST(LayCover, LeavesNumbersThatItDoesNotCover) {
         for (int y = 0; y < bench.rows(i); y++) {
           for (int x = 0; x < bench.columns(i); x++) {
             // The alphas of the pixels that count.
-            float least = 1.0f, most = 0.0f;
+            float minimum = 1.0f, maximum = 0.0f;
             const int width = i == 0 ? 1 : block.width, height = i == 0 ? 1 : block.height;
             for (int py = y * height; py < (y + 1) * height; py++) {
               for (int px = std::max(0, x * width - (width == 2)); px < (x + 1) * width; px++) {
                 const float alpha = alpha_at(px, py % kEye.height);
-                least = std::min(least, alpha), most = std::max(most, alpha);
+                minimum = std::min(minimum, alpha), maximum = std::max(maximum, alpha);
               }
             }
             const int before = Bench::get(bench.frame.planes, i, x, y), after = Bench::get(to->planes(), i, x, y);
             const int white = (i == 0 ? 235 : 128) << (bits - 8);
-            if (most == 0.0f || least == 1.0f) {
-              ASSERT_EQ(after, most == 0.0f ? before : white)
+            if (maximum == 0.0f || minimum == 1.0f) {
+              ASSERT_EQ(after, maximum == 0.0f ? before : white)
                   << bits << chroma_name(chroma) << i << ' ' << x << ' ' << y;
             }
           }

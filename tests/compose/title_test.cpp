@@ -178,13 +178,13 @@ double cpu_seconds() {
 // A line that goes all around covers few rows; the others do not cost more than the rows of a single word.
 TEST(Title, ALongLineCostsWhatItCovers) {
   const auto seconds = [](const std::string& text) {
-    double least = std::numeric_limits<double>::max();
+    double minimum = std::numeric_limits<double>::max();
     for (int i = 0; i < 3; i++) {  // the first loads fonts
       const double start = cpu_seconds();
       draw(StereoCamera(), {}, kLeft, text);
-      least = std::min(least, cpu_seconds() - start);
+      minimum = std::min(minimum, cpu_seconds() - start);
     }
-    return least;
+    return minimum;
   };
   EXPECT_LT(seconds(std::string(100, 'W')), 4.0 * seconds("WWWW"));
 }
@@ -210,14 +210,14 @@ TEST(Title, IsMultipliedByItsAlpha) {
   setting.color = vec3(0.5f, 1.0f, 2.0f);
   setting.opacity = 0.25f;
   const Pixels pixels = draw(StereoCamera(), setting, kLeft);
-  float most = 0.0f;
+  float maximum = 0.0f;
   for (size_t i = 0; i < pixels.rows.size(); i += 5) {
     const float* pixel = &pixels.rows[i];
-    most = std::max(most, pixel[3]);
+    maximum = std::max(maximum, pixel[3]);
     EXPECT_FLOAT_EQ(pixel[0], 0.5f * pixel[3]);
     EXPECT_FLOAT_EQ(pixel[2], 2.0f * pixel[3]);
   }
-  EXPECT_NEAR(most, 0.25f, 1e-3f);
+  EXPECT_NEAR(maximum, 0.25f, 1e-3f);
 }
 
 TEST(Title, ComfortGoesWithTheEyes) {

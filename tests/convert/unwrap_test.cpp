@@ -60,7 +60,7 @@ MadePicture picture_of(const std::vector<FisheyeLens>& lenses, Extent eye, const
 
 // The largest and the usual difference to the world, where a direction is `near` at least from every rim.
 struct Error2 {
-  double most = 0.0, mean = 0.0;
+  double maximum = 0.0, mean = 0.0;
 };
 Error2 error_of(const StoredPicture& picture, const ConvertTarget& target, const Waves& waves) {
   const Conversion conversion = convert(picture, target);
@@ -77,7 +77,7 @@ Error2 error_of(const StoredPicture& picture, const ConvertTarget& target, const
       const vec3 d = look_of(projection, uv, uv).direction;
       if (target.eyes[0] != kMono && d.z > -0.15f) continue;  // a circle's rim
       const double off = std::abs(static_cast<double>(row[channels * static_cast<size_t>(x)] - waves(d)));
-      error.most = std::max(error.most, off), error.mean += off, count++;
+      error.maximum = std::max(error.maximum, off), error.mean += off, count++;
     }
   }
   error.mean /= count;
@@ -107,7 +107,7 @@ TEST(StoredLenses, CirclesOffTheMiddleAreUnwrappedExactly) {
     const double density = pixels_per_radian(curve_of(left), 2.0 * 131.0);  // in the lens's middle
     EXPECT_NEAR(target.eye.width, density * std::acos(-1.0), 4.0);
     const Error2 error = error_of(made.picture, target, waves);
-    EXPECT_LT(error.most, 0.03) << kind;
+    EXPECT_LT(error.maximum, 0.03) << kind;
     EXPECT_LT(error.mean, 0.003) << kind;
     EXPECT_EQ(unwrapped(made.picture).eyes.size(), 2u);
     EXPECT_TRUE(unwrapped(made.picture).maps.empty());
@@ -148,7 +148,7 @@ TEST(StoredLenses, FrontAndBackBecomeOneSphere) {
     EXPECT_TRUE(is_full_lat_long(target.camera.projection));
     EXPECT_NEAR(target.eye.width, 138.0 * 720.0 / 200.0, 6.0);
     const Error2 error = error_of(made.picture, target, waves);
-    EXPECT_LT(error.most, 0.05) << roll << ": everywhere, at the seam and at the poles";
+    EXPECT_LT(error.maximum, 0.05) << roll << ": everywhere, at the seam and at the poles";
     EXPECT_LT(error.mean, 0.004) << roll;
   }
 }

@@ -160,17 +160,17 @@ double light_of(const EyeImage& eye) {
 
 // The largest difference between a pixel and the mean of the eight around it.
 float roughest(const EyeImage& eye) {
-  float most = 0.0f;
+  float maximum = 0.0f;
   for (int y = 1; y + 1 < eye.radiance.height; y++) {
     for (int x = 1; x + 1 < eye.radiance.width; x++) {
       float ring = 0.0f;
       for (int i = 0; i < 9; i++) {
         if (i != 4) ring += 0.125f * eye.radiance.at(x + i % 3 - 1, y + i / 3 - 1)[0];
       }
-      most = std::max(most, std::abs(eye.radiance.at(x, y)[0] - ring));
+      maximum = std::max(maximum, std::abs(eye.radiance.at(x, y)[0] - ring));
     }
   }
-  return most;
+  return maximum;
 }
 
 // Neither a lattice nor a blotch, but a faint glow, with all the light; also beside another firefly, at the seam, and
@@ -248,16 +248,16 @@ TEST(Denoise, TheSilhouetteOfALampIsNotRepeated) {
     }
   }
   denoise(picture, {});
-  float most = 0.0f;
+  float maximum = 0.0f;
   for (const EyeImage& eye : picture.eyes) {
     for (int y = 0; y < kWidth / 2; y++) {
       for (int x = 0; x < kWidth; x++) {
         const bool is_far = x < 46 || x > 74 || y < 21 || y >= 44;
-        if (is_far) most = std::max(most, eye.radiance.at(x, y)[0]);
+        if (is_far) maximum = std::max(maximum, eye.radiance.at(x, y)[0]);
       }
     }
   }
-  EXPECT_LT(most, 0.04f);
+  EXPECT_LT(maximum, 0.04f);
 }
 
 // All samples are bright: that is not a firefly, however small the lamp.

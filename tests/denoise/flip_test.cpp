@@ -22,8 +22,9 @@ Image filled(float r, float g, float b) {
 TEST(Flip, PlainPicturesDifferByTheirColours) {
   EXPECT_NEAR(flip_error(filled(0.0f, 1.0f, 0.0f), filled(0.0f, 0.0f, 1.0f)), 1.0, 1e-3);
   EXPECT_EQ(flip_error(filled(0.3f, 0.4f, 0.5f), filled(0.3f, 0.4f, 0.5f)), 0.0);
-  const float most = std::pow(flip::distance_of(flip::perceived(vec3(0, 1, 0)), flip::perceived(vec3(0, 0, 1))), 0.7f);
-  const float white = std::pow(100.0f, 0.7f) / most;
+  const float maximum =
+      std::pow(flip::distance_of(flip::perceived(vec3(0, 1, 0)), flip::perceived(vec3(0, 0, 1))), 0.7f);
+  const float white = std::pow(100.0f, 0.7f) / maximum;
   EXPECT_NEAR(flip_error(filled(0, 0, 0), filled(1, 1, 1)), 0.95f + (white - 0.4f) / 0.6f * 0.05f, 2e-3f);
 }
 

@@ -230,14 +230,14 @@ TEST(CameraFormula, EyesThatShareNoPictureAreANumberAway) {
 
 // When every function called whatever it needed, a fisheye took 1124 operations and a cube map 813.
 TEST(CameraFormula, PovrayComputesEveryStepOnce) {
-  for (const auto& [projection, most] :
+  for (const auto& [projection, maximum] :
        {std::pair("fisheye", 250), std::pair("lat-long", 80), std::pair("cube-3x2", 300)}) {
     Sidecar file;
     file.layout = Layout::kSideBySide;
     file.camera.projection = find_projection(projection)->setting;
     file.camera.top.mode = file.camera.bottom.mode = kMergeCosine;
     const TextCamera text = TextCamera::from_povray(export_camera(file, CameraTarget::kPovray).text);
-    EXPECT_LT(text.operations(0.1, 0.2), most) << projection;
+    EXPECT_LT(text.operations(0.1, 0.2), maximum) << projection;
     EXPECT_GT(text.operations(0.1, 0.2), 40) << projection;
   }
 }
@@ -250,7 +250,7 @@ TEST(CameraFormula, WhatIsNoFormulaIsRefused) {
   file.camera.head_tilt_map = std::make_shared<Image>(2, 1, 1);
   for (const CameraTarget target :
        {CameraTarget::kPovray, CameraTarget::kOsl, CameraTarget::kGlsl, CameraTarget::kHlsl, CameraTarget::kPython}) {
-    EXPECT_NE(export_camera(file, target).refusal.find("a head-tilt map is no formula"), std::string::npos);
+    EXPECT_NE(export_camera(file, target).refusal.find("a head-tilt map is not a formula"), std::string::npos);
   }
   EXPECT_EQ(export_camera(file, CameraTarget::kPovrayFork).refusal, "the fork has no head-tilt map");
   file.camera.head_tilt_map = nullptr;

@@ -32,8 +32,8 @@ FarmPlan example() {
 TEST(Plan, ATaskIsACommandLine) {
   const FarmPlan plan = example();
   const std::vector<std::string> third = {"ods", "video", "/disk/a scene.glb", "-o", "/disk/film.mp4", "--only", "3/7"};
-  EXPECT_EQ(task_words(plan, plan.groups[0], 3), third);
-  EXPECT_EQ(task_words(plan, plan.groups[1], 1), std::vector<std::string>(third.begin(), third.end() - 2));
+  EXPECT_EQ(task_arguments(plan, plan.groups[0], 3), third);
+  EXPECT_EQ(task_arguments(plan, plan.groups[1], 1), std::vector<std::string>(third.begin(), third.end() - 2));
 }
 
 TEST(Plan, ComesBackFromItsFile) {
@@ -104,7 +104,7 @@ TEST(Plan, FramesBesideATasksOwnCostAtMostAQuarter) {
   for (const double seconds : {0.001, 6.0, 3600.0, 1e6}) {
     for (size_t frames = 1; frames < 500; frames++) {
       const int chunk = suitable_chunk(seconds, frames, 1);
-      EXPECT_LE(halo_cost(1, tasks_for(frames, chunk), frames), kMostHaloCost) << seconds << " " << frames;
+      EXPECT_LE(halo_cost(1, tasks_for(frames, chunk), frames), kMaxHaloCost) << seconds << " " << frames;
     }
   }
 }
@@ -117,8 +117,8 @@ TEST(Plan, FramesAreRenderedFirstWhereRenderingTwiceCostsMore) {
   EXPECT_FALSE(raw_first_is_cheaper(60.0, 48, 1, gigabyte / 10)) << "a task of ten minutes has ten of them";
   EXPECT_FALSE(raw_first_is_cheaper(2.0, 10'000, 1, gigabyte / 100)) << "long tasks have few frames beside them";
   EXPECT_FALSE(raw_first_is_cheaper(600.0, 48, 0, 1)) << "nothing is rendered twice";
-  EXPECT_EQ(least_chunk(1), 8);
-  EXPECT_EQ(least_chunk(0), 1);
+  EXPECT_EQ(min_chunk(1), 8);
+  EXPECT_EQ(min_chunk(0), 1);
 }
 
 TEST(Plan, TasksHoldAllFrames) {

@@ -46,7 +46,7 @@ TEST_F(Schedulers, FlamencoCompilesToTheSameTasks) {
     std::vector<std::string> words = {command["parameters"]["exe"]};
     for (const std::string word : command["parameters"]["args"]) words.push_back(word);
     const bool last = i == 12;
-    EXPECT_EQ(words, task_words(plan, plan.groups[last ? 1 : 0], last ? 1 : static_cast<int>(i) + 1));
+    EXPECT_EQ(words, task_arguments(plan, plan.groups[last ? 1 : 0], last ? 1 : static_cast<int>(i) + 1));
     EXPECT_EQ(tasks[i]["after"], last ? json(names) : json::array());
     names.push_back(tasks[i]["name"]);
   }

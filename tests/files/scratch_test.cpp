@@ -34,9 +34,9 @@ std::byte pattern(size_t i) {
 TEST(Scratch, KeepsWhatIsWrittenWhereverItLies) {
   const TemporaryFolder folder;
   const size_t size = 100001;
-  for (size_t most : {size_t{0}, size}) {
-    const Scratch scratch(size, folder.path(""), most);
-    EXPECT_EQ(scratch.on_disk(), most == 0);
+  for (size_t maximum : {size_t{0}, size}) {
+    const Scratch scratch(size, folder.path(""), maximum);
+    EXPECT_EQ(scratch.on_disk(), maximum == 0);
     EXPECT_EQ(scratch.size(), size);
     EXPECT_EQ(scratch.data()[size - 1], std::byte{0});
     for (size_t i = 0; i < size; i++) scratch.data()[i] = pattern(i);

@@ -177,9 +177,9 @@ TEST(LayersFurnace, FilmsCreateNothing) {
           m.layers.iridescence = 1.0f;
           m.layers.film = {1.33f, thickness};
           const glm::dvec3 white = whiteness(kernel, m, viewer(cosine));
-          const double most = std::max({white.x, white.y, white.z});
-          EXPECT_LT(most, 1.01) << roughness << " " << thickness << " " << cosine << " " << transmission;
-          EXPECT_GT(most, 0.975) << roughness << " " << thickness << " " << cosine << " " << transmission;
+          const double maximum = std::max({white.x, white.y, white.z});
+          EXPECT_LT(maximum, 1.01) << roughness << " " << thickness << " " << cosine << " " << transmission;
+          EXPECT_GT(maximum, 0.975) << roughness << " " << thickness << " " << cosine << " " << transmission;
           EXPECT_GT(std::min({white.x, white.y, white.z}), 0.2);
         }
       }

@@ -16,13 +16,13 @@
 #include <set>
 
 #include "ods/base/error.h"
+#include "ods/compose/testcard.h"
 #include "ods/files/atomic_file.h"
 #include "ods/image/image_file.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/save.h"
 #include "ods/render/cpu/render.h"
 #include "ods/scene/builtin/builtin.h"
-#include "ods/testcard/testcard.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods::lint_test {
@@ -343,8 +343,8 @@ TEST_P(LintScene, IsSilentAboutOtherCameras) {
   save_picture(toed_in, studio.camera, options, folder.path("unsaid.png"));
   // If much is farther than that metre, headsets show things for which eyes must diverge.
   for (const Finding& finding : lint(folder.path("unsaid.png")).findings) {
-    const bool is_told = finding.certainty >= kSure && severity_of(finding.fault) == Severity::kFault;
-    EXPECT_TRUE(!is_told || finding.fault == Fault::kEyesDiverge) << fault_name(finding.fault);
+    const bool is_known = finding.certainty >= kSure && severity_of(finding.fault) == Severity::kFault;
+    EXPECT_TRUE(!is_known || finding.fault == Fault::kEyesDiverge) << fault_name(finding.fault);
   }
   options.sidecar = true;
   save_picture(toed_in, studio.camera, options, folder.path("said.png"));

@@ -178,12 +178,12 @@ class Peers : public ::testing::Test {
   }
 
   // Each eye against ods render's, and against its other eye: were they crossed, that would be seen.
-  void compare(const char* peer, double least = 0.985) const {
+  void compare(const char* peer, double minimum = 0.985) const {
     for (const auto& [eye, other] : {std::pair("left", "right"), std::pair("right", "left")}) {
       const std::string stitched = fmt::format("stitched_{}.exr", eye);
       const double same = overlap(stitched, fmt::format("ours_{}.exr", eye));
       std::printf("%s, %s eye: silhouettes IoU %.4f\n", peer, eye, same);
-      EXPECT_GE(same, least);
+      EXPECT_GE(same, minimum);
       EXPECT_LT(overlap(stitched, fmt::format("ours_{}.exr", other)), 0.95);
     }
   }

@@ -482,7 +482,7 @@ TEST(OpenPicture, ALargePictureIsNeverInMemory) {
     const size_t before = peak();
     OpenOptions options;
     options.scratch_folder = folder.path("");
-    options.most_in_memory = 1 << 20;
+    options.max_in_memory = 1 << 20;
     const StoredPicture picture = open_picture(folder.path(name), options);
     save_picture(same_rows(picture), nullptr, options_for(Layout::kTopBottom), folder.path(std::string("b_") + name));
     const size_t pixels = size_t{side} * side * 3 * bytes_of(picture.eyes[0].layers[0].sample);

@@ -25,7 +25,7 @@ TEST(SamplingPlan, LatLongSharesFollowTheCosine) {
   const StereoCamera camera;
   const RenderOptions options = options_of(camera, 1024, 64);
   const SamplingPlan plan = make_plan(camera, options);
-  double least = 1.0;
+  double minimum = 1.0;
   const int rows = options.height / kBlockSize;
   for (int row = 0; row < rows; row++) {
     const auto cosine = [&](int i) { return std::sin(std::numbers::pi * (i + 0.5) / rows); };
@@ -33,10 +33,10 @@ TEST(SamplingPlan, LatLongSharesFollowTheCosine) {
     for (int column : {0, plan.columns / 3, plan.columns - 1}) {
       const double found = double{plan.share[static_cast<size_t>(row * plan.columns + column)]};
       EXPECT_NEAR(found, share, 1e-5) << row;
-      least = std::min(least, found);
+      minimum = std::min(minimum, found);
     }
   }
-  EXPECT_NEAR(least, 0.35, 1e-6);
+  EXPECT_NEAR(minimum, 0.35, 1e-6);
 }
 
 // Equal areas have equal solid angles: every block has all samples.
@@ -52,14 +52,14 @@ TEST(SamplingPlan, EveryPixelHasASampleAndTheLargestHaveAll) {
     StereoCamera camera;
     camera.projection = named.setting;
     const SamplingPlan plan = make_plan(camera, options_of(camera, 240, 64));
-    int most = 0;
+    int maximum = 0;
     for (size_t block = 0; block < plan.share.size(); block++) {
       ASSERT_EQ(samples_of(plan, block, 0), 0) << named.name;
       ASSERT_GE(samples_of(plan, block, 1), 1) << named.name;
       ASSERT_LE(samples_of(plan, block, 64), 64) << named.name;
-      most = std::max(most, samples_of(plan, block, 64));
+      maximum = std::max(maximum, samples_of(plan, block, 64));
     }
-    EXPECT_EQ(most, 64) << named.name;
+    EXPECT_EQ(maximum, 64) << named.name;
   }
 }
 

@@ -32,7 +32,7 @@ void expect_good(const Scene& scene, const ViewPoint& view, bool has_floor, cons
   const std::optional<float> floor = floor_below(rays, view.position);
   ASSERT_TRUE(floor) << what;
   EXPECT_LE(view.position.y - *floor, kEyeHeight + 0.01f) << what;
-  EXPECT_GE(view.position.y - *floor, kLeastEyeHeight - 0.01f) << what;
+  EXPECT_GE(view.position.y - *floor, kMinEyeHeight - 0.01f) << what;
 }
 
 TEST(Place, TheViewerStandsOnTheFloorInFreeSpace) {

@@ -75,7 +75,7 @@ TEST(SlitError, NoPointIsOffByMoreAndSomeAreByHalf) {
     std::uniform_real_distribution<float> any(-1.0f, 1.0f);
     for (const float distance : {0.4f, 1.0f, 5.0f}) {
       for (const float elevation : {0.0f, 0.3f, 0.7f, 1.2f, 1.5f, -0.5f}) {
-        double most = 0.0;
+        double maximum = 0.0;
         float bound = 0.0f;
         for (int i = 0; i < 400; i++) {
           const float theta = any(random) * kPi;
@@ -86,10 +86,10 @@ TEST(SlitError, NoPointIsOffByMoreAndSomeAreByHalf) {
           const Off off = off_at(rig, static_cast<size_t>(i % 2), point);
           bound = slit_error(rig, off.latitude, off.distance).whole;
           EXPECT_LE(off.angle, bound) << distance << " " << elevation;
-          most = std::max(most, off.angle);
+          maximum = std::max(maximum, off.angle);
         }
-        if (most > 0.0) {  // else all were within the circle
-          EXPECT_GE(most, 0.5f * bound) << distance << " m, " << elevation;
+        if (maximum > 0.0) {  // else all were within the circle
+          EXPECT_GE(maximum, 0.5f * bound) << distance << " m, " << elevation;
         }
       }
     }

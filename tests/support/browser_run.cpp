@@ -24,7 +24,7 @@ std::string run_in_browser(const BrowserRun& run) {
   std::string end;
   WebOptions options;
   options.secret = "secret";
-  options.most_body = size_t{16} << 20;
+  options.max_body = size_t{16} << 20;
   HttpServer server(options, [&](const WebRequest& request) -> WebAnswer {
     if (request.path != "done") return run.answer(request);
     const std::lock_guard lock(mutex);

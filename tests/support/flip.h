@@ -95,11 +95,11 @@ inline float distance_of(vec3 a, vec3 b) {  // HyAB
 // Converts a distance of colours to 0..1.
 inline float colour_error(float distance) {
   constexpr float kPower = 0.7f, kLow = 0.4f, kLowShare = 0.95f;
-  const float most =
+  const float maximum =
       std::pow(distance_of(perceived(vec3(0.0f, 1.0f, 0.0f)), perceived(vec3(0.0f, 0.0f, 1.0f))), kPower);
-  const float error = std::pow(distance, kPower), low = kLow * most;
+  const float error = std::pow(distance, kPower), low = kLow * maximum;
   return error < low ? kLowShare / low * error
-                     : std::min(kLowShare + (error - low) / (most - low) * (1.0f - kLowShare), 1.0f);
+                     : std::min(kLowShare + (error - low) / (maximum - low) * (1.0f - kLowShare), 1.0f);
 }
 
 struct Seen {

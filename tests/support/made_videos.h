@@ -215,11 +215,11 @@ inline std::string element(uint64_t id, const std::string& body, int width = 1) 
 }
 
 struct MatroskaOptions {
-  size_t room = 0;            // bytes of a Void after the tracks
-  bool cues_first = false;    // before the clusters
-  bool says_position = true;  // every cluster contains its position
-  bool endless = false;       // the segment has an unknown size
-  std::string video;          // in the Video element
+  size_t room = 0;               // bytes of a Void after the tracks
+  bool cues_first = false;       // before the clusters
+  bool records_position = true;  // every cluster contains its position
+  bool endless = false;          // the segment has an unknown size
+  std::string video;             // in the Video element
   std::string tags;
   int width = 256, height = 256;
 };
@@ -237,7 +237,7 @@ inline std::string matroska(const MatroskaOptions& options) {
   const std::string tags = options.tags.empty() ? "" : element(0x1254c367, options.tags);
   const auto cluster = [&](int chunk, uint64_t at) {
     return element(0x1f43b675, element(0xe7, number(static_cast<uint64_t>(40 * chunk), 1)) +
-                                   (options.says_position ? element(0xa7, number(at, 1)) : "") +
+                                   (options.records_position ? element(0xa7, number(at, 1)) : "") +
                                    element(0xa3, std::string("\x81\0\0\x80", 4) + word(1, chunk)));
   };
   const auto cues = [&](uint64_t first, uint64_t second) {

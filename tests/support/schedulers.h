@@ -78,7 +78,7 @@ class Schedulers : public ::testing::Test {
 
   TemporaryFolder folder;
   FarmPlan plan;
-  SchedulerWishes wishes;
+  SchedulerChoices wishes;
 };
 
 }  // namespace ods

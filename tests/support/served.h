@@ -134,7 +134,7 @@ class Served : public Cli {
   template <class Work>
   long leaked_by(const Work& work) const {
     constexpr int rounds = 4, times = 20;
-    long least = std::numeric_limits<long>::max(), before = 0;
+    long minimum = std::numeric_limits<long>::max(), before = 0;
     for (int round = 0; round < rounds; round++) {
       long now = std::numeric_limits<long>::max();
       for (int i = 0; i < times; i++) {
@@ -142,10 +142,10 @@ class Served : public Cli {
         now = std::min(now, resident());
       }
       EXPECT_GT(now, 0);
-      if (round > 0) least = std::min(least, now - before);
+      if (round > 0) minimum = std::min(minimum, now - before);
       before = now;
     }
-    return least / times;
+    return minimum / times;
   }
 
   std::optional<Ods> server;

@@ -149,7 +149,7 @@ inline Tagged tagged_matroska(const std::string& title, int width, int height, c
   options.width = width;
   options.height = height;
   options.room = 3000;
-  options.says_position = false;
+  options.records_position = false;
   options.video = video;
   return {title, "video.mkv", made::matroska(options), {}};
 }

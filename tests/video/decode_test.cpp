@@ -124,12 +124,12 @@ TEST_F(Decode, ARampComesBack) {
         Footage video(make("ramp.mkv", {VideoCodec::kH264, bits, chroma, 4}), {});
         const std::optional<StoredPicture> back = video.picture(0);
         ASSERT_TRUE(back);
-        const double most = colored && bits == 8 ? 2.5 : 1.5;  // 8 bits of blue are 2.1 codes apart
+        const double maximum = colored && bits == 8 ? 2.5 : 1.5;  // 8 bits of blue are 2.1 codes apart
         for (int field = 0; field < 32; field++) {
           const vec3 expected = colored ? color(field) : grey(field);
           for (size_t c = 0; c < 3; c++) {
             EXPECT_NEAR(code_at(*back, 0, field % 8 * 16 + 8, field / 8 * 16 + 8, c),
-                        static_cast<double>(expected[static_cast<int>(c)]), most)
+                        static_cast<double>(expected[static_cast<int>(c)]), maximum)
                 << field << ' ' << c;
           }
         }

@@ -55,13 +55,13 @@ TEST_F(Beside, TooMuchIsRefused) {
   EXPECT_NE(fault(spots(201, R"({"title": "a"})")).find("hotspots must be a list of at most 200"), std::string::npos);
   EXPECT_NE(fault(spots(1, R"({"text": "a"})")).find("hotspots.0.title must be text"), std::string::npos);
   EXPECT_NE(fault(spots(1, R"({"title": "a", "pitch": 91})")).find("hotspots.0.pitch"), std::string::npos);
-  for (const auto& [key, most] : {std::pair{"title", 100}, {"text", 1000}}) {
+  for (const auto& [key, maximum] : {std::pair{"title", 100}, {"text", 1000}}) {
     const auto with = [&](int count) {
       const std::string text(static_cast<size_t>(count), 'x'), other = key == std::string("text") ? "title" : "text";
       return spots(1, fmt::format(R"({{"{}": "{}", "{}": "a"}})", key, text, other));
     };
-    EXPECT_EQ(fault(with(most)), "") << key;
-    EXPECT_NE(fault(with(most + 1)).find(fmt::format("at most {} bytes", most)), std::string::npos) << key;
+    EXPECT_EQ(fault(with(maximum)), "") << key;
+    EXPECT_NE(fault(with(maximum + 1)).find(fmt::format("at most {} bytes", maximum)), std::string::npos) << key;
   }
   EXPECT_NE(fault(R"({"caption": ")" + std::string(401, 'x') + "\"}").find("at most 400 bytes"), std::string::npos);
   EXPECT_NE(fault(R"({"caption": 5})").find("caption must be text"), std::string::npos);

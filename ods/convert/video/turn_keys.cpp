@@ -49,18 +49,18 @@ static std::optional<TurnKey> parse_key(const std::vector<std::string>& words) {
   return TurnKey{*time, {angles[0], angles[1], angles[2]}};
 }
 
-constexpr size_t kMostBytes = 16 << 20;
+constexpr size_t kMaxBytes = 16 << 20;
 
 std::vector<TurnKey> read_turn_keys(const std::string& path) {
-  const std::vector<unsigned char> bytes = read_file(path, kMostBytes);
+  const std::vector<unsigned char> bytes = read_file(path, kMaxBytes);
   std::istringstream lines(std::string(bytes.begin(), bytes.end()));
   std::vector<TurnKey> keys;
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     number++;
-    std::istringstream words_of_line(line.substr(0, line.find('#')));
+    std::istringstream fields_of_line(line.substr(0, line.find('#')));
     std::vector<std::string> words;
-    for (std::string word; words_of_line >> word;) words.push_back(word);
+    for (std::string word; fields_of_line >> word;) words.push_back(word);
     if (words.empty()) continue;
     const std::optional<TurnKey> key = parse_key(words);
     if (!key || (!keys.empty() && key->seconds <= keys.back().seconds)) {

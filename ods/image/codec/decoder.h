@@ -54,8 +54,8 @@ class Decoder {
 // detects the format from the file's first bytes.
 std::unique_ptr<Decoder> open_decoder(const PictureBytes& file);
 std::unique_ptr<Decoder> open_png(const PictureBytes& file);
-// least_wide: decodes it at a smaller size, but not narrower than this; 0 for full size.
-std::unique_ptr<Decoder> open_jpeg(const PictureBytes& file, int least_wide = 0);
+// min_width: decodes it at a smaller size, but not narrower than this; 0 for full size.
+std::unique_ptr<Decoder> open_jpeg(const PictureBytes& file, int min_width = 0);
 std::unique_ptr<Decoder> open_tiff(const PictureBytes& file);
 std::unique_ptr<Decoder> open_webp(const PictureBytes& file);
 std::unique_ptr<Decoder> open_hdr(const PictureBytes& file);

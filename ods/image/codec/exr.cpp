@@ -61,7 +61,7 @@ auto guarded(const Calls& calls, const MakeError& make) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& exception) {
-    throw make(library_words(exception.what()));
+    throw make(library_message(exception.what()));
   }
 }
 

@@ -21,15 +21,15 @@ namespace {
 // --- undoing ZIP's preprocessing ------------------------------------------------------------------------------------
 
 // A SIMD register. Both g++ and clang support this attribute.
-using Bytes = uint8_t __attribute__((vector_size(16)));
+using Lanes = uint8_t __attribute__((vector_size(16)));
 
 // Every byte is stored as its difference from the previous one, plus 128.
 void add_up(uint8_t* bytes, size_t count) {
-  const Bytes zero{}, offset = zero + uint8_t{128};
-  Bytes before = offset;
+  const Lanes zero{}, offset = zero + uint8_t{128};
+  Lanes before = offset;
   size_t i = 0;
-  for (; i + sizeof(Bytes) <= count; i += sizeof(Bytes)) {
-    Bytes sum;
+  for (; i + sizeof(Lanes) <= count; i += sizeof(Lanes)) {
+    Lanes sum;
     std::memcpy(&sum, bytes + i, sizeof sum);
     sum += offset;
     sum += __builtin_shufflevector(zero, sum, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30);
@@ -43,7 +43,7 @@ void add_up(uint8_t* bytes, size_t count) {
   for (uint8_t last = before[0]; i < count; i++) bytes[i] = last = static_cast<uint8_t>(bytes[i] + last + 128);
 }
 
-// Bytes at even positions are stored before those at odd ones.
+// Lanes at even positions are stored before those at odd ones.
 void interleave(const uint8_t* bytes, size_t count, uint8_t* to) {
   const uint8_t *even = bytes, *odd = bytes + (count + 1) / 2;
   for (size_t i = 0; i < count / 2; i++) to[2 * i] = even[i], to[2 * i + 1] = odd[i];
@@ -79,7 +79,7 @@ exr_result_t unpack_zip(exr_decode_pipeline_t* decode) {
 
 // --- files ----------------------------------------------------------------------------------------------------------
 
-void say_nothing(exr_const_context_t, exr_result_t, const char*) {}
+void ignore_message(exr_const_context_t, exr_result_t, const char*) {}
 
 constexpr int64_t kWidest = int64_t{1} << 20;
 constexpr uint64_t kLargestChunk = uint64_t{1} << 28;  // bytes, unpacked
@@ -144,7 +144,7 @@ std::unique_ptr<ExrRows> ExrRows::open(const std::string& path, const std::vecto
   auto state = std::make_unique<State>();
   state->path = path;
   exr_context_initializer_t options = EXR_DEFAULT_CONTEXT_INITIALIZER;
-  options.error_handler_fn = say_nothing;
+  options.error_handler_fn = ignore_message;
   if (exr_start_read(&state->file, path.c_str(), &options) != EXR_ERR_SUCCESS) return nullptr;
   exr_storage_t storage;
   exr_compression_t packing;

@@ -234,10 +234,10 @@ std::unique_ptr<Decoder> open_hdr(const PictureBytes& file) {
 namespace {
 
 void put_pixel(const float* light, uint8_t* to) {
-  constexpr float kLeast = 1e-32f, kMost = 1e38f;  // range of the shared exponent
+  constexpr float kMin = 1e-32f, kMax = 1e38f;  // range of the shared exponent
   float values[3], largest = 0.0f;
-  for (size_t c = 0; c < 3; c++) largest = std::max(largest, values[c] = finite(light[c], 0.0f, kMost));
-  if (largest < kLeast) return void(std::memset(to, 0, kPixel));
+  for (size_t c = 0; c < 3; c++) largest = std::max(largest, values[c] = finite(light[c], 0.0f, kMax));
+  if (largest < kMin) return void(std::memset(to, 0, kPixel));
   int exponent = 0;
   const float scale = std::frexp(largest, &exponent) * 256.0f / largest;
   for (size_t c = 0; c < 3; c++) to[c] = static_cast<uint8_t>(values[c] * scale);
@@ -246,7 +246,7 @@ void put_pixel(const float* light, uint8_t* to) {
 
 // Packs one component of a row: runs of at least four equal bytes, and the bytes between them.
 void pack_component(const uint8_t* row, size_t length, std::vector<uint8_t>& to) {
-  constexpr size_t kShortestRun = 4, kLongestRun = 127, kMostBytes = 128;
+  constexpr size_t kShortestRun = 4, kLongestRun = 127, kMaxBytes = 128;
   const auto run_at = [&](size_t x) {
     size_t end = x + 1;
     while (end < length && end - x < kLongestRun && row[end * kPixel] == row[x * kPixel]) end++;
@@ -257,7 +257,7 @@ void pack_component(const uint8_t* row, size_t length, std::vector<uint8_t>& to)
     while (end < length && (run = run_at(end)) < kShortestRun) end += run;
     if (end >= length) run = 0;
     while (x < end) {
-      const size_t count = std::min(end - x, kMostBytes);
+      const size_t count = std::min(end - x, kMaxBytes);
       to.push_back(static_cast<uint8_t>(count));
       for (const size_t stop = x + count; x < stop; x++) to.push_back(row[x * kPixel]);
     }

@@ -80,7 +80,7 @@ HeifDecoder::HeifDecoder(const PictureBytes& file, int view) : name_(file.name),
   info.channels = {"R", "G", "B"};
   if (heif_image_handle_has_alpha_channel(handle)) info.channels.emplace_back("A");
   bits_ = heif_image_handle_get_luma_bits_per_pixel(handle);
-  if (bits_ < 1 || bits_ > 16) throw cannot_read(name_, "the HEIF does not say how many bits its pixels have");
+  if (bits_ < 1 || bits_ > 16) throw cannot_read(name_, "the HEIF does not record the bit depth of its pixels");
   info.samples.assign(info.channels.size(), bits_ > 8 ? SampleType::kUint16 : SampleType::kUint8);
   info.is_pair = items.pair.size() == 2;
   if (items.fov > 0.0f) info.numbers["heif:fov"] = {items.fov};
@@ -128,7 +128,7 @@ void HeifDecoder::decode() {
 void HeifDecoder::read(int begin, int end, size_t first, size_t count, std::byte* to) {
   if (!image_) decode();
   const size_t channels = info.channels.size(), width = static_cast<size_t>(info.width);
-  const uint32_t most = (1u << bits_) - 1;
+  const uint32_t maximum = (1u << bits_) - 1;
   for (int y = begin; y < end; y++) {
     const uint8_t* row = pixels_ + static_cast<size_t>(y) * stride_;
     for (size_t x = 0; x < width; x++) {
@@ -138,8 +138,8 @@ void HeifDecoder::read(int begin, int end, size_t first, size_t count, std::byte
           *to++ = static_cast<std::byte>(*at);
           continue;
         }
-        const uint32_t code = std::min(static_cast<uint32_t>(at[0] | at[1] << 8), most);
-        const auto wide = static_cast<uint16_t>((code * 65535u + most / 2) / most);
+        const uint32_t code = std::min(static_cast<uint32_t>(at[0] | at[1] << 8), maximum);
+        const auto wide = static_cast<uint16_t>((code * 65535u + maximum / 2) / maximum);
         std::memcpy(to, &wide, sizeof wide);
         to += sizeof wide;
       }

@@ -69,16 +69,16 @@ static FileFormat format_of(const PictureBytes& file) {
                       "it is a video; ods convert VIDEO -o 'x.####.png' makes pictures of it; ods "
                       "probe, lint, inject, view and over take videos, too");
   }
-  throw cannot_read(file.name, fmt::format("it is none of {}{}", readable_extensions(), taken_by(start)));
+  throw cannot_read(file.name, fmt::format("it is not one of {}{}", readable_extensions(), taken_by(start)));
 }
 
 static std::unique_ptr<Decoder> open_decoder(const PictureBytes& file, FileFormat format, int view = 0,
-                                             int least_wide = 0) {
+                                             int min_width = 0) {
   switch (format) {
     case FileFormat::kPng:
       return open_png(file);
     case FileFormat::kJpeg:
-      return open_jpeg(file, least_wide);
+      return open_jpeg(file, min_width);
     case FileFormat::kTiff:
       return open_tiff(file);
     case FileFormat::kWebp:
@@ -106,10 +106,10 @@ struct Opened {
 
 }  // namespace
 
-static Opened open(const std::string& path, int view = 0, int least_wide = 0) {
+static Opened open(const std::string& path, int view = 0, int min_width = 0) {
   const PictureBytes file = picture_on_disk(path);
   const FileFormat format = format_of(file);
-  Opened opened{open_decoder(file, format, view, least_wide), {}};
+  Opened opened{open_decoder(file, format, view, min_width), {}};
   if (format == FileFormat::kJpeg || format == FileFormat::kTiff) {
     opened.decoder = turned(std::move(opened.decoder), orientation_of(FileInput(path)));
   }
@@ -137,8 +137,8 @@ static void each_row(Decoder& decoder, size_t first, size_t count, const Take& t
 
 // Channels of a file, by their indices and in their order, as floats.
 static Image read_floats(Decoder& decoder, const std::vector<size_t>& channels) {
-  const auto [least, most] = std::minmax_element(channels.begin(), channels.end());
-  const size_t first = *least, count = *most - first + 1;
+  const auto [minimum, maximum] = std::minmax_element(channels.begin(), channels.end());
+  const size_t first = *minimum, count = *maximum - first + 1;
   std::vector<size_t> offsets{0};  // offsets of the channels, from the first on
   for (size_t c = first; c < first + count; c++) offsets.push_back(offsets.back() + bytes_of(decoder.info.samples[c]));
   Image image(decoder.info.width, decoder.info.height, static_cast<int>(channels.size()));
@@ -222,7 +222,7 @@ namespace {
 
 class FileRows final : public RowReader {
  public:
-  FileRows(const std::string& path, int view, int least_wide = 0);
+  FileRows(const std::string& path, int view, int min_width = 0);
   const FileInfo& info() const override { return info_; }
   const ColorSpace& color_space() const override { return color_; }
   void widen() override;
@@ -241,8 +241,8 @@ class FileRows final : public RowReader {
   std::vector<std::byte> narrow_;         // 8-bit integers that become 16-bit ones
 };
 
-FileRows::FileRows(const std::string& path, int view, int least_wide) {
-  Opened opened = open(path, view, least_wide);
+FileRows::FileRows(const std::string& path, int view, int min_width) {
+  Opened opened = open(path, view, min_width);
   decoder_ = std::move(opened.decoder);
   color_ = opened.color;
   info_ = decoder_->info;
@@ -277,8 +277,8 @@ std::unique_ptr<RowReader> open_rows(const std::string& path, int view) {
   return std::make_unique<FileRows>(path, view);
 }
 
-std::unique_ptr<RowReader> open_small_rows(const std::string& path, int least_wide) {
-  return std::make_unique<FileRows>(path, 0, least_wide);
+std::unique_ptr<RowReader> open_small_rows(const std::string& path, int min_width) {
+  return std::make_unique<FileRows>(path, 0, min_width);
 }
 
 }  // namespace ods

@@ -15,7 +15,7 @@
 namespace ods {
 
 Error cannot_write(const ByteSink& sink, const std::string& why) {
-  return Error(ErrorKind::kOutput, fmt::format("cannot write '{}': {}", sink.path(), library_words(why)));
+  return Error(ErrorKind::kOutput, fmt::format("cannot write '{}': {}", sink.path(), library_message(why)));
 }
 
 size_t bytes_of_pixel(const FileHeader& header) {

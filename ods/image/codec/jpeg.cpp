@@ -90,7 +90,7 @@ struct JpegReading : jpeg_decompress_struct {
 
 class JpegDecoder final : public Decoder {
  public:
-  JpegDecoder(const PictureBytes& file, int least_wide) : file_(file), least_wide_(least_wide), input_(file_) {
+  JpegDecoder(const PictureBytes& file, int min_width) : file_(file), min_width_(min_width), input_(file_) {
     start();
     read_header();
   }
@@ -99,10 +99,10 @@ class JpegDecoder final : public Decoder {
  private:
   void start();
   void read_header();
-  Error failed() const { return cannot_read(file_.name, library_words(fault_.words)); }
+  Error failed() const { return cannot_read(file_.name, library_message(fault_.words)); }
 
   PictureBytes file_;
-  int least_wide_;  // 0 for full size
+  int min_width_;  // 0 for full size
   JpegInput input_;
   JpegFault fault_;
   JpegReading jpeg_;
@@ -122,10 +122,10 @@ void JpegDecoder::start() {
     jpeg_read_header(&jpeg_, TRUE);
     const bool is_ink = jpeg_.jpeg_color_space == JCS_CMYK || jpeg_.jpeg_color_space == JCS_YCCK;
     if (is_ink) jpeg_.out_color_space = JCS_CMYK;
-    if (least_wide_ > 0) {
+    if (min_width_ > 0) {
       // libjpeg scales by eighths directly from the coefficients of the blocks, which avoids nearly all of its work.
       jpeg_.scale_num = 1, jpeg_.scale_denom = 8;
-      while (jpeg_.scale_num < 8 && jpeg_.image_width * jpeg_.scale_num / 8 < static_cast<JDIMENSION>(least_wide_)) {
+      while (jpeg_.scale_num < 8 && jpeg_.image_width * jpeg_.scale_num / 8 < static_cast<JDIMENSION>(min_width_)) {
         jpeg_.scale_num *= 2;
       }
       jpeg_.do_fancy_upsampling = FALSE;
@@ -176,9 +176,9 @@ void JpegDecoder::read(int begin, int end, size_t first, size_t count, std::byte
 }  // namespace
 
 // libjpeg fills missing data with grey, and only warns.
-std::unique_ptr<Decoder> open_jpeg(const PictureBytes& file, int least_wide) {
+std::unique_ptr<Decoder> open_jpeg(const PictureBytes& file, int min_width) {
   if (!is_whole_jpeg(file.size, file.read)) throw cannot_read(file.name, "the JPEG is cut short or damaged");
-  return std::make_unique<JpegDecoder>(file, least_wide);
+  return std::make_unique<JpegDecoder>(file, min_width);
 }
 
 // --- writing ---------------------------------------------------------------------------------------------------------

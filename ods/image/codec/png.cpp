@@ -78,7 +78,7 @@ class PngDecoder final : public Decoder {
     if (!succeeds(libpng_.png, [&] { png_read_row(libpng_.png, to, nullptr); })) throw failed();
   }
   void read_interlaced();
-  Error failed() const { return cannot_read(name_, library_words(fault_.words)); }
+  Error failed() const { return cannot_read(name_, library_message(fault_.words)); }
 
   std::string name_;
   PngInput input_;
@@ -249,7 +249,7 @@ PngEncoder::PngEncoder(ByteSink& sink, const FileHeader& header) : sink_(sink) {
     png_set_IHDR(png, info, static_cast<png_uint_32>(header.width), static_cast<png_uint_32>(header.height),
                  static_cast<int>(8 * sample), color_type_of(channels), PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    if (header.says_srgb) png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (header.writes_srgb) png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_text(png, info, texts.data(), static_cast<int>(texts.size()));
     png_set_compression_level(png, 4);  // 2.5 times as fast as 6, and 3 % larger
     png_write_info(png, info);

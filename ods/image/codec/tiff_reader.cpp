@@ -29,15 +29,15 @@ T field(TIFF* tiff, uint32_t tag, T otherwise) {
 class TiffInput final : public TiffStream {
  public:
   explicit TiffInput(const PictureBytes& file) : file_(file) {
-    const uint64_t kLeast = uint64_t{1} << 28;
-    handle_ = open_tiff_handle(*this, file.name, "rm", std::max<uint64_t>(kLeast, file.size + kLeast));
+    const uint64_t kMin = uint64_t{1} << 28;
+    handle_ = open_tiff_handle(*this, file.name, "rm", std::max<uint64_t>(kMin, file.size + kMin));
     if (!handle_) throw failed();
     const bool is_jpeg = field<uint16_t>(tiff(), TIFFTAG_COMPRESSION, COMPRESSION_NONE) == COMPRESSION_JPEG;
     if (is_jpeg) TIFFSetField(tiff(), TIFFTAG_JPEGCOLORMODE, JPEGCOLORMODE_RGB);
   }
   TIFF* tiff() const { return handle_.get(); }
   Error failed() const {
-    return cannot_read(file_.name, words[0] ? library_words(words) : "the TIFF is cut short or damaged");
+    return cannot_read(file_.name, words[0] ? library_message(words) : "the TIFF is cut short or damaged");
   }
 
   size_t read(void* to, size_t count) override {
@@ -131,9 +131,9 @@ void find_alpha(TIFF* tiff, TiffSamples& samples) {
   uint16_t count = 0;
   uint16_t* kinds = nullptr;
   const auto usual = std::find(channels.begin(), channels.end(), "A");
-  const bool is_said = TIFFGetField(tiff, TIFFTAG_EXTRASAMPLES, &count, &kinds) == 1;
-  if (!is_said && usual != channels.end()) samples.alpha = usual - channels.begin(), samples.is_associated = true;
-  if (!is_said || count > channels.size()) return;
+  const bool is_declared = TIFFGetField(tiff, TIFFTAG_EXTRASAMPLES, &count, &kinds) == 1;
+  if (!is_declared && usual != channels.end()) samples.alpha = usual - channels.begin(), samples.is_associated = true;
+  if (!is_declared || count > channels.size()) return;
   if (usual != channels.end()) *usual = fmt::format("channel{}", usual - channels.begin());
   for (size_t i = 0; i < count; i++) {
     if (kinds[i] != EXTRASAMPLE_ASSOCALPHA && kinds[i] != EXTRASAMPLE_UNASSALPHA) continue;
@@ -165,15 +165,15 @@ void TiffDecoder::describe(TIFF* tiff) {
   samples_.number = number_of(field<uint16_t>(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT));
   samples_.is_separate = inputs > 1 && field<uint16_t>(tiff, TIFFTAG_PLANARCONFIG, 1) == PLANARCONFIG_SEPARATE;
   const std::optional<SampleType> sample = tiff_sample(samples_.number, samples_.bits);
-  constexpr size_t kMostChannels = 1024;
+  constexpr size_t kMaxChannels = 1024;
   if (!sample) {
     throw cannot_read(file_.name,
                       fmt::format("its numbers of {} bits are of a kind that ods does not read; save it with "
                                   "8 or 16 bits, or as floats",
                                   samples_.bits));
   }
-  if (inputs < 1 || inputs > kMostChannels) {
-    throw cannot_read(file_.name, fmt::format("it has {} channels; at most {} are read", inputs, kMostChannels));
+  if (inputs < 1 || inputs > kMaxChannels) {
+    throw cannot_read(file_.name, fmt::format("it has {} channels; at most {} are read", inputs, kMaxChannels));
   }
   samples_.sample = *sample;
   samples_.zero_is_white = photometric == PHOTOMETRIC_MINISWHITE && !samples_.is_float();
@@ -192,7 +192,7 @@ void TiffDecoder::describe(TIFF* tiff) {
 // The output of libtiff's conversion: red, green, blue of 8 bits.
 void TiffDecoder::describe_rgba(TIFF* tiff) {
   char why[1024] = "";
-  if (!TIFFRGBAImageOK(tiff, why)) throw cannot_read(file_.name, library_words(why));
+  if (!TIFFRGBAImageOK(tiff, why)) throw cannot_read(file_.name, library_message(why));
   const bool is_grey = field<uint16_t>(tiff, TIFFTAG_SAMPLESPERPIXEL, 1) == 1;
   samples_ = {};
   samples_.inputs = 4;
@@ -244,9 +244,9 @@ void TiffDecoder::find_blocks(const TiffInput& input) {
 // A few bytes may claim many numbers for each pixel.
 void TiffDecoder::check_amount() const {
   constexpr int64_t kUsual = 4;  // numbers per pixel
-  const int64_t most = std::max(kSmallPixels, kMaxPixelsPerByte * static_cast<int64_t>(file_.size));
+  const int64_t maximum = std::max(kSmallPixels, kMaxPixelsPerByte * static_cast<int64_t>(file_.size));
   const int64_t pixels = std::max(int64_t{info.width} * info.height, int64_t{blocks_.width} * blocks_.height);
-  if (pixels * static_cast<int64_t>(samples_.inputs) <= kUsual * most) return;
+  if (pixels * static_cast<int64_t>(samples_.inputs) <= kUsual * maximum) return;
   throw cannot_read(file_.name, fmt::format("{}x{} pixels of {} numbers in {} bytes: the file is broken or hostile",
                                             info.width, info.height, samples_.inputs, file_.size));
 }
@@ -380,7 +380,7 @@ void TiffDecoder::read_rgba(const Rows& rows) {
   const std::unique_ptr<TiffInput> input = take_input();
   char why[1024] = "";
   TIFFRGBAImage image;
-  if (!TIFFRGBAImageBegin(&image, input->tiff(), 1, why)) throw cannot_read(file_.name, library_words(why));
+  if (!TIFFRGBAImageBegin(&image, input->tiff(), 1, why)) throw cannot_read(file_.name, library_message(why));
   const std::unique_ptr<TIFFRGBAImage, void (*)(TIFFRGBAImage*)> ending(&image, TIFFRGBAImageEnd);
   image.orientation = image.req_orientation = ORIENTATION_TOPLEFT;
   image.row_offset = rows.begin;

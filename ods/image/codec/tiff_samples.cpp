@@ -67,12 +67,12 @@ uint64_t number_at(const std::byte* bytes, size_t i, int bits) {
 // Converts integers to codes of their sample type; indices into a palette are not changed.
 void put_codes(const TiffSamples& samples, const std::byte* from, size_t count, std::byte* to, size_t stride) {
   const bool is_signed = samples.number == TiffNumber::kSigned, is_index = !samples.palette.empty();
-  const uint64_t range = uint64_t{1} << (samples.bits - (is_signed ? 1 : 0)), most = range - 1;
+  const uint64_t range = uint64_t{1} << (samples.bits - (is_signed ? 1 : 0)), maximum = range - 1;
   const uint64_t codes = samples.sample == SampleType::kUint8 ? 0xff : 0xffff;
-  const uint64_t rounding = samples.bits > 16 || is_signed ? most / 2 : 0;
+  const uint64_t rounding = samples.bits > 16 || is_signed ? maximum / 2 : 0;
   for (size_t i = 0; i < count; i++, to += stride) {
     const uint64_t number = number_at(from, i, samples.bits), value = is_signed && number >= range ? 0 : number;
-    const uint64_t code = is_index ? value : (value * codes + rounding) / most;
+    const uint64_t code = is_index ? value : (value * codes + rounding) / maximum;
     samples.sample == SampleType::kUint8 ? store(to, static_cast<uint8_t>(code))
                                          : store(to, static_cast<uint16_t>(code));
   }
@@ -103,8 +103,8 @@ void put_samples(const TiffSamples& samples, const std::byte* from, size_t count
 // The light that two inks let through.
 template <class T>
 T through(T ink, T black) {
-  constexpr uint64_t kMost = std::numeric_limits<T>::max();
-  return static_cast<T>(((kMost - ink) * (kMost - black) + kMost / 2) / kMost);
+  constexpr uint64_t kMax = std::numeric_limits<T>::max();
+  return static_cast<T>(((kMax - ink) * (kMax - black) + kMax / 2) / kMax);
 }
 
 template <class T>

@@ -47,13 +47,13 @@ void TiffCloser::operator()(tiff* handle) const {
   TIFFClose(handle);
 }
 
-TiffHandle open_tiff_handle(TiffStream& stream, const std::string& name, const char* mode, uint64_t most) {
+TiffHandle open_tiff_handle(TiffStream& stream, const std::string& name, const char* mode, uint64_t maximum) {
   const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(),
                                                                              TIFFOpenOptionsFree);
   if (!options) throw std::bad_alloc();
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_message, &stream);
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), ignore_message, nullptr);
-  TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), static_cast<tmsize_t>(most));
+  TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), static_cast<tmsize_t>(maximum));
   const auto close = [](thandle_t) { return 0; };
   return TiffHandle(TIFFClientOpenExt(name.c_str(), mode, &stream, read_stream, write_stream, seek_stream, close,
                                       size_of_stream, nullptr, nullptr, options.get()));

@@ -31,6 +31,6 @@ using TiffHandle = std::unique_ptr<tiff, TiffCloser>;
 
 // Opens a handle. `mode`: as for TIFFOpen(). `most`: bytes that libtiff may allocate at once; 0 for no limit. Returns
 // nullptr on failure. The stream must outlive the handle.
-TiffHandle open_tiff_handle(TiffStream& stream, const std::string& name, const char* mode, uint64_t most);
+TiffHandle open_tiff_handle(TiffStream& stream, const std::string& name, const char* mode, uint64_t maximum);
 
 }  // namespace ods

@@ -21,9 +21,9 @@ std::string image_size_fault(int width, int height) {
 std::string image_size_fault(int width, int height, int longest, size_t file_size) {
   if (width < 1 || height < 1) return "it has no pixels";
   const int64_t pixels = int64_t{width} * height;
-  const int64_t most = std::max(kSmallPixels, kMaxPixelsPerByte * static_cast<int64_t>(file_size));
+  const int64_t maximum = std::max(kSmallPixels, kMaxPixelsPerByte * static_cast<int64_t>(file_size));
   if (longest > kMaxSide || pixels > kMaxPixels) return excess(width, height);
-  if (pixels > most) {
+  if (pixels > maximum) {
     return fmt::format("{}x{} pixels in {} bytes: the file is broken or hostile", width, height, file_size);
   }
   return {};

@@ -50,16 +50,16 @@ float sample_value(SampleType sample, const std::byte* at) {
 
 template <typename T>
 static void divide(std::span<std::byte> pixels, size_t channels, size_t alpha, float power) {
-  const float most = static_cast<float>(std::numeric_limits<T>::max());
+  const float maximum = static_cast<float>(std::numeric_limits<T>::max());
   const size_t size = channels * sizeof(T);
   for (size_t at = 0; at + size <= pixels.size(); at += size) {
-    const float opacity = static_cast<float>(load<T>(&pixels[at + alpha * sizeof(T)])) / most;
+    const float opacity = static_cast<float>(load<T>(&pixels[at + alpha * sizeof(T)])) / maximum;
     if (opacity == 0.0f || opacity == 1.0f) continue;
     const float scale = std::pow(opacity, -power);
     for (size_t c = 0; c < channels; c++) {
       std::byte* const place = &pixels[at + c * sizeof(T)];
       if (c == alpha) continue;
-      const T value = static_cast<T>(std::min(most, static_cast<float>(load<T>(place)) * scale + 0.5f));
+      const T value = static_cast<T>(std::min(maximum, static_cast<float>(load<T>(place)) * scale + 0.5f));
       std::memcpy(place, &value, sizeof value);
     }
   }
@@ -83,9 +83,9 @@ void floats_to_halves(std::span<const float> from, uint16_t* to) {
 
 template <typename T>
 static void pack_integers(std::span<const float> pixels, std::byte* to) {
-  const float most = static_cast<float>(std::numeric_limits<T>::max());
+  const float maximum = static_cast<float>(std::numeric_limits<T>::max());
   for (const float value : pixels) {
-    const T code = static_cast<T>(finite(value, 0.0f, 1.0f) * most + 0.5f);
+    const T code = static_cast<T>(finite(value, 0.0f, 1.0f) * maximum + 0.5f);
     std::memcpy(to, &code, sizeof code);
     to += sizeof code;
   }

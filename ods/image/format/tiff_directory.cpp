@@ -78,9 +78,9 @@ static const TiffEntry* find_entry(const TiffDirectory& directory, uint16_t tag)
 }
 
 std::optional<std::string> tiff_value(const FileInput& file, const TiffDirectory& directory, uint16_t tag,
-                                      uint64_t most) {
+                                      uint64_t maximum) {
   const TiffEntry* entry = find_entry(directory, tag);
-  if (entry == nullptr || type_size(entry->type) == 0 || entry->count > most / type_size(entry->type)) return {};
+  if (entry == nullptr || type_size(entry->type) == 0 || entry->count > maximum / type_size(entry->type)) return {};
   const uint64_t size = entry->count * type_size(entry->type);
   if (size <= entry->place.size()) return entry->place.substr(0, size);
   const uint64_t at = number_of(entry->place, directory.is_little);

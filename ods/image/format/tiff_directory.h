@@ -35,7 +35,7 @@ TiffDirectory read_tiff_directory(const FileInput& file);
 // The bytes of an entry. Returns nullopt if the entry is missing, extends beyond the end of the file or has more than
 // `most` bytes.
 std::optional<std::string> tiff_value(const FileInput& file, const TiffDirectory& directory, uint16_t tag,
-                                      uint64_t most);
+                                      uint64_t maximum);
 // The first number of an entry.
 std::optional<uint64_t> tiff_number(const FileInput& file, const TiffDirectory& directory, uint16_t tag);
 

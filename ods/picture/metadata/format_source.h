@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The sources from which a file's layout, projection and camera are taken, in order of precedence. docs/identify.md has
-// this table for users; tests/cli/docs_test.cpp compares the two, and tests/cli/which_word_wins_test.cpp tries each
-// row.
+// this table for users; tests/cli/docs_test.cpp compares the two, and
+// tests/cli/convert/convert_metadata_test.cpp tries each row.
 #pragma once
 #include <string_view>
 

@@ -19,7 +19,7 @@ namespace ods {
 // --- our own attributes ----------------------------------------------------------------------------------------------
 
 constexpr const char* kMergeCurve = "ods:mergeCurve";
-constexpr int kMostCurveRows = 4096;
+constexpr int kMaxCurveRows = 4096;
 
 // The attribute of a field's number i.
 static std::string attribute_of(const CameraFieldRow& row, size_t i) {
@@ -30,7 +30,7 @@ static std::string attribute_of(const CameraFieldRow& row, size_t i) {
 // Writes a map that is the same all around, such as a merge by depth, as a curve: "4x180:" and a number per row, from
 // the top. Empty for other maps.
 static std::string text_of_curve(const Image& map) {
-  if (map.height > kMostCurveRows || !is_same_around(camera_map(map))) return "";
+  if (map.height > kMaxCurveRows || !is_same_around(camera_map(map))) return "";
   std::string text = fmt::format("{}x{}:", map.width, map.height);
   for (int y = 0; y < map.height; y++) text += fmt::format(" {}", decimal(*map.at(0, y)));
   return text;
@@ -40,7 +40,7 @@ static std::string text_of_curve(const Image& map) {
 static std::shared_ptr<const Image> curve_of_text(const std::string& text) {
   int width = 0, height = 0, used = 0;
   if (std::sscanf(text.c_str(), "%5dx%5d:%n", &width, &height, &used) != 2 || used == 0) return nullptr;
-  if (width < 1 || width > kMostCurveRows || height < 1 || height > kMostCurveRows) return nullptr;
+  if (width < 1 || width > kMaxCurveRows || height < 1 || height > kMaxCurveRows) return nullptr;
   auto map = std::make_shared<Image>(width, height, 1);
   const char *at = text.data() + used, *const end = text.data() + text.size();
   for (int y = 0; y < height; y++) {

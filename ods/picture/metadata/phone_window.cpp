@@ -13,7 +13,7 @@ ProjectionSetting phone_window(std::optional<float> fov, Extent eye, std::vector
   ProjectionSetting window = find_projection("perspective")->setting;
   window.fov = fov.value_or(kUsualFov);
   window.aspect = static_cast<float>(eye.width) / static_cast<float>(std::max(eye.height, 1));
-  if (!fov) guesses.push_back(fmt::format("{} degrees across: it does not say", kUsualFov));
+  if (!fov) guesses.push_back(fmt::format("{} degrees across: its field of view is not recorded", kUsualFov));
   return window;
 }
 

@@ -80,8 +80,9 @@ void read_object(JsonReader& in, std::string_view object, StereoCamera& camera) 
     if (place.object != object) continue;
     const std::vector<float*> numbers = row.numbers(camera);
     std::vector<float> values;
-    if (numbers.size() == 1) in.number(place.key, *numbers[0], row.range.least, row.range.most);
-    if (numbers.size() < 2 || !in.numbers(place.key, values, numbers.size(), row.range.least, row.range.most)) continue;
+    if (numbers.size() == 1) in.number(place.key, *numbers[0], row.range.minimum, row.range.maximum);
+    if (numbers.size() < 2 || !in.numbers(place.key, values, numbers.size(), row.range.minimum, row.range.maximum))
+      continue;
     for (size_t i = 0; i < values.size(); i++) *numbers[i] = values[i];
   }
 }

@@ -29,11 +29,11 @@ static bool is_packing(Layout layout) {
 }
 
 // Parts after the format part of a name: frame numbers, fields of view.
-static bool says_nothing(const std::string& word) {
+static bool is_neutral_token(const std::string& word) {
   return word.find_first_not_of("0123456789xX") == std::string::npos;
 }
 
-static const NamedProjection* projection_word(const std::string& word) {
+static const NamedProjection* projection_token(const std::string& word) {
   if (word == "360" || word == "360x180") return find_projection("lat-long");
   if (word == "180" || word == "180x180") return find_projection("vr180");
   return find_projection(word);
@@ -58,20 +58,20 @@ NameWords read_name(const std::string& path) {
     const std::string word = small_letters(marked.substr(1));
     const std::optional<Layout> layout = layout_of(word);
     // After a dot a number is a frame number, not an angle.
-    const NamedProjection* projection = marked[0] == '.' && says_nothing(word) ? nullptr : projection_word(word);
+    const NamedProjection* projection = marked[0] == '.' && is_neutral_token(word) ? nullptr : projection_token(word);
     // A file named checkerboard usually shows a checkerboard pattern.
     const bool is_word = layout && is_packing(*layout) && arrangement_of(*layout).how != EyePacking::kCheckerboard;
     if (is_word || word == "mono") {
       words.layout = layout;
       words.is_mono = word == "mono";
-      words.layout_word = marked;
+      words.layout_token = marked;
     } else if (projection != nullptr) {
       words.projection = projection;
-      words.projection_word = marked;
-    } else if (!says_nothing(word)) {
+      words.projection_token = marked;
+    } else if (!is_neutral_token(word)) {
       break;
     }
-    if (!words.layout_word.empty() && words.projection != nullptr) break;
+    if (!words.layout_token.empty() && words.projection != nullptr) break;
     name.resize(at);
   }
   return words;
@@ -81,7 +81,7 @@ std::string renamed(const std::string& path, const std::string& words) {
   const std::filesystem::path file(path);
   std::string name = file.stem().native();
   const NameWords old = read_name(path);
-  for (const std::string& word : {old.layout_word, old.projection_word}) {
+  for (const std::string& word : {old.layout_token, old.projection_token}) {
     if (!word.empty()) name.erase(name.rfind(word), word.size());
   }
   return (file.parent_path() / (name + words + file.extension().native())).native();
@@ -128,7 +128,7 @@ static bool has_view(const FileInfo& info, const std::string& view) {
 }
 
 // The layout in ods:layout, or the eye that it specifies.
-static std::optional<LayoutGuess> said_layout(const FileInfo& info) {
+static std::optional<LayoutGuess> declared_layout(const FileInfo& info) {
   const auto said = info.text.find("ods:layout");
   if (said == info.text.end()) return std::nullopt;
   LayoutGuess guess{layout_of(said->second), LayoutSource::kFile, "the file says so"};
@@ -144,13 +144,13 @@ bool is_guess(const LayoutGuess& guess) {
 
 LayoutGuess guess_layout(const FileInfo& info, const std::string& path,
                          const std::optional<ProjectionSetting>& projection) {
-  if (const std::optional<LayoutGuess> said = said_layout(info)) return *said;
+  if (const std::optional<LayoutGuess> said = declared_layout(info)) return *said;
   if (has_view(info, "right") || has_view(info, "left")) {
     return {Layout::kMultiview, LayoutSource::kFile, "it has two views"};
   }
   const NameWords words = read_name(path);
-  if (!words.layout_word.empty()) {
-    return {words.layout, LayoutSource::kName, fmt::format("its name ends in {}", words.layout_word)};
+  if (!words.layout_token.empty()) {
+    return {words.layout, LayoutSource::kName, fmt::format("its name ends in {}", words.layout_token)};
   }
   if (projection) return layout_of_shape({info.width, info.height}, projection);
   if (words.projection != nullptr) return layout_of_shape({info.width, info.height}, words.projection->setting);
@@ -198,7 +198,7 @@ static LayoutGuess find_layout(const FileInfo& info, const std::string& path, co
   if (names_eye(path)) return {Layout::kSeparate, LayoutSource::kPair, "its name stands for two files"};
   if (known.one_eye) return {std::nullopt, LayoutSource::kCaller, "as asked"};
   if (known.layout) return {known.layout, LayoutSource::kCaller, "as asked"};
-  if (sidecar && !said_layout(info)) {
+  if (sidecar && !declared_layout(info)) {
     const bool is_one = sidecar->eyes.size() == 1;
     return {is_one ? std::nullopt : std::optional(sidecar->layout), LayoutSource::kSidecar, "its sidecar says so"};
   }
@@ -256,7 +256,7 @@ static ProjectionSetting guess_projection(Extent eye, const std::string& path, c
     guesses.push_back(fmt::format("{}: {}", named.name, reason));
     return named.setting;
   };
-  if (words.projection) return guess(*words.projection, fmt::format("its name ends in {}", words.projection_word));
+  if (words.projection) return guess(*words.projection, fmt::format("its name ends in {}", words.projection_token));
   if (known.seen) {
     guesses.push_back(fmt::format("{}: its pixels look like it", projection_name(known.seen->projection)));
     return known.seen->projection;
@@ -315,7 +315,7 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
   if (is_anaglyph(layout)) {
     throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': the eyes of an anaglyph cannot be separated", path));
   }
-  if (info.text.contains("ods:layout") && !said_layout(info)) {
+  if (info.text.contains("ods:layout") && !declared_layout(info)) {
     format.guesses.push_back("its ods:layout is invalid: ignored");
   }
   if (is_guess(format.layout)) {
@@ -368,12 +368,12 @@ Sidecar open_camera(const std::string& path, std::vector<std::string>& warnings)
 std::string name_fault(const std::string& path, std::optional<Layout> layout, const ProjectionSetting& projection) {
   const NameWords words = read_name(path);
   const bool packed = !layout || is_packing(*layout);
-  if (!words.layout_word.empty() && packed && words.layout != layout) {
+  if (!words.layout_token.empty() && packed && words.layout != layout) {
     const std::string_view is = layout ? layout_name(*layout) : "one eye";
-    return fmt::format("its name ends in {}, but it is {}: programs will believe the name", words.layout_word, is);
+    return fmt::format("its name ends in {}, but it is {}: programs will believe the name", words.layout_token, is);
   }
   if (words.projection != nullptr && words.projection->setting.kind != projection.kind) {
-    return fmt::format("its name ends in {}, but it is {}: programs will believe the name", words.projection_word,
+    return fmt::format("its name ends in {}, but it is {}: programs will believe the name", words.projection_token,
                        projection_name(projection));
   }
   return {};

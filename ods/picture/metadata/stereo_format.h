@@ -24,9 +24,9 @@ struct Sidecar;
 struct NameWords {
   std::optional<Layout> layout;
   bool is_mono = false;
-  std::string layout_word;  // with its separator: "_TB"; empty if there is none
+  std::string layout_token;  // with its separator: "_TB"; empty if there is none
   const NamedProjection* projection = nullptr;
-  std::string projection_word;  // "_360"
+  std::string projection_token;  // "_360"
 };
 NameWords read_name(const std::string& path);
 

@@ -85,10 +85,10 @@ PictureTag complete_tag(const FormatHint& known, const std::string& path, std::v
     throw unusable(path, fmt::format("{}x{} pixels are not two eyes, {}: give another `layout`", info.width,
                                      info.height, layout_name(*tag.layout)));
   }
-  const bool is_told = known.projection || known.seen || format.has_camera || read_name(path).projection != nullptr;
-  if (!is_told && natural_height(format.camera.projection, eye->width) != eye->height) {
-    throw unusable(path, fmt::format("neither its name (_360, _360_TB ...) nor its shape ({}x{}) tells what it "
-                                     "shows: give `layout` and `projection`",
+  const bool is_known = known.projection || known.seen || format.has_camera || read_name(path).projection != nullptr;
+  if (!is_known && natural_height(format.camera.projection, eye->width) != eye->height) {
+    throw unusable(path, fmt::format("neither its name (_360, _360_TB ...) nor its shape ({}x{}) identifies "
+                                     "its format: give `layout` and `projection`",
                                      info.width, info.height));
   }
   guesses = format.guesses;
@@ -106,8 +106,8 @@ static std::vector<Attribute> gpano_of(const FileInput& file, FileFormat format,
                                layout_name(*tag.layout)));
   }
   if (!fits_gpano(tag.camera.projection)) {
-    throw unusable(file.path(), fmt::format("GPano has lat-long and parts of it that do not cross the seam, but "
-                                            "no word for {}",
+    throw unusable(file.path(), fmt::format("GPano has lat-long and parts of it that do not cross the seam, "
+                                            "but not {}",
                                             projection_name(tag.camera.projection)));
   }
   std::vector<Attribute> properties;
@@ -152,7 +152,7 @@ static void tag_xmp(const FileInput& file, AtomicFile& to, FileFormat format, co
   if (!tag && old.empty()) return file.copy(0, file.size(), to);
   const std::optional<std::string> packet = tag ? tagged_packet(file, format, *tag, old) : replace_gpano(old, {});
   if (!packet) throw unusable(file.path(), "its XMP cannot be parsed; remove it first with another program");
-  write_xmp(file, to, says_something(*packet) ? *packet : "");
+  write_xmp(file, to, is_specified(*packet) ? *packet : "");
 }
 
 // --- EXR -------------------------------------------------------------------------------------------------------------
@@ -163,7 +163,7 @@ static bool needs_said_camera(const std::string& name) {
          name.starts_with("ods:poleMerge");
 }
 
-static std::vector<ExrAttribute> exr_words(const PictureTag& tag) {
+static std::vector<ExrAttribute> exr_metadata(const PictureTag& tag) {
   std::vector<Attribute> words{{"ods:version", std::string(ODS_VERSION)},
                                {"ods:layout", std::string(tag.layout ? layout_name(*tag.layout) : eye_name(tag.eye))}};
   add_camera(words, tag.camera);
@@ -202,7 +202,7 @@ static bool is_ours(const std::string& name, bool has_tag) {
 
 static void tag_exr(const FileInput& file, AtomicFile& to, const std::optional<PictureTag>& tag) {
   ExrHeader header = read_exr_header(file);
-  std::vector<ExrAttribute> words = tag ? exr_words(*tag) : std::vector<ExrAttribute>();
+  std::vector<ExrAttribute> words = tag ? exr_metadata(*tag) : std::vector<ExrAttribute>();
   const auto word_of = [&](const std::string& name) {
     return std::find_if(words.begin(), words.end(), [&](const ExrAttribute& word) { return word.name == name; });
   };

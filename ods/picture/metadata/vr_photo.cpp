@@ -162,7 +162,7 @@ std::string read_right_eye(const std::string& path, std::vector<std::string>& wa
     warnings.push_back("it has more than one right eye: the first is used");
   }
   const std::string right = decode_base64(data);
-  if (!right.starts_with("\xff\xd8\xff")) throw damaged(path, "it is no JPEG");
+  if (!right.starts_with("\xff\xd8\xff")) throw damaged(path, "it is not a JPEG");
   return right;
 }
 

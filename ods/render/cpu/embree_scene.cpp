@@ -414,7 +414,7 @@ bool EmbreeScene::reaches_light(PathTracer& tracer) const {
 
 // Embree without AVX-512 also checks the rays of unused lanes, so they are copies of the first ray.
 static void set_rays(RTCRay16& out, const RayPacket& packet) {
-  for (int i = 0; i < RayPacket::kMost; i++) {
+  for (int i = 0; i < RayPacket::kMax; i++) {
     const int from = i < packet.count ? i : 0;
     const Ray& ray = packet.rays[from];
     out.org_x[i] = ray.origin.x, out.org_y[i] = ray.origin.y, out.org_z[i] = ray.origin.z;
@@ -449,15 +449,15 @@ void EmbreeScene::closest_hits(PathTracer& tracer, const RayPacket& packet, Hit*
     return;
   }
   RTCRayHit16 found;
-  alignas(64) int valid[RayPacket::kMost] = {};
+  alignas(64) int valid[RayPacket::kMax] = {};
   set_rays(found.ray, packet);
-  std::fill_n(found.ray.tfar, RayPacket::kMost, std::numeric_limits<float>::infinity());
+  std::fill_n(found.ray.tfar, RayPacket::kMax, std::numeric_limits<float>::infinity());
   for (int i = 0; i < packet.count; i++) {
     valid[i] = -1;
     found.hit.geomID[i] = found.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   RayContext context = packet_context(tracer, packet, handles_->still_id);
-  NearestHit nearest[RayPacket::kMost];
+  NearestHit nearest[RayPacket::kMax];
   if (handles_->portable) context.exact = {packet.rays, packet.times, nullptr, nearest};
   intersect16(valid, handles_->top, context.embree, handles_->coherent, found);
   for (int i = 0; i < packet.count; i++) {
@@ -480,7 +480,7 @@ void EmbreeScene::occluded(PathTracer& tracer, const RayPacket& packet, bool* hi
     return;
   }
   RTCRay16 shadows;
-  alignas(64) int valid[RayPacket::kMost] = {};
+  alignas(64) int valid[RayPacket::kMax] = {};
   set_rays(shadows, packet);
   for (int i = 0; i < packet.count; i++) valid[i] = packet.lengths[i] > 0.0f ? -1 : 0;
   RayContext context = packet_context(tracer, packet, handles_->still_id);

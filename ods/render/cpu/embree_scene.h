@@ -12,13 +12,13 @@ namespace ods {
 
 // Rays that are traced at once, from the samples of one pixel, with nearly the same directions.
 struct RayPacket {
-  static constexpr int kMost = 16;
+  static constexpr int kMax = 16;
   int count = 0;
-  Ray rays[kMost];
-  float times[kMost];    // values of ray_time
-  float lengths[kMost];  // for occluded(); 0 if there is no ray
-  uint seed = 0;         // seed of the paths that start with these rays
-  uint index = 0;        // index of the first ray's sample; the others follow
+  Ray rays[kMax];
+  float times[kMax];    // values of ray_time
+  float lengths[kMax];  // for occluded(); 0 if there is no ray
+  uint seed = 0;        // seed of the paths that start with these rays
+  uint index = 0;       // index of the first ray's sample; the others follow
 };
 
 class EmbreeScene {

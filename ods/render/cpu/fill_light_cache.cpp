@@ -46,8 +46,8 @@ class Trail {
     for (size_t b = 0; b < std::min<size_t>(count_, kKeptBounces); b++) {
       const Vertex& vertex = vertices_[b];
       const vec3 t = vertex.throughput;
-      const float least = std::min({t.x, t.y, t.z}), most = std::max({t.x, t.y, t.z});
-      if (!(vertex.place.cell > 0.0f) || !(least > 1e-3f * most))
+      const float minimum = std::min({t.x, t.y, t.z}), maximum = std::max({t.x, t.y, t.z});
+      if (!(vertex.place.cell > 0.0f) || !(minimum > 1e-3f * maximum))
         continue;  // nothing is known about a colour that is missing
       const vec3 all = b + left < count_ ? found_[b + left] : at_end;
       const vec3 light = (all - vertex.radiance) / t;
@@ -92,8 +92,8 @@ void trace_batch(Job job, uint first, LightCacheSums& sums) {
 }  // namespace
 
 LightCells fill_light_cache(const Job& wanted, const Progress& progress) {
-  const int64_t most = light_cache_paths(wanted.options);
-  if (most == 0) return {};
+  const int64_t maximum = light_cache_paths(wanted.options);
+  if (maximum == 0) return {};
   Job job = wanted;
   job.settings.keep_vertices = true;
   job.settings.clamp = 0.0f;
@@ -101,7 +101,7 @@ LightCells fill_light_cache(const Job& wanted, const Progress& progress) {
   job.tracer.cache_viewer = job.camera.center;
   LightCacheSums sums;
   int64_t look = 4 * kRoundPaths;
-  for (int64_t done = 0; done < most; done += kRoundPaths) {
+  for (int64_t done = 0; done < maximum; done += kRoundPaths) {
     sums.reserve(size_t{2} * kKeptBounces * kRoundPaths);
     tbb::parallel_for(0, kRoundPaths / kPathsAtOnce, [&](int i) {
       if (progress.cancelled && progress.cancelled()) return;

@@ -152,16 +152,16 @@ struct Target {
 // The first rays of a pixel's samples, traced at once, and the counterparts of their hits in the other eye.
 struct FirstHits {
   RayPacket packet;
-  vec2 uv[RayPacket::kMost];
-  Hit hits[RayPacket::kMost];
-  Counterpart counterparts[RayPacket::kMost];  // `exists` if both eyes see the hit
+  vec2 uv[RayPacket::kMax];
+  Hit hits[RayPacket::kMax];
+  Counterpart counterparts[RayPacket::kMax];  // `exists` if both eyes see the hit
 };
 
 // Returns false if the picture is empty at the pixel.
 [[gnu::flatten]] bool trace_first_rays(Job& job, int eye, int x, int y, int first, FirstHits& out) {
   const vec2 home = pixel_center(job, x, y);
   RayPacket& packet = out.packet;
-  packet.count = std::min(RayPacket::kMost, job.options.samples - first);
+  packet.count = std::min(RayPacket::kMax, job.options.samples - first);
   packet.seed = pixel_seed(job, eye, x, y);
   packet.index = static_cast<uint>(first);
   for (int i = 0; i < packet.count; i++) {
@@ -198,7 +198,7 @@ struct FirstHits {
     back.lengths[i] = found.distance * (1.0f - 1e-4f);  // just short of the surface
   }
   if (!any) return;
-  bool hidden[RayPacket::kMost];
+  bool hidden[RayPacket::kMax];
   job.embree.occluded(job.tracer, back, hidden);
   for (int i = 0; i < back.count; i++) out.counterparts[i].exists &= !hidden[i];
 }
@@ -223,12 +223,12 @@ bool trace_packet(Job& job, const Pass& pass, int x, int y, int packet, SampleRa
   const size_t width = static_cast<size_t>(job.options.width);
   const size_t pixel = static_cast<size_t>(y) * width + static_cast<size_t>(x);
   FirstHits start;
-  if (!trace_first_rays(job, target.eye.eye, x, y, packet * RayPacket::kMost, start)) return false;
+  if (!trace_first_rays(job, target.eye.eye, x, y, packet * RayPacket::kMax, start)) return false;
   if (job.shares) find_counterparts(job, target.eye.eye, x, y, start);
   const float ours = weight_in(pass, x, y);
   OwnLight own;
   for (int i = 0; i < start.packet.count; i++) {
-    const int index = packet * RayPacket::kMost + i;
+    const int index = packet * RayPacket::kMax + i;
     if (index < range.begin || index >= range.end) continue;
     job.tracer.ray_time = start.packet.times[i];
     job.tracer.start_path(start.packet.rays[i], job.media, start.packet.seed, static_cast<uint>(index));
@@ -256,7 +256,7 @@ void render_block(Job job, const Pass& pass, int block, Target target) {
       const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(job.options.width) + static_cast<size_t>(x);
       const bool is_first = pass.from == samples_of_part(job.options).begin;
       if (is_first && !target.eye.depth.empty()) target.eye.depth[pixel] = center_depth(job, target.eye.eye, x, y);
-      for (int i = first / RayPacket::kMost; i * RayPacket::kMost < last; i++) {
+      for (int i = first / RayPacket::kMax; i * RayPacket::kMax < last; i++) {
         if (!trace_packet(job, pass, x, y, i, {first, last}, target)) break;
       }
       target.eye.count[pixel] += static_cast<uint32_t>(last - first);

@@ -333,8 +333,8 @@ static void reserve_room(const GltfFile& file, Scene& scene) {
 
 void decode_meshes(GltfFile& file, Scene& scene) {
   // Draco spends less than a bit on a predictable triangle.
-  constexpr size_t kSmall = size_t{1} << 28, kMostPerByte = 1024;
-  file.draco_budget = kSmall + kMostPerByte * file.size;
+  constexpr size_t kSmall = size_t{1} << 28, kMaxPerByte = 1024;
+  file.draco_budget = kSmall + kMaxPerByte * file.size;
   std::vector<Job> jobs;
   for (size_t mesh = 0; mesh < file.meshes.size(); mesh++) append_jobs(file, mesh, jobs);
   decode_all(file, jobs);

@@ -151,9 +151,9 @@ namespace {
 using Names = std::vector<std::string>;
 
 std::string listed(const Names& names) {
-  constexpr size_t kMost = 4;
-  const auto end = names.begin() + static_cast<ptrdiff_t>(std::min(names.size(), kMost));
-  const std::string rest = names.size() > kMost ? fmt::format(" and {} more", names.size() - kMost) : "";
+  constexpr size_t kMax = 4;
+  const auto end = names.begin() + static_cast<ptrdiff_t>(std::min(names.size(), kMax));
+  const std::string rest = names.size() > kMax ? fmt::format(" and {} more", names.size() - kMax) : "";
   return fmt::format("'{}'{}", fmt::join(names.begin(), end, "', '"), rest);
 }
 
@@ -196,11 +196,11 @@ Names find_plain_materials(const GltfFile& file) {
   Names names;
   for (const JsonValue* material : file.materials) {
     const JsonValue& pbr = (*material)["pbrMetallicRoughness"];
-    const bool says_something = !pbr["baseColorFactor"].is_null() || !pbr["baseColorTexture"].is_null() ||
-                                !extension(*material, "KHR_materials_transmission").is_null() ||
-                                !extension(*material, "KHR_materials_pbrSpecularGlossiness").is_null() ||
-                                !(*material)["emissiveFactor"].is_null();
-    if (!says_something) names.push_back(printable(*(*material)["name"].text));
+    const bool is_specified = !pbr["baseColorFactor"].is_null() || !pbr["baseColorTexture"].is_null() ||
+                              !extension(*material, "KHR_materials_transmission").is_null() ||
+                              !extension(*material, "KHR_materials_pbrSpecularGlossiness").is_null() ||
+                              !(*material)["emissiveFactor"].is_null();
+    if (!is_specified) names.push_back(printable(*(*material)["name"].text));
   }
   return names;
 }

@@ -11,7 +11,7 @@
 // write are tried: with backslashes, without or with doubled percent codes, in another letter case. This causes a
 // warning. Absolute paths and URLs are Errors.
 //
-// The Scene is at rest and no clip plays; play() (ods/scene/animation/animation.h) and set_time() (ods/scene/motion.h)
+// The Scene is at rest and no clip plays; play() (ods/scene/animation.h) and set_time() (ods/scene/motion.h)
 // animate it.
 //
 // Other features in the file are listed in Scene::warnings, once each. Scene::extensions lists how each extension of

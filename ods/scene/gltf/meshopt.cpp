@@ -85,15 +85,15 @@ static std::string fault_of(const Stream& stream) {
 static std::vector<Stream> open_streams(const GltfFile& file, size_t* total) {
   // Constant vertices take a bit for each 32 bytes; the limit also holds for all streams together, because several
   // buffer views may share one.
-  constexpr size_t kSmall = size_t{1} << 26, kMostPerByte = 64;
-  const size_t most = kSmall + kMostPerByte * file.size;
+  constexpr size_t kSmall = size_t{1} << 26, kMaxPerByte = 64;
+  const size_t maximum = kSmall + kMaxPerByte * file.size;
   std::vector<Stream> streams;
   for (size_t i = 0; i < file.buffer_views.size(); i++) {
     for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
       const JsonValue& source = extension(*file.buffer_views[i], name);
       if (source.is_null()) continue;
       const Stream& stream = streams.emplace_back(open_stream(file, i, source));
-      if (stream.count > (most - *total) / stream.stride) {
+      if (stream.count > (maximum - *total) / stream.stride) {
         fail(file, "its compressed buffer views hold far more than a file of its size can; it looks damaged");
       }
       *total += stream.count * stream.stride;

@@ -33,7 +33,7 @@ bool is_data_uri(const std::string& uri);
 std::string resolve_uri(GltfFile& file, const std::string& uri);
 
 // The first `most` bytes of a URI's file, which may be larger than needed. name: from resolve_uri().
-Storage read_uri(const GltfFile& file, const std::string& uri, const std::string& name, size_t most);
+Storage read_uri(const GltfFile& file, const std::string& uri, const std::string& name, size_t maximum);
 
 // The size of the picture's own file; 0 if it is embedded in the glTF file or missing.
 size_t external_bytes(const GltfFile& file, const ImageSource& image);

@@ -9,8 +9,8 @@
 #include <atomic>
 #include <limits>
 
+#include "ods/image/codec/ktx2.h"
 #include "ods/image/image_file.h"
-#include "ods/image/ktx2/ktx2.h"
 #include "ods/kernel/texture.h"
 #include "ods/scene/gltf/parts.h"
 

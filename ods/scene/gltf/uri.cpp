@@ -119,8 +119,8 @@ std::string resolve_uri(GltfFile& file, const std::string& uri) {
   if (is_data_uri(uri)) return uri;
   const std::string plain = decode_percent(uri);
   if (!is_relative(plain) || has_scheme(uri) || exists(file, plain)) return normal(plain);
-  constexpr int kMostSearches = 1000;  // each may list a folder, and a file may contain a million URIs
-  if (++file.searches > kMostSearches) return normal(plain);
+  constexpr int kMaxSearches = 1000;  // each may list a folder, and a file may contain a million URIs
+  if (++file.searches > kMaxSearches) return normal(plain);
   const std::vector<std::string> names = readings(uri);
   std::string found;
   for (const std::string& name : names) {
@@ -153,18 +153,18 @@ static void check_uri(const GltfFile& file, const std::string& uri) {
   }
 }
 
-static std::vector<unsigned char> read_neighbour(const GltfFile& file, const std::string& name, size_t most) {
+static std::vector<unsigned char> read_neighbour(const GltfFile& file, const std::string& name, size_t maximum) {
   if (file.archive) return file.archive->read(name_in_archive(file, name));
   return ConfinedFile(path_of(file, name), file.confine).read([&](const std::string& opened) {
-    return read_start(opened, most);
+    return read_start(opened, maximum);
   });
 }
 
-Storage read_uri(const GltfFile& file, const std::string& uri, const std::string& name, size_t most) {
+Storage read_uri(const GltfFile& file, const std::string& uri, const std::string& name, size_t maximum) {
   if (is_data_uri(uri)) return read_data_uri(file, uri);
   check_uri(file, uri);
   try {
-    return std::make_shared<std::vector<unsigned char>>(read_neighbour(file, name, most));
+    return std::make_shared<std::vector<unsigned char>>(read_neighbour(file, name, maximum));
   } catch (const Error& error) {
     if (!file.confine.empty() && !file.archive) {  // must reveal nothing about files outside the folder
       if (error.kind() != ErrorKind::kInput) throw;
@@ -195,7 +195,7 @@ void warn_renamed(const GltfFile& file, Scene& scene) {
   const auto& [uri, name] = *file.renamed.begin();
   const size_t others = file.renamed.size() - 1;
   warn(scene, fmt::format("it refers to '{}', which does not exist: read '{}' instead{}", printable(uri),
-                          printable(name), others == 0 ? "" : fmt::format(", and {} more likewise", others)));
+                          printable(name), others == 0 ? "" : fmt::format(", and {} more", others)));
 }
 
 }  // namespace ods

@@ -107,7 +107,7 @@ std::string place_text(vec3 p) {
   return fmt::format("{:g},{:g},{:g}", rounded(p.x), rounded(p.y), rounded(p.z));
 }
 
-std::string note_for(const Survey& survey, const LightPlan& plan, const LightWishes& wishes) {
+std::string note_for(const Survey& survey, const LightPlan& plan, const LightChoices& wishes) {
   if (wishes.unlit) return "";
   if (plan.paint == Paint::kUnlit) return "the scene is shown as it is painted: " + paint_reason(plan.paint);
   if (plan.as_painted) {
@@ -117,7 +117,7 @@ std::string note_for(const Survey& survey, const LightPlan& plan, const LightWis
         "lights it instead)",
         paint_reason(plan.paint));
   }
-  if (plan.lamp && wishes.lamp == LampWish::kAuto) {
+  if (plan.lamp && wishes.lamp == LampChoice::kAuto) {
     return fmt::format(
         "a closed room without light: a lamp hangs at {} (`lamp` X,Y,Z moves it, `lamp` none removes it)",
         place_text(plan.lamp->position));
@@ -147,8 +147,8 @@ std::string brightest_material(const Scene& scene) {
     const auto material = static_cast<size_t>(scene.meshes[static_cast<size_t>(scene.instances[i].mesh)].material);
     power[material] += areas[i] * static_cast<double>(luminance_of(scene, scene.materials[material]));
   }
-  const auto most = static_cast<size_t>(std::ranges::max_element(power) - power.begin());
-  return most < scene.material_names.size() ? scene.material_names[most] : "";
+  const auto maximum = static_cast<size_t>(std::ranges::max_element(power) - power.begin());
+  return maximum < scene.material_names.size() ? scene.material_names[maximum] : "";
 }
 
 // The fraction of the emissive surfaces around the viewer that have only open air behind them: panes that represent the
@@ -170,13 +170,13 @@ float glowing_panes(const SceneRays& rays, vec3 eye) {
 }
 
 std::string advice_for(const SceneRays& rays, const Survey& survey, const LightPlan& plan) {
-  constexpr float kMostPanes = 0.5f;
+  constexpr float kMaxPanes = 0.5f;
   const Scene& scene = rays.scene();
   const bool dark_outside = scene.environment.radiance == vec3(0.0f) && !plan.surround;
   if (survey.kind != SceneKind::kClosedRoom || !plan.has_light || !dark_outside || plan.as_painted) return "";
   const std::string material = brightest_material(scene);
   const std::string glowing = material.empty() ? "what glows" : fmt::format("'{}', which glows", material);
-  if (glowing_panes(rays, survey.stand->eye) > kMostPanes) {
+  if (glowing_panes(rays, survey.stand->eye) > kMaxPanes) {
     return fmt::format("the room's light is {}, in a window: without it, sun and sky would light the room", glowing);
   }
   if (plan.windows < kWindows) return "";
@@ -208,7 +208,7 @@ SkyOptions best_sun(const SceneRays& rays, vec3 eye) {
     if (!sight.leaves()) seen.emplace_back(eye + direction * (sight.distance * 0.999f), sight.normal);
   }
   SkyOptions best = usual;
-  int most = 0;
+  int maximum = 0;
   for (const float elevation : {usual.elevation, usual.elevation + kStep, usual.elevation + 2.0f * kStep}) {
     for (float turned = 0.0f; turned < 360.0f; turned += kStep) {
       const float azimuth = std::fmod(usual.azimuth + turned, 360.0f);
@@ -218,28 +218,28 @@ SkyOptions best_sun(const SceneRays& rays, vec3 eye) {
       };
       const int lit = static_cast<int>(std::ranges::count_if(seen, is_lit));
       // Another sun must be clearly better.
-      if (lit * 4 <= most * 5) continue;
-      most = lit;
+      if (lit * 4 <= maximum * 5) continue;
+      maximum = lit;
       best = {elevation, azimuth};
     }
   }
   return best;
 }
 
-LightPlan plan_light(const SceneRays& rays, const Survey& survey, const LightWishes& wishes) {
+LightPlan plan_light(const SceneRays& rays, const Survey& survey, const LightChoices& wishes) {
   const bool closed = survey.kind == SceneKind::kClosedRoom;
   const bool chosen = wishes.surround != Surround::kAuto;
   LightPlan plan;
   if (closed) plan.windows = window_share(rays, survey.stand->eye);
-  judge_light(rays, survey, !chosen && wishes.lamp != LampWish::kPlaced, plan);
+  judge_light(rays, survey, !chosen && wishes.lamp != LampChoice::kPlaced, plan);
   plan.as_painted = wishes.unlit || plan.paint != Paint::kLit;
   if (chosen) plan.surround = wishes.surround;
   if (!chosen && !plan.has_light) plan.surround = missing_surround(survey, plan);
   const auto clearance = [&](vec3 from, vec3 direction) { return rays.distance(from, direction); };
   const bool dark = closed && !plan.has_light && !plan.as_painted && plan.windows < kWindows;
-  if (wishes.lamp == LampWish::kPlaced) {
+  if (wishes.lamp == LampChoice::kPlaced) {
     plan.lamp = lamp_at(wishes.lamp_position, clearance);
-  } else if (wishes.lamp == LampWish::kAuto && dark) {
+  } else if (wishes.lamp == LampChoice::kAuto && dark) {
     plan.lamp = place_lamp(survey.stand->eye, clearance);
     if (!plan.lamp && !chosen) plan.surround = Surround::kSky;
   }
@@ -253,7 +253,7 @@ LightPlan plan_light(const SceneRays& rays, const Survey& survey, const LightWis
   return plan;
 }
 
-void apply_light(Scene& scene, const Survey& survey, const LightPlan& plan, const LightWishes& wishes) {
+void apply_light(Scene& scene, const Survey& survey, const LightPlan& plan, const LightChoices& wishes) {
   if (plan.as_painted) show_paint(scene);
   scene.as_painted = plan.as_painted;
   const size_t before = scene.instances.size();

@@ -24,13 +24,13 @@ enum class Surround {
   kGiven,   // a picture or a colour
 };
 
-enum class LampWish { kAuto, kNone, kPlaced };
+enum class LampChoice { kAuto, kNone, kPlaced };
 
-struct LightWishes {
+struct LightChoices {
   Surround surround = Surround::kAuto;
   SkyOptions sky;     // for kSky, if specified
   Environment given;  // for kGiven
-  LampWish lamp = LampWish::kAuto;
+  LampChoice lamp = LampChoice::kAuto;
   vec3 lamp_position{0.0f};  // for kPlaced
   bool unlit = false;        // shows all colours as painted
   bool ground = true;        // objects in a studio or under a sky get a ground
@@ -54,10 +54,10 @@ struct LightPlan {
 inline constexpr float kWindows = 0.003f;
 
 // Decides which light to add. Deterministic.
-LightPlan plan_light(const SceneRays& rays, const Survey& survey, const LightWishes& wishes = {});
+LightPlan plan_light(const SceneRays& rays, const Survey& survey, const LightChoices& wishes = {});
 
 // Adds the light: changes the scene's environment, background, materials and instances, and sets Scene::supplied.
-void apply_light(Scene& scene, const Survey& survey, const LightPlan& plan, const LightWishes& wishes = {});
+void apply_light(Scene& scene, const Survey& survey, const LightPlan& plan, const LightChoices& wishes = {});
 
 // The sun that lights most of the surfaces visible from a point, among several directions at elevations of 35 to 65
 // degrees: low ones are preferred, and among equals the default.

@@ -56,7 +56,7 @@ static FormatHint as_picture(const SphericalMetadata& known) {
   return metadata;
 }
 
-std::optional<SphericalMetadata> said_metadata(const VideoTrack& track) {
+std::optional<SphericalMetadata> declared_metadata(const VideoTrack& track) {
   std::optional<SphericalMetadata> said;
   for (const std::optional<SphericalMetadata>* place : {&track.v2, &track.v1, &track.vexu}) {
     if (!*place) continue;
@@ -84,8 +84,8 @@ std::optional<SphericalMetadata> said_metadata(const VideoTrack& track) {
 static void guess_projection(SphericalMetadata& known, const StereoFormat& format, const VideoTrack& track,
                              const std::string& path) {
   const Extent eye = whole_eye(format.layout.layout.value_or(Layout::kSeparate), track.size).value_or(track.size);
-  const bool is_told = format.has_camera || read_name(path).projection != nullptr;
-  if (!is_told && natural_height(format.camera.projection, eye.width) != eye.height) {
+  const bool is_known = format.has_camera || read_name(path).projection != nullptr;
+  if (!is_known && natural_height(format.camera.projection, eye.width) != eye.height) {
     throw Error(ErrorKind::kInput,
                 fmt::format("cannot tell what '{}' shows, from its name (_360_TB, _180_LR ...) or its shape "
                             "({}x{}): give `layout` and `projection`",
@@ -105,7 +105,7 @@ static StereoFormat found_format(const SphericalMetadata& known, const VideoTrac
   return find_format(info, path, as_picture(known));
 }
 
-static void take_words(SphericalMetadata& known, const SphericalMetadata& said) {
+static void take_metadata(SphericalMetadata& known, const SphericalMetadata& said) {
   if (!known.stereo) known.stereo = said.stereo;
   if (!known.projection) {
     known.projection = said.projection;
@@ -119,9 +119,9 @@ static void take_words(SphericalMetadata& known, const SphericalMetadata& said) 
 
 SphericalMetadata complete_metadata(SphericalMetadata known, const VideoTrack& track, const std::string& path,
                                     std::vector<std::string>& guesses) {
-  const std::optional<SphericalMetadata> said = said_metadata(track);
+  const std::optional<SphericalMetadata> said = declared_metadata(track);
   const bool is_new = known.stereo || !said;
-  if (said) take_words(known, *said);
+  if (said) take_metadata(known, *said);
   const StereoFormat format = found_format(known, track, path);
   const Layout layout = format.layout.layout.value_or(Layout::kSeparate);
   if (is_new && !unpacked_size(layout, track.size)) {
@@ -141,7 +141,7 @@ SphericalMetadata complete_metadata(SphericalMetadata known, const VideoTrack& t
 }
 
 bool is_told_by_shape(const SphericalMetadata& known, const VideoTrack& track, const std::string& path) {
-  return !said_metadata(track) && found_format(known, track, path).is_open;
+  return !declared_metadata(track) && found_format(known, track, path).is_open;
 }
 
 // --- contradictions --------------------------------------------------------------------------------------------------
@@ -218,7 +218,7 @@ static void compare_with_names(const SphericalMetadata& known, const SphericalMe
   if (found.has_camera && !may_be_called(said, found.camera.projection)) {
     conflicts.push_back(projection_conflict(said, found.camera.projection, "its sidecar disagrees"));
   } else if (!found.has_camera && words.projection != nullptr && !may_be_called(said, words.projection->setting)) {
-    const std::string reason = fmt::format("its name ends in {}", words.projection_word);
+    const std::string reason = fmt::format("its name ends in {}", words.projection_token);
     conflicts.push_back(projection_conflict(said, words.projection->setting, reason));
   }
 }
@@ -226,7 +226,7 @@ static void compare_with_names(const SphericalMetadata& known, const SphericalMe
 std::vector<MetadataConflict> find_conflicts(const SphericalMetadata& known, const VideoTrack& track,
                                              const std::string& path) {
   std::vector<MetadataConflict> conflicts;
-  const std::optional<SphericalMetadata> said = said_metadata(track);
+  const std::optional<SphericalMetadata> said = declared_metadata(track);
   if (!said) return conflicts;
   try {
     compare_with_names(known, *said, found_format({}, track, path), path, conflicts);
@@ -243,7 +243,7 @@ std::vector<MetadataConflict> find_conflicts(const SphericalMetadata& known, con
 
 // --- the plan --------------------------------------------------------------------------------------------------------
 
-bool can_say(Container container, const VideoTrack& track, const SphericalMetadata& metadata) {
+bool can_express(Container container, const VideoTrack& track, const SphericalMetadata& metadata) {
   const SphericalMetadata usual{VideoStereo::kOneView, VideoProjection::kEquirect, {}, 0.0, 0.0, 0.0, 0.0, false, ""};
   SphericalMetadata eyes = usual, sphere = usual;
   eyes.stereo = metadata.stereo;
@@ -270,11 +270,11 @@ static void plan_v1(const VideoTrack& track, const SphericalMetadata& metadata, 
   const bool stays = track.v1 && can_update_v1(*track.v1, metadata) && (may_be_new || same_stereo(*track.v1, metadata));
   const bool will_be = stays || (may_be_new && fits_v1(metadata));
   if (track.v1 && !says(track.v1, metadata)) {
-    plan.says_more = true;
+    plan.adds_metadata = true;
     plan.notes.push_back(
         fmt::format("its V1 says {}: {}", metadata_text(*track.v1), will_be ? "changed" : "taken out"));
   }
-  if (will_be && !track.v1) plan.says_more = true;
+  if (will_be && !track.v1) plan.adds_metadata = true;
   if (!will_be && may_be_new && metadata.projection != VideoProjection::kFlat) {
     plan.notes.push_back("V1 cannot express that and is left out: players that read only V1 show a flat video");
   }
@@ -285,7 +285,7 @@ static void plan_v1(const VideoTrack& track, const SphericalMetadata& metadata, 
 
 static void plan_vexu(const VideoTrack& track, const SphericalMetadata& metadata, TagPlan& plan) {
   if (track.layers || !metadata.for_apple) return;
-  if (!says(track.vexu, metadata)) plan.says_more = true;
+  if (!says(track.vexu, metadata)) plan.adds_metadata = true;
   if (!says(track.vexu, metadata) && !fits_vexu(metadata)) {
     plan.notes.push_back(fmt::format("vexu cannot express {} and {}: Apple's players show a flat video",
                                      metadata_text(metadata), track.vexu ? "is taken out" : "is left out"));
@@ -302,7 +302,7 @@ static void plan_vexu(const VideoTrack& track, const SphericalMetadata& metadata
 
 TagPlan plan_tag(Container container, const VideoTrack& track, const SphericalMetadata& metadata) {
   TagPlan plan;
-  plan.says_more = !says(track.v2, metadata);
+  plan.adds_metadata = !says(track.v2, metadata);
   plan_v1(track, metadata, has_boxes(container), plan);
   if (has_boxes(container)) plan_vexu(track, metadata, plan);
   return plan;

@@ -24,7 +24,7 @@ void set_projection(SphericalMetadata& metadata, const ProjectionSetting& projec
 // Combines all of a video's own metadata. Returns nullopt if there is none. V2 takes precedence over V1, and V1 over
 // vexu; only vexu has the eye distance. If only one of stereo and projection is given, the other gets the default that
 // players assume: mono, flat.
-std::optional<SphericalMetadata> said_metadata(const VideoTrack& track);
+std::optional<SphericalMetadata> declared_metadata(const VideoTrack& track);
 
 // Completes `known`: missing stereo and projection, and everything that the caller cannot set (angles, eye distance,
 // source), come from the video's own metadata, else from its sidecar, name and aspect ratio. `guesses` receives the
@@ -50,11 +50,11 @@ std::vector<MetadataConflict> find_conflicts(const SphericalMetadata& known, con
 std::string shape_fault(const SphericalMetadata& metadata, Extent size);
 
 // Returns whether V2, or StereoMode and Projection, can express this metadata, or the track has it already.
-bool can_say(Container container, const VideoTrack& track, const SphericalMetadata& metadata);
+bool can_express(Container container, const VideoTrack& track, const SphericalMetadata& metadata);
 
 // The changes that tag_video() will make to a track.
 struct TagPlan {
-  bool says_more = false;          // the file gains stereo or projection metadata
+  bool adds_metadata = false;      // the file gains stereo or projection metadata
   std::vector<std::string> notes;  // for users: metadata that cannot be expressed, and corrections of contradictions
 };
 TagPlan plan_tag(Container container, const VideoTrack& track, const SphericalMetadata& metadata);

@@ -142,7 +142,7 @@ static void tag_tracks(Matroska& video, uint64_t number, const std::optional<Sph
       if (!is_track_of_type(part, entry, kTypeVideo) || child_number(entry, kTrackNumber) != number) continue;
       Element* pictures = find_child(entry, kVideo);
       if (pictures == nullptr) throw MalformedFile("its video track has no description of its pictures");
-      if (metadata && !can_say(Container::kMatroska, read_track(video, entry), *metadata)) {
+      if (metadata && !can_express(Container::kMatroska, read_track(video, entry), *metadata)) {
         throw MalformedFile(fmt::format("mkv and webm cannot express {}", metadata_text(*metadata)));
       }
       tag_video(*pictures, metadata);
@@ -239,7 +239,7 @@ static std::map<size_t, Element> move_parts(const Matroska& video, Places& place
 }
 
 // The position comes before the first block.
-static bool says_position(const FileInput& file, const FileElement& cluster) {
+static bool records_position(const FileInput& file, const FileElement& cluster) {
   constexpr int kBefore = 6;
   uint64_t at = cluster.body();
   for (int i = 0; i < kBefore && at < cluster.end(); i++) {
@@ -310,7 +310,7 @@ TagResult tag_matroska(const FileInput& file, AtomicFile& to, uint64_t track,
       append(to, bytes);
     } else if (part.id == kVoid && places.sizes[i] != part.size) {
       append(to, void_bytes(places.sizes[i]));
-    } else if (is_moved && says_position(file, part)) {
+    } else if (is_moved && records_position(file, part)) {
       write_moved_cluster(file, part, places.offsets[i], to);
     } else {
       file.copy(part.offset, part.size, to);

@@ -13,9 +13,9 @@
 
 namespace ods {
 
-constexpr size_t kMostVertices = 200000;
-constexpr size_t kMostIndices = 1200000;
-constexpr size_t kMostBytes = size_t{64} << 20;  // unpacked
+constexpr size_t kMaxVertices = 200000;
+constexpr size_t kMaxIndices = 1200000;
+constexpr size_t kMaxBytes = size_t{64} << 20;  // unpacked
 
 // The unpacked size is known only after unpacking.
 static std::string inflated(std::string_view packed) {
@@ -23,7 +23,7 @@ static std::string inflated(std::string_view packed) {
   std::string bytes;
   size_t size = 0;
   libdeflate_result result = LIBDEFLATE_INSUFFICIENT_SPACE;
-  for (size_t room = 1 << 18; room <= kMostBytes && result == LIBDEFLATE_INSUFFICIENT_SPACE; room *= 4) {
+  for (size_t room = 1 << 18; room <= kMaxBytes && result == LIBDEFLATE_INSUFFICIENT_SPACE; room *= 4) {
     bytes.resize(room);
     result = libdeflate_deflate_decompress(state, packed.data(), packed.size(), bytes.data(), room, &size);
   }
@@ -86,14 +86,14 @@ static std::vector<float> read_coordinates(Bits& bits) {
   std::vector<float> coordinates(count);
   for (float& each : coordinates) {
     each = std::bit_cast<float>(bits.next(32));
-    if (!std::isfinite(each)) throw MalformedFile("its mesh has numbers that are none or infinite");
+    if (!std::isfinite(each)) throw MalformedFile("its mesh has numbers that are NaN or infinite");
   }
   return coordinates;
 }
 
 static void read_vertices(Bits& bits, const std::vector<float>& coordinates, TextureMesh& mesh) {
   const size_t count = bits.next(32);
-  if (count == 0 || count > kMostVertices) throw MalformedFile("its mesh has no vertices or more than 200000");
+  if (count == 0 || count > kMaxVertices) throw MalformedFile("its mesh has no vertices or more than 200000");
   std::vector<Indices> parts(5, Indices(coordinates.size()));  // x, y, z, u and v
   if (count > bits.left() / static_cast<size_t>(5 * parts[0].bits())) throw MalformedFile("its mesh is cut short");
   for (size_t i = 0; i < count; i++) {
@@ -124,7 +124,7 @@ static void read_lists(Bits& bits, TextureMesh& mesh) {
     const size_t count = bits.next(32);
     Indices index(mesh.vertices.size());
     all += count;
-    if (all > kMostIndices || count > bits.left() / static_cast<size_t>(index.bits())) {
+    if (all > kMaxIndices || count > bits.left() / static_cast<size_t>(index.bits())) {
       throw MalformedFile("its mesh has more triangles than vertices can make, or is cut short");
     }
     std::vector<uint32_t> indices;

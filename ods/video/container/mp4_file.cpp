@@ -308,7 +308,7 @@ static bool tag_v1(Box& track, const std::optional<SphericalMetadata>& metadata,
 
 static TagResult tag_track(Box& track, const std::optional<SphericalMetadata>& metadata, const VideoTrack& before) {
   TagResult result;
-  if (metadata && !can_say(Container::kMp4, before, *metadata)) {
+  if (metadata && !can_express(Container::kMp4, before, *metadata)) {
     throw MalformedFile(fmt::format("mp4 and mov cannot express {}", metadata_text(*metadata)));
   }
   for (Box& entry : open_child(sample_table(track), box_type("stsd"), 8).children) {
@@ -322,7 +322,7 @@ static TagResult tag_track(Box& track, const std::optional<SphericalMetadata>& m
     }
   }
   if (metadata && !result.has_v2) throw MalformedFile("its video track has no description of its pictures");
-  const std::optional<SphericalMetadata> said = said_metadata(before);
+  const std::optional<SphericalMetadata> said = declared_metadata(before);
   result.has_v1 = tag_v1(track, metadata, metadata && said && said->source != metadata->source);
   return result;
 }

@@ -105,14 +105,14 @@ std::string v1_xml(const SphericalMetadata& metadata) {
   return xml + "</rdf:SphericalVideo>";
 }
 
-static std::string v1_word(const std::string& xml, const std::string& name) {
+static std::string v1_element(const std::string& xml, const std::string& name) {
   const std::string text(xmp_property(xml, "GSpherical:" + name));
   const size_t from = text.find_first_not_of(" \t\r\n");
   return from == std::string::npos ? "" : text.substr(from, text.find_last_not_of(" \t\r\n") - from + 1);
 }
 
 static std::optional<double> v1_number(const std::string& xml, const std::string& name) {
-  const std::string text = v1_word(xml, name);
+  const std::string text = v1_element(xml, name);
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && std::abs(value) <= 1e6 ? std::optional(value) : std::nullopt;
@@ -139,16 +139,16 @@ static std::array<uint32_t, 4> v1_bounds(const std::string& xml) {
 std::optional<SphericalMetadata> parse_v1(const std::string& xml) {
   if (xml.find("GSpherical:") == std::string::npos) return std::nullopt;
   SphericalMetadata metadata;
-  const bool is_sphere = is_true(v1_word(xml, "Spherical")) && is_true(v1_word(xml, "Stitched")) &&
-                         v1_word(xml, "ProjectionType") == "equirectangular";
+  const bool is_sphere = is_true(v1_element(xml, "Spherical")) && is_true(v1_element(xml, "Stitched")) &&
+                         v1_element(xml, "ProjectionType") == "equirectangular";
   metadata.projection = is_sphere ? VideoProjection::kEquirect : VideoProjection::kOther;
-  const std::string stereo = v1_word(xml, "StereoMode");
+  const std::string stereo = v1_element(xml, "StereoMode");
   if (stereo == "mono") metadata.stereo = VideoStereo::kOneView;
   if (stereo == "top-bottom") metadata.stereo = VideoStereo::kTopBottom;
   if (stereo == "left-right") metadata.stereo = VideoStereo::kSideBySide;
   metadata.bounds = v1_bounds(xml);
   for (const V1Angle& angle : kV1Angles) metadata.*angle.value = v1_number(xml, angle.name).value_or(0.0);
-  metadata.source = xml_unescaped(v1_word(xml, "StitchingSoftware"));
+  metadata.source = xml_unescaped(v1_element(xml, "StitchingSoftware"));
   return metadata;
 }
 
@@ -157,7 +157,7 @@ bool can_update_v1(const SphericalMetadata& v1, const SphericalMetadata& metadat
 }
 
 // Sets an element, adding it if missing. Returns false if the XML cannot be parsed.
-static bool set_v1_word(std::string& xml, const std::string& name, const std::string& value) {
+static bool set_v1_element(std::string& xml, const std::string& name, const std::string& value) {
   const std::string open = "<GSpherical:" + name + ">", close = "</GSpherical:" + name + ">";
   if (const size_t from = xml.find(open); from != std::string::npos) {
     const size_t begin = from + open.size(), end = xml.find(close, begin);
@@ -177,7 +177,7 @@ std::optional<std::string> updated_v1(const std::string& xml, const SphericalMet
   std::string updated = xml;
   bool is_understood = true;
   const auto set = [&](const char* name, const std::string& value) {
-    is_understood = is_understood && set_v1_word(updated, name, value);
+    is_understood = is_understood && set_v1_element(updated, name, value);
   };
   if (!same_stereo(*old, metadata)) set("StereoMode", v1_stereo(stereo_of(metadata)));
   for (const V1Angle& angle : kV1Angles) {

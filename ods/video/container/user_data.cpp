@@ -41,12 +41,12 @@ static void take(const std::vector<Box>& boxes, std::initializer_list<BoxType> t
 }
 
 static UserData read_boxes(const FileInput& file, uint64_t track) {
-  constexpr uint64_t kMost = uint64_t{16} << 20;
+  constexpr uint64_t kMax = uint64_t{16} << 20;
   constexpr BoxType kMovie[] = {box_type("moov")};
   UserData data;
   for (const FileBox& box : scan_boxes(file)) {
     const bool is_data = box.type == box_type("meta") || box.type == box_type("uuid");
-    if (is_data && box.size <= kMost) {
+    if (is_data && box.size <= kMax) {
       take({read_box(file, box)}, {box_type("meta"), box_type("uuid")}, data.file);
     }
     if (box.type != box_type("moov")) continue;

@@ -279,8 +279,8 @@ class PackedSound final : public SideTracks {
 
   // The next samples up to a position; null at the end. Encoders need full frames except for the last.
   Owned<AVFrame> samples(int64_t until, bool is_end) {
-    const int64_t size = encoder_->frame_size > 0 ? encoder_->frame_size : 1024, most = until - position_;
-    if (most < size && !is_end) return nullptr;
+    const int64_t size = encoder_->frame_size > 0 ? encoder_->frame_size : 1024, maximum = until - position_;
+    if (maximum < size && !is_end) return nullptr;
     while (!ended_ && av_audio_fifo_size(fifo_.get()) < size) decode();
     if (is_first_) begin();
     const int64_t count = std::min<int64_t>({size, until - position_, av_audio_fifo_size(fifo_.get())});

@@ -198,8 +198,9 @@ TEST(HdrEncoder, KeepsTheLargestOfEachPixelToOnePartIn128) {
     for (int i = 0; i < 9 * width; i++) {
       const int x = i / 3 % width;
       const float raw = value(x, i % 3), expected = std::isnan(raw) || raw < 1e-32f ? 0.0f : std::min(raw, 1e38f);
-      const float most = x < 7 ? expected : value(x, 2);
-      ASSERT_NEAR(sample_value(SampleType::kFloat, &pixels[static_cast<size_t>(4 * i)]), expected, most / 128.0f) << i;
+      const float maximum = x < 7 ? expected : value(x, 2);
+      ASSERT_NEAR(sample_value(SampleType::kFloat, &pixels[static_cast<size_t>(4 * i)]), expected, maximum / 128.0f)
+          << i;
     }
   }
 }

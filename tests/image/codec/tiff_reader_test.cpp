@@ -193,8 +193,8 @@ TEST(TiffDecoder, IntegersOfOtherSizesBecome8Or16Bits) {
   EXPECT_EQ(numbers_of<uint8_t>(read_all(*open(folder, bits4, {std::byte{0x2f}}))), (Codes{34, 255}));
   EXPECT_EQ(numbers_of<uint16_t>(read_all(*open(folder, bits12, {std::byte{0x80}, std::byte{0x0f}, std::byte{0xff}}))),
             (Deep{32775, 65535}));
-  const uint32_t kMost = 0xffffffff;
-  EXPECT_EQ((decoded<uint16_t, uint32_t>(grey(32), {0, 1u << 31, kMost, 65537 * 7})), (Deep{0, 32768, 65535, 7}));
+  const uint32_t kMax = 0xffffffff;
+  EXPECT_EQ((decoded<uint16_t, uint32_t>(grey(32), {0, 1u << 31, kMax, 65537 * 7})), (Deep{0, 32768, 65535, 7}));
   EXPECT_EQ((decoded<uint16_t, int8_t>(grey(8, SAMPLEFORMAT_INT), {-128, -1, 0, 127})), (Deep{0, 0, 0, 65535}));
   EXPECT_EQ((decoded<uint16_t, int16_t>(grey(16, SAMPLEFORMAT_INT), {-5, 16384, 32767})), (Deep{0, 32769, 65535}));
   EXPECT_EQ((decoded<uint16_t, int32_t>(grey(32, SAMPLEFORMAT_INT), {-5, 0x7fffffff})), (Deep{0, 65535}));

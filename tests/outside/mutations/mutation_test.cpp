@@ -16,7 +16,7 @@
 #include "ods/convert/video/turn_keys.h"
 #include "ods/depth/depth_file.h"
 #include "ods/farm/plan.h"
-#include "ods/image/ktx2/ktx2.h"
+#include "ods/image/codec/ktx2.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/save.h"
 #include "ods/picture/stored_picture.h"
@@ -209,7 +209,7 @@ TEST_F(Mutations, Glb) {
 TEST_F(Mutations, Ktx2) {
   std::vector<std::string> files;
   for (const char* name : {"etc1s", "etc1s_alpha", "uastc", "uastc_zstd"}) {
-    std::ifstream file(source_folder() + "/tests/image/ktx2/" + name + ".ktx2", std::ios::binary);
+    std::ifstream file(source_folder() + "/tests/image/codec/" + name + ".ktx2", std::ios::binary);
     files.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
   }
   try_all(files, ".ktx2", [&](const std::string& path) {

@@ -152,10 +152,10 @@ TEST(Metadata, AHeadTiltMapComesBackFromTheSidecar) {
     std::filesystem::remove(folder.path("a.camera.json"));
     const StoredPicture alone = open_picture(folder.path(name));
     EXPECT_EQ(alone.camera.head_tilt_map, nullptr);
-    const bool is_said = std::any_of(alone.guesses.begin(), alone.guesses.end(), [](const std::string& guess) {
+    const bool is_declared = std::any_of(alone.guesses.begin(), alone.guesses.end(), [](const std::string& guess) {
       return guess == "its head-tilt map is in a sidecar that is missing: using a level head";
     });
-    EXPECT_EQ(is_said, name == std::string("a.exr")) << ::testing::PrintToString(alone.guesses);
+    EXPECT_EQ(is_declared, name == std::string("a.exr")) << ::testing::PrintToString(alone.guesses);
   }
 }
 
@@ -347,11 +347,11 @@ TEST(NameEnd, IsReadAsWhatThePictureShows) {
       if (layout == Layout::kSeparate) continue;  // two names
       const std::string end = name_end(named.setting, layout);
       const NameWords words = read_name("a" + end);
-      EXPECT_TRUE(words.layout_word.empty() || words.layout == layout) << end;
+      EXPECT_TRUE(words.layout_token.empty() || words.layout == layout) << end;
       const bool is_half = is_vr180(named.setting);
-      EXPECT_EQ(words.projection_word, is_half                                                   ? "_180"
-                                       : named.name == "lat-long" || is_cube(named.setting.kind) ? "_360"
-                                                                                                 : "");
+      EXPECT_EQ(words.projection_token, is_half                                                   ? "_180"
+                                        : named.name == "lat-long" || is_cube(named.setting.kind) ? "_360"
+                                                                                                  : "");
     }
   }
   EXPECT_EQ(name_end(find_projection("vr180")->setting, Layout::kSideBySide), "_180_LR.png");

@@ -12,7 +12,7 @@ namespace ods {
 namespace {
 
 Binary small_ktx2() {
-  return read_file(source_folder() + "/tests/image/ktx2/etc1s.ktx2", 1 << 20);
+  return read_file(source_folder() + "/tests/image/codec/etc1s.ktx2", 1 << 20);
 }
 
 constexpr size_t kTexels = 61 * 61;

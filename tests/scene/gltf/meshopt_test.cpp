@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-#include "ods/scene/animation/animation.h"
+#include "ods/scene/animation.h"
 #include "ods/scene/motion.h"
 #include "tests/support/compressed_gltf.h"
 #include "tests/support/temporary_folder.h"

@@ -13,12 +13,12 @@
 namespace ods {
 namespace {
 
-LightPlan plan_for(const Scene& scene, const LightWishes& wishes = {}) {
+LightPlan plan_for(const Scene& scene, const LightChoices& wishes = {}) {
   const SceneRays rays(scene);
   return plan_light(rays, survey(rays), wishes);
 }
 
-LightPlan supplied(Scene& scene, const LightWishes& wishes = {}) {
+LightPlan supplied(Scene& scene, const LightChoices& wishes = {}) {
   LightPlan plan;
   Survey found;
   {
@@ -144,7 +144,7 @@ TEST(Supply, LightThatReachesNobodyDoesNotCount) {
 }
 
 TEST(Supply, TheUserIsObeyed) {
-  LightWishes given;
+  LightChoices given;
   given.surround = Surround::kGiven;
   given.given.radiance = vec3(0.25f);
   Scene chair = make_chair();
@@ -156,7 +156,7 @@ TEST(Supply, TheUserIsObeyed) {
   EXPECT_TRUE(plan_for(make_simple_room(), given).lamp) << "an environment does not reach into a closed room";
   EXPECT_FALSE(plan_for(make_walled_room(true), given).lamp);
 
-  LightWishes sky;
+  LightChoices sky;
   sky.surround = Surround::kSky;
   sky.sky = {60.0f, 10.0f};
   Scene car = make_car(), yard = make_courtyard();
@@ -167,14 +167,14 @@ TEST(Supply, TheUserIsObeyed) {
   sky.ground = false;
   EXPECT_FALSE(plan_for(make_car(), sky).ground);
 
-  LightWishes none;
-  none.lamp = LampWish::kNone;
+  LightChoices none;
+  none.lamp = LampChoice::kNone;
   plan = plan_for(make_simple_room(), none);
   EXPECT_FALSE(plan.lamp || plan.surround);
   EXPECT_EQ(plan.note, "");
 
-  LightWishes lamp;
-  lamp.lamp = LampWish::kPlaced;
+  LightChoices lamp;
+  lamp.lamp = LampChoice::kPlaced;
   lamp.lamp_position = vec3(1.0f, 2.0f, 1.0f);
   plan = plan_for(make_walled_room(true), lamp);
   ASSERT_TRUE(plan.lamp);
@@ -183,7 +183,7 @@ TEST(Supply, TheUserIsObeyed) {
 }
 
 TEST(Supply, UnlitShowsAllAsItIsPainted) {
-  LightWishes wishes;
+  LightChoices wishes;
   wishes.unlit = true;
   Scene room = make_simple_room(), chair = make_chair();
   const LightPlan plan = supplied(room, wishes);
@@ -200,8 +200,8 @@ TEST(Supply, WhatIsPaintedWithItsLightIsShownAsItIs) {
     material.emission = vec3(1.0f);
     material.emission_slot.texture = material.base_color_slot.texture = texture;
   }
-  LightWishes lamp;
-  lamp.lamp = LampWish::kPlaced;
+  LightChoices lamp;
+  lamp.lamp = LampChoice::kPlaced;
   // Emission from all surfaces is light enough, and would be added to the colours.
   const LightPlan plan = supplied(room);
   EXPECT_EQ(plan.paint, Paint::kGlowing);
@@ -246,7 +246,7 @@ TEST(Supply, NothingBehindAWindowIsSaid) {
   EXPECT_FALSE(plan.surround);
   EXPECT_NE(plan.advice.find("`env` sky"), std::string::npos) << plan.advice;
   EXPECT_EQ(plan_for(make_walled_room(true)).advice, "") << "it gets a sky";
-  LightWishes wishes;
+  LightChoices wishes;
   wishes.surround = Surround::kSky;
   EXPECT_EQ(plan_for(room, wishes).advice, "") << "the user chose one";
 }

@@ -64,7 +64,7 @@ class MatroskaVideo : public ::testing::Test {
 };
 
 // The data at the places in the video's index: ids, and the texts in the clusters.
-void expect_right_places(const std::string& video, bool says_position) {
+void expect_right_places(const std::string& video, bool records_position) {
   const made::Piece segment = made::pieces(video, {kSegment}).at(0);
   const auto number = [&](const made::Piece& piece) {
     return made::value(video, piece.begin, static_cast<int>(piece.end - piece.begin));
@@ -78,7 +78,7 @@ void expect_right_places(const std::string& video, bool says_position) {
   const std::vector<made::Piece> positions = made::pieces(video, {kSegment, kCluster, 0xa7});
   const std::vector<made::Piece> blocks = made::pieces(video, {kSegment, kCluster, 0xa3});
   ASSERT_TRUE(clusters.size() == 2 && cues.size() == 2 && blocks.size() == 2);
-  EXPECT_GE(positions.size(), says_position ? 2u : 0u);
+  EXPECT_GE(positions.size(), records_position ? 2u : 0u);
   for (size_t i = 0; i < 2; i++) {
     EXPECT_EQ(segment.begin + number(cues[i]), clusters[i].at);
     if (i < positions.size()) {
@@ -125,7 +125,7 @@ TEST_F(MatroskaVideo, EverythingThatSaysWhereGoesOnBeingRight) {
 TEST_F(MatroskaVideo, AVoidIsUsedUpInsteadOfMoving) {
   made::MatroskaOptions options;
   options.room = 500;
-  options.says_position = false;
+  options.records_position = false;
   const std::string video = made::matroska(options), tagged = tag(video, stacked());
   EXPECT_FALSE(result.moved);
   EXPECT_EQ(tagged.size(), video.size());

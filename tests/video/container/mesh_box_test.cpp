@@ -30,16 +30,16 @@ vec2 fisheye_uv(vec3 d) {
 
 // The largest distance from that in the middle 160 degrees; 9: somewhere it shows nothing.
 float worst(const DirectionMap& map) {
-  float most = 0.0f;
+  float maximum = 0.0f;
   for (int i = 0; i < 60 * 60; i++) {
     const float off = 1.4f * static_cast<float>(i / 60 + 1) / 60.0f,
                 around = 2.0f * kPi * static_cast<float>(i % 60) / 60.0f;
     const vec3 d(std::sin(off) * std::cos(around), std::sin(off) * std::sin(around), -std::cos(off));
     const ImagePoint point = map.place(d);
     if (!point.seen) return 9.0f;
-    most = std::max(most, length(point.uv - fisheye_uv(d)));
+    maximum = std::max(maximum, length(point.uv - fisheye_uv(d)));
   }
-  return most;
+  return maximum;
 }
 
 std::string fault_of(const std::string& body) {
