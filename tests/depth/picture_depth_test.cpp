@@ -293,7 +293,7 @@ TEST(PictureDepth, MistakesAreSaidInOneLine) {
       {"negative", ErrorKind::kInput, numbers(size, [&](float m) { return -same(m); }), {}},
       {"are 0", ErrorKind::kInput, numbers(size, [](float m) { return m < 2.0f ? m : 0.0f; }), {}},
       {"another shape", ErrorKind::kInput, numbers({128, 100}, same), {}},
-      {"`depth-kind` metres, millimetres", ErrorKind::kUsage, numbers(size, same, 255), {}},
+      {"`depth-kind` to one of metres, millimetres", ErrorKind::kUsage, numbers(size, same, 255), {}},
       {"`near`", ErrorKind::kUsage,
        numbers(
            size, [](float m) { return 1.0f / m; }, 255),
@@ -316,7 +316,7 @@ TEST(PictureDepth, MistakesAreSaidInOneLine) {
   const DepthReport report =
       add_depth(made.picture, {numbers(size, [&](float m) { return m < 1.7f ? std::nanf("") : same(m); })}, {});
   ASSERT_FALSE(report.notes.empty());
-  EXPECT_NE(report.notes[0].find("no depth"), std::string::npos) << report.notes[0];
+  EXPECT_NE(report.notes[0].find("are not depths"), std::string::npos) << report.notes[0];
   EXPECT_EQ(layer_at(made.picture, 64, 63), kFarDepth);
 }
 

@@ -52,7 +52,7 @@ TEST_F(Confined, WhatWasCheckedIsRead) {
   const ConfinedFile file(folder.path("in/link"), within);
   link("out/a");
   EXPECT_EQ(file.read(text), "inside");
-  EXPECT_NE(error_of(folder.path("in/link")).find("it lies outside"), std::string::npos);
+  EXPECT_NE(error_of(folder.path("in/link")).find("it is outside"), std::string::npos);
 }
 
 TEST_F(Confined, DirectlyIsNeitherBelowNorALink) {
@@ -84,7 +84,7 @@ TEST_F(Confined, ErrorsNameTheFileAsItWasGiven) {
 
 TEST_F(Confined, OutsideNothingShowsWhetherItExists) {
   for (const char* name : {"out/a", "out/absent"}) {
-    EXPECT_EQ(error_of(folder.path(name)), "cannot read '" + folder.path(name) + "': it lies outside '" + within + "'");
+    EXPECT_EQ(error_of(folder.path(name)), "cannot read '" + folder.path(name) + "': it is outside '" + within + "'");
   }
 }
 

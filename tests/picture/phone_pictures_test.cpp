@@ -162,7 +162,7 @@ TEST_F(Heif, AGridOfOverlaysIsRefused) {
   std::string whole = folder.read("a.heic");
   if (whole.find("grid") == std::string::npos) GTEST_SKIP() << "skipped: this heif-enc makes no grid of it";
   folder.write("a.heic", whole.replace(whole.find("hvc1"), 4, "iovl"));
-  EXPECT_NE(error("a.heic").find("how many bits"), std::string::npos) << error("a.heic");
+  EXPECT_NE(error("a.heic").find("bit depth"), std::string::npos) << error("a.heic");
 }
 
 // Files of some hundred bytes that ask for gigabytes or years: each is refused in one line.

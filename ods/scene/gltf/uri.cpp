@@ -168,7 +168,7 @@ Storage read_uri(const GltfFile& file, const std::string& uri, const std::string
   } catch (const Error& error) {
     if (!file.confine.empty() && !file.archive) {  // must reveal nothing about files outside the folder
       if (error.kind() != ErrorKind::kInput) throw;
-      fail(file, fmt::format("refers to {}, which does not exist, lies outside the folder that scenes are confined "
+      fail(file, fmt::format("refers to {}, which does not exist, is outside the folder that scenes are confined "
                              "to, or cannot be read",
                              printable(uri)));
     }

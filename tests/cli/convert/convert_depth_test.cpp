@@ -65,7 +65,7 @@ TEST_F(ConvertDepth, MakesTwoEyesOfOne) {
   EXPECT_EQ(made.camera.top, ods::kUsualMerge);
   EXPECT_FLOAT_EQ(made.camera.ipd, 0.065f);
   run_well("convert @panorama.png --depth @depth.exr --ipd 0.6 -o @wide.exr");
-  EXPECT_NE(err.find("filled from what is beside it"), std::string::npos) << err;
+  EXPECT_NE(err.find("filled from their neighbours"), std::string::npos) << err;
   run_well("convert @panorama.png --depth @depth.exr --holes empty --ipd 0.2 --merge none -q -o @holes.exr");
   EXPECT_EQ(open("holes.exr").eyes[0].layers[0].channels.size(), 4u);
   EXPECT_FLOAT_EQ(open("holes.exr").camera.ipd, 0.2f);
@@ -89,7 +89,7 @@ TEST_F(ConvertDepth, MergesByDepth) {
   // A stereo picture that exists.
   run_well("render room -q --width 64 --samples 1 --merge none --ipd 0.2 -o @stereo.exr");
   run_well("convert @stereo.exr --merge auto -o @calm.exr");
-  EXPECT_NE(err.find("filled from what is beside it"), std::string::npos) << err;
+  EXPECT_NE(err.find("filled from their neighbours"), std::string::npos) << err;
   EXPECT_EQ(err.find("empty: "), std::string::npos) << err;
   // The limit holds in what came out, and is used.
   run_well("render room -q --width 256 --samples 1 --merge none -o @large.exr");

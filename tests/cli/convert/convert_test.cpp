@@ -170,7 +170,7 @@ TEST_F(ConvertCommand, EyesOfTheirOwn) {
 TEST_F(ConvertCommand, MovesTheEyes) {
   const std::string room = make("room.exr", "--ipd 0.5");
   ASSERT_EQ(convert(room, "moved.exr", "--ipd 1.5 --merge linear,40,80"), 0) << err;
-  EXPECT_NE(err.find("% of the pixels show what was hidden"), std::string::npos) << err;
+  EXPECT_NE(err.find("% of the pixels were hidden"), std::string::npos) << err;
   ASSERT_EQ(convert(room, "moved.exr", "--ipd 1.5 --merge linear,40,80 --holes empty"), 0) << err;
   EXPECT_NE(err.find("% of the pixels are empty"), std::string::npos) << err;
   EXPECT_FLOAT_EQ(open("moved.exr").camera.ipd, 1.5f);

@@ -76,7 +76,7 @@ TEST_F(RenderConfined, NothingOutsideOfTheFolderIsRead) {
   for (const char* uri : {"../out/a.bin", "..%2Fout%2Fa.bin", "%2e%2e/out/a.bin", "link.bin", "away/a.bin",
                           "textures/../../out/a.bin", "../out/absent.bin", "away/absent.bin"}) {
     EXPECT_EQ(info(scene(uri), true), 3) << uri;
-    expect_refused("lies outside");
+    expect_refused("is outside");
   }
   EXPECT_EQ(info(scene("inside.bin"), true), 0) << err;
 }
@@ -86,21 +86,21 @@ TEST_F(RenderConfined, TheSceneItselfAndTheSkyLieInsideToo) {
   fs::create_symlink(outside, folder.path("in/linked.gltf"));
   for (const std::string& path : {outside, folder.path("in/linked.gltf"), folder.path("in/../out/scene.gltf")}) {
     EXPECT_EQ(info(path, true), 3) << path;
-    expect_refused("lies outside");
+    expect_refused("is outside");
   }
   const std::string confine = " --confine " + folder.path("in") + " ";
   const std::string render = "render -q --width 16 --samples 1 -o " + folder.path("p.png") + confine;
   EXPECT_EQ(run(render + inside), 0) << err;
   EXPECT_EQ(run("render -q --width 16 --samples 1 furnace -o " + folder.path("out/sky.hdr")), 0) << err;
   EXPECT_EQ(run(render + inside + " --env " + folder.path("out/sky.hdr")), 3);
-  expect_refused("lies outside");
+  expect_refused("is outside");
   fs::copy(folder.path("out/sky.hdr"), folder.path("in/sky.hdr"));
   EXPECT_EQ(run(render + inside + " --env " + folder.path("in/sky.hdr")), 0) << err;
   EXPECT_EQ(run("rig --scene " + outside + confine), 3);
-  expect_refused("lies outside");
+  expect_refused("is outside");
   EXPECT_EQ(run("video -q --width 16 --samples 1 " + outside + confine + " --duration 1 -o " + folder.path("f.mp4")),
             3);
-  expect_refused("lies outside");
+  expect_refused("is outside");
 }
 
 TEST_F(RenderConfined, ArchivesLieInsideToo) {
@@ -113,7 +113,7 @@ TEST_F(RenderConfined, ArchivesLieInsideToo) {
       << err;
   EXPECT_EQ(info(folder.path("out/a.zip"), false), 0) << err;
   EXPECT_EQ(info(folder.path("out/a.zip"), true), 3);
-  expect_refused("lies outside");
+  expect_refused("is outside");
 }
 
 // A link that changes all the time: the file that was checked is the one that is read, or nothing is.
@@ -130,7 +130,7 @@ TEST_F(RenderConfined, ASkyIsNotReplacedAfterItsCheck) {
   for (int i = 0; i < 16; i++) {
     if (run("render -q --width 16 --samples 1 furnace -o " + folder.path("p.png") + " --env " +
             folder.path("in/link.hdr") + " --confine " + folder.path("in")) != 0) {
-      expect_refused("link.hdr': it lies outside");
+      expect_refused("link.hdr': it is outside");
     }
   }
   is_over = true;
@@ -143,9 +143,9 @@ TEST_F(RenderConfined, MessagesNameTheFileAsItWasGiven) {
   const std::string sky = "render furnace -o " + folder.path("p.png") + confine + " --env ";
   for (const std::string& command : {sky, "info" + confine + " "}) {
     EXPECT_EQ(run(command + folder.path("out/secret")), 3);
-    expect_refused("/out/secret': it lies outside");
+    expect_refused("/out/secret': it is outside");
     EXPECT_EQ(run(command + folder.path("out/absent")), 3);
-    expect_refused("/out/absent': it lies outside");
+    expect_refused("/out/absent': it is outside");
     folder.write("in/broken.hdr", "no picture");
     EXPECT_EQ(run(command + folder.path("in/broken.hdr")), 3);
     expect_refused("/in/broken.hdr");

@@ -112,7 +112,7 @@ TEST_F(GltfUri, OneWarningForAllFiles) {
   folder.write("in/scene.gltf", file.json.dump());
   const Scene loaded = load_gltf(folder.path("in/scene.gltf"));
   ASSERT_EQ(loaded.warnings.size(), 1u);
-  EXPECT_NE(loaded.warnings[0].find("and 2 more likewise"), std::string::npos) << loaded.warnings[0];
+  EXPECT_NE(loaded.warnings[0].find("and 2 more"), std::string::npos) << loaded.warnings[0];
   EXPECT_EQ(loaded.texels.size(), 4u);  // one file, read once
 }
 
@@ -121,7 +121,7 @@ TEST_F(GltfUri, NothingOutsideIsFoundByAnotherSpelling) {
   for (const char* uri : {"..\\out\\a.bin", "../OUT/a.bin", "..%5Cout%5Ca.bin", "%252e%252e/out/a.bin"}) {
     EXPECT_EQ(error(uri, ""), "") << uri;
     const std::string confined = error(uri, "in");
-    EXPECT_NE(confined.find("lies outside the folder"), std::string::npos) << uri << ": " << confined;
+    EXPECT_NE(confined.find("is outside the folder"), std::string::npos) << uri << ": " << confined;
   }
   const std::string absolute = folder.path("out/a.bin");
   std::string backslashes = absolute, twice = absolute;

@@ -241,8 +241,8 @@ TEST(MeshBox, WhatMakesNoSenseIsRefusedInWords) {
   const std::pair<std::string, const char*> cases[] = {
       {box_body({}, false), "has none"},
       {box_body({""}, false), "cut short"},
-      {box_body({mesh_body(nan, {list})}, false), "none or infinite"},
-      {box_body({mesh_body(infinite, {list})}, true), "none or infinite"},
+      {box_body({mesh_body(nan, {list})}, false), "NaN or infinite"},
+      {box_body({mesh_body(infinite, {list})}, true), "NaN or infinite"},
       {box_body({mesh_body(square, {})}, false), "no triangle"},
       {box_body({mesh_body(square, {{0, 0, {0, 1}}})}, false), "no triangle"},
       {box_body({mesh_body(square, {{0, 7, {0, 1, 2}}})}, false), "order that nobody knows"},
