@@ -15,10 +15,9 @@ namespace {
 
 void render(const RenderJob& given) {
   if (given.parts > 0) throw UsageError("--parts is for ods submit; --part 1/8 renders one of 8 parts");
-  for (const char* option : {"--exposure", "--brighter"}) {
-    if (gives(given, option) && !given.part && keeps_light(given.output)) {
-      note(fmt::format("{} does not change .exr and .hdr, which are scene-linear", option));
-    }
+  if (!given.part && keeps_light(given.output)) {
+    if (given.exposure) note("--exposure does not change .exr and .hdr, which are scene-linear");
+    if (given.brighter != 0.0f) note("--brighter does not change .exr and .hdr, which are scene-linear");
   }
   const RenderJob job = settled(given);
   run_long_job(job.progress, job.render.threads,

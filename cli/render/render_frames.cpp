@@ -62,7 +62,7 @@ void look_first(const RenderJob& job, ods::FrameRenderer& renderer, const std::v
   warn_of_strain(job, renderer, all);
   ods::SaveOptions& save = options.finish.save;
   save.exposure = is_looked_at(job) || job.exposure ? look.exposure : job.brighter;
-  if (renderer.scene().as_painted && !gives(job, "--tone")) save.tone = ods::ToneCurve::kLinear;
+  if (renderer.scene().as_painted && !job.tone) save.tone = ods::ToneCurve::kLinear;
   renderer.set_options(std::move(options));
 }
 

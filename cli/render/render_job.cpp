@@ -50,7 +50,8 @@ void add_picture_options(Options& options, RenderJob& job) {
       "--shadow-catcher", "NAME", job.scene.catchers,
       "make an object or material a shadow catcher: only the shadows on it are visible (needs --transparent)");
   add_exposure_option(options, job);
-  options.choice("--tone", job.save.tone, ods::kToneCurveTable, "tone curve; .hdr and .exr ignore it");
+  options.choice("--tone", job.tone, ods::kToneCurveTable, "tone curve; .hdr and .exr ignore it",
+                 std::string(ods::tone_curve_name(job.save.tone)));
 }
 
 void read_part(const std::string& word, RenderJob& job) {
@@ -94,10 +95,6 @@ void check_rig(const Options& options, const RenderJob& job) {
 }
 
 }  // namespace
-
-bool gives(const RenderJob& job, std::string_view option) {
-  return std::ranges::any_of(job.given, [&](const GivenWord& word) { return word.name == option; });
-}
 
 void add_exposure_option(Options& options, RenderJob& job) {
   options.custom(
@@ -173,5 +170,6 @@ RenderJob settled(RenderJob job) {
   }
   take_base(job.camera, job.scene.foreign, job.scene.blender);
   use_form(job.form, job.camera, job.render, job.save);
+  job.save.tone = job.tone.value_or(job.save.tone);
   return job;
 }

@@ -27,6 +27,7 @@ struct RenderJob {
   std::optional<ods::Denoiser> denoise;  // absent: the default for all files but those that keep the scene's light
   std::optional<float> exposure;         // stops; none: ods::look_first() chooses
   float brighter = 0.0f;                 // stops, added to the chosen exposure
+  std::optional<ods::ToneCurve> tone;    // none: the usual curve, or none for a scene shown as painted
   bool object_layer = false;             // an .exr gets the names of the objects that its pixels show
   std::string output;
   std::string rig;                // a slit rig: render its views instead of the camera's picture
@@ -41,9 +42,6 @@ struct RenderJob {
   bool save_unfinished = false;   // an interrupted one is saved as it is
   ProgressMode progress = ProgressMode::kAuto;
 };
-
-// Returns whether the command line gave an option.
-bool gives(const RenderJob& job, std::string_view option);
 
 // Adds --exposure auto|STOPS and --brighter STOPS.
 void add_exposure_option(Options& options, RenderJob& job);

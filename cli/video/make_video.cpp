@@ -91,7 +91,7 @@ void render_scene(const VideoJob& job, ProgressLines& lines) {
   const std::vector<int> own = own_frames(time.only, video.frames);
   if (!time.only.empty()) video.only = own;
   video.raw = render.raw;
-  if (gives(render, "--tone")) video.tone = job.display.tone;
+  video.tone = render.tone;
   video.keep_frames = job.keep_frames;
   video.wait = render.wait;
   ods::VideoProgress progress;
@@ -141,7 +141,8 @@ void stitch_views(const VideoJob& job, ProgressLines& lines) {
   });
   if (!stitch.only.empty()) return lines.clear();
   note_sound_length(options, frames.size());
-  const ods::DisplayTransform display{render.exposure.value_or(render.brighter), job.display.tone};
+  const ods::DisplayTransform display{render.exposure.value_or(render.brighter),
+                                      render.tone.value_or(ods::DisplayTransform().tone)};
   const ods::VideoPlan plan = ods::encode_frames(journal, frames, display, options, job.keep_frames,
                                                  {report_encoding(job, lines, begin, frames.size()), {}});
   lines.clear();

@@ -43,7 +43,8 @@ VideoJob parse_video(Options& options) {
   options.group("Picture");
   add_picture_options(options, render.form, render.save.sidecar);
   add_exposure_option(options, render);
-  options.choice("--tone", job.display.tone, ods::kToneCurveTable, "tone curve");
+  options.choice("--tone", job.render.tone, ods::kToneCurveTable, "tone curve",
+                 std::string(ods::tone_curve_name(ods::DisplayTransform().tone)));
   add_camera_options(options, render.camera);
   add_time_options(options, render.time);
   add_quality_options(options, render);

@@ -10,7 +10,6 @@
 
 struct VideoJob {
   RenderJob render;
-  ods::DisplayTransform display;
   VideoChoices video;
   std::string rig;  // a slit rig: stitch its views instead of rendering
   bool keep_frames = false, restart = false;
