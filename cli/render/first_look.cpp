@@ -76,7 +76,7 @@ void report_look(const RenderJob& job, const ods::SequenceOptions& options, cons
       return note(
           fmt::format("exposure {:+} stops, as the frames that exist (--restart chooses it again)", look.exposure));
     case ods::ExposureReason::kLight: {
-      if (!is_shown) return note(fmt::format("noise is judged at {:+} stops, the exposure for viewing", look.exposure));
+      if (!is_shown) return note(fmt::format("noise is judged at {:+} stops, as the picture will be viewed", look.exposure));
       const std::string more = job.brighter == 0.0f ? "" : fmt::format(" and --brighter {}", job.brighter);
       note(fmt::format("exposure {:+} stops, from a first look at the light{} (--exposure {})", look.exposure, more,
                        look.exposure));

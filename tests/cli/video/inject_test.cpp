@@ -360,7 +360,7 @@ TEST_F(InjectCommand, ProbeAdvisesWhatInjectDoes) {
       if (advice == std::string::npos) continue;
       advised++;
       std::string options;
-      for (const std::string mark : {"true: ", "and "}) {  // the first choice of each
+      for (const std::string mark : {"true value: ", "and "}) {  // the first choice of each
         const size_t at = text.find(mark + "--", advice);
         if (at != std::string::npos)
           options +=
