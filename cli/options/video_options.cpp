@@ -104,7 +104,7 @@ void warn_of_names(const VideoChoices& wishes, const ods::VideoPlan& plan) {
   for (const std::string& warning : warnings) warn(warning);
   const bool has_words = plan.eyes == 1 || !ods::read_name(wishes.output).layout_token.empty();
   const bool misleads = std::any_of(warnings.begin(), warnings.end(),
-                                    [](const std::string& warning) { return warning.starts_with("its name says"); });
+                                    [](const std::string& warning) { return warning.starts_with("its name declares"); });
   if (has_words && !misleads) return;
   std::string words = plan.metadata.is_partial() ? "_180" : "_360";
   if (!plan.metadata.projection || plan.metadata.projection == ods::VideoProjection::kFlat) words = "";

@@ -212,10 +212,10 @@ TEST_F(EncodeCommand, NamesThatPlayersGoByAreSuggested) {
   ASSERT_EQ(run("encode " + pattern() + " --codec h264 -o " + folder.path("video.mp4")), 0) << err;
   EXPECT_NE(err.find("would recognise video_360_TB.mp4"), std::string::npos) << err;
   ASSERT_EQ(run("encode " + pattern() + " --codec h264 -o " + folder.path("video_360_LR.mp4")), 0) << err;
-  EXPECT_NE(err.find("its name says side-by-side"), std::string::npos) << err;
+  EXPECT_NE(err.find("its name declares side-by-side"), std::string::npos) << err;
   ASSERT_EQ(run("encode " + pattern() + " --codec h264 --bits 10 -o " + folder.path("video_360_TB.mp4")), 0) << err;
   EXPECT_NE(err.find("few players accept h264 of 10 bits"), std::string::npos) << err;
-  EXPECT_EQ(err.find("its name says"), std::string::npos) << err;
+  EXPECT_EQ(err.find("its name declares"), std::string::npos) << err;
 }
 
 TEST_F(EncodeCommand, ATitleGoesOverAVideo) {
