@@ -174,8 +174,7 @@ TEST(Architecture, ModulesAreSmall) {
   const std::vector<Module> modules = read_modules();
   std::map<std::string, int> sizes;
   for (const Source& source : read_sources({"ods", "cli"})) sizes[module_of(modules, source.path)]++;
-  for (const auto& [module, size] : sizes)
-    EXPECT_LE(size, module == "ods/base" ? 40 : 30) << module;
+  for (const auto& [module, size] : sizes) EXPECT_LE(size, module == "ods/base" ? 40 : 30) << module;
 }
 
 TEST(Architecture, HeadersShowNoLibraryButGlm) {
@@ -283,8 +282,8 @@ void expect_only_in(const std::vector<std::string>& folders, const std::vector<s
       for (const std::string& start : starts) {
         const size_t at = line.find(start);
         if (at == std::string::npos || line.find("// ") < at) continue;
-        const bool is_open = at > 0 && is_letter(line[at - 1]) && is_letter(start[0]);
-        EXPECT_TRUE(is_open) << source.path << ": " << line << "\n" << instead;
+        const bool is_within_word = at > 0 && is_letter(line[at - 1]) && is_letter(start[0]);
+        EXPECT_TRUE(is_within_word) << source.path << ": " << line << "\n" << instead;
       }
     }
   }

@@ -137,7 +137,7 @@ void remove_textures(json& node, const json& textures, const std::set<size_t>& i
 // Assimp prints its errors on stdout: "ERROR: Failed to load file: WHY".
 std::string assimp_error(const std::optional<ProgramResult>& result) {
   if (!result) return "";
-  std::string words = result->final_message;
+  std::string words = result->last_line;
   std::istringstream lines(result->out);
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("ERROR") || words.empty()) words = ods::one_line(line);

@@ -102,8 +102,7 @@ static void run_script(const BlenderOptions& options, const std::vector<std::str
   const std::string how =
       result->code > 128 ? fmt::format("Blender crashed (signal {}); --blender PATH tries another", result->code - 128)
                          : "Blender ended before it was done";
-  fail_in_blender(what,
-                  result->final_message.empty() ? how : fmt::format("{}; its output: {}", how, result->final_message));
+  fail_in_blender(what, result->last_line.empty() ? how : fmt::format("{}; its output: {}", how, result->last_line));
 }
 
 void run_blender(const BlenderOptions& options, const std::string& scene, const std::string& folder) {

@@ -31,7 +31,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr size_t kMaxOut = size_t{256} << 20;     // of stdout; more is not kept
 constexpr size_t kMaxLine = size_t{64} << 10;     // of stderr
-constexpr size_t kMaxFinalOutput = 400;           // bytes in a message
+constexpr size_t kMaxLastLine = 400;              // bytes in a message
 constexpr std::chrono::seconds kLastPatience{5};  // with a supervisor that should have ended
 
 // For posix_spawn(); valid while the texts are.
@@ -117,8 +117,8 @@ void RunningProgram::take_errors(std::string_view piece, ProgramResult& result) 
   for (size_t end = 0; (end = line_.find('\n')) != std::string::npos; line_.erase(0, end + 1)) {
     const std::string line = line_.substr(0, end);
     if (program_.take_error) program_.take_error(line);
-    const std::string words = ods::one_line(line.substr(0, kMaxFinalOutput));
-    if (!words.empty()) result.final_message = words;
+    const std::string words = ods::one_line(line.substr(0, kMaxLastLine));
+    if (!words.empty()) result.last_line = words;
   }
   if (line_.size() > kMaxLine) line_.clear();
 }
@@ -189,7 +189,7 @@ std::string program_fault(const Program& program, const std::optional<ProgramRes
   if (!result || result->code == 127) return fmt::format("{} is not installed", name);
   if (!result->in_time) return fmt::format("{} did not finish within {:g} seconds", name, *program.limit);
   if (result->code == 0) return "";
-  if (!result->final_message.empty()) return fmt::format("{} failed: {}", name, result->final_message);
+  if (!result->last_line.empty()) return fmt::format("{} failed: {}", name, result->last_line);
   return fmt::format("{} failed with exit code {}", name, result->code);
 }
 

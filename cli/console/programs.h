@@ -23,10 +23,10 @@ struct Program {
 };
 
 struct ProgramResult {
-  int code = 0;               // its exit code; 128 + the signal that ended it; 127: it cannot be started
-  bool in_time = true;        // false: it was ended at its limit
-  std::string out;            // stdout
-  std::string final_message;  // the last line of its stderr, for messages
+  int code = 0;           // its exit code; 128 + the signal that ended it; 127: it cannot be started
+  bool in_time = true;    // false: it was ended at its limit
+  std::string out;        // stdout
+  std::string last_line;  // the last line of its stderr, for messages
 };
 
 class RunningProgram {

@@ -71,7 +71,7 @@ void send(const ods::FarmPlan& plan) {
                      fmt::format("Slurm did not accept the job ({}); try again: sh {}/submit.sh", fault,
                                  ods::shell_word(plan.folder)));
   }
-  if (!sent->final_message.empty()) warn(fmt::format("Slurm: {}", sent->final_message));
+  if (!sent->last_line.empty()) warn(fmt::format("Slurm: {}", sent->last_line));
   ods::write_file(plan.folder + "/jobs.txt", sent->out);
   if (!console.quiet) put_out(sent->out);
   note(fmt::format("ods jobs {} --follow shows its progress", ods::shell_word(plan.name)));

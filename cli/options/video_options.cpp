@@ -100,12 +100,9 @@ void warn_of_names(const VideoChoices& wishes, const ods::VideoPlan& plan) {
   ods::VideoTrack track;
   track.size = plan.size;
   track.v2 = track.v1 = plan.metadata;
-  const std::vector<std::string> warnings = ods::video_warnings(video, track, wishes.output);
-  for (const std::string& warning : warnings) warn(warning);
+  for (const std::string& warning : ods::video_warnings(video, track, wishes.output)) warn(warning);
   const bool has_words = plan.eyes == 1 || !ods::read_name(wishes.output).layout_token.empty();
-  const bool misleads = std::any_of(warnings.begin(), warnings.end(),
-                                    [](const std::string& warning) { return warning.starts_with("its name declares"); });
-  if (has_words && !misleads) return;
+  if (has_words && !ods::name_misleads(video, track, wishes.output)) return;
   std::string words = plan.metadata.is_partial() ? "_180" : "_360";
   if (!plan.metadata.projection || plan.metadata.projection == ods::VideoProjection::kFlat) words = "";
   if (plan.eyes == 2) words += plan.metadata.stereo == ods::VideoStereo::kSideBySide ? "_LR" : "_TB";
@@ -200,12 +197,12 @@ static void warn_of_less(const VideoChoices& wishes, const std::string& path, co
 VideoChoices wishes_like(VideoChoices wishes, const ods::VideoInput& video, const ods::VideoStream& stream) {
   wishes.rate = stream.rate;
   const auto own = ods::packing_like(stream, container_for(wishes.output));
-  const bool is_open = !wishes.target && !wishes.codec && wishes.encoder.empty();
-  if (own && is_open) {
+  const bool follows_input = !wishes.target && !wishes.codec && wishes.encoder.empty();
+  if (own && follows_input) {
     wishes.codec = own->codec;
     wishes.bits = wishes.bits.value_or(own->bits);
     wishes.chroma = wishes.chroma.value_or(own->chroma);
-  } else if (is_open) {
+  } else if (follows_input) {
     warn_of_less(wishes, video.path, stream);
   }
   wishes.keep.path = video.path;

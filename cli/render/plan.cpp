@@ -16,8 +16,8 @@ namespace {
 
 // A video's frames are .exr, but viewers see the video. One sample does not have a variance.
 ods::Denoiser denoiser_of(const RenderJob& job) {
-  const bool gaze_density = job.time.is_video || !keeps_light(job.output);
-  const auto denoiser = job.denoise.value_or(gaze_density ? ods::Denoiser::kOwn : ods::Denoiser::kNone);
+  const bool is_shown = job.time.is_video || !keeps_light(job.output);
+  const auto denoiser = job.denoise.value_or(is_shown ? ods::Denoiser::kOwn : ods::Denoiser::kNone);
   return denoiser == ods::Denoiser::kOwn && job.render.samples == 1 ? ods::Denoiser::kNone : denoiser;
 }
 

@@ -27,7 +27,7 @@ ods::FormatHint known_format(const InjectJob& job) {
 }
 
 // If only the shape identifies the picture, the pixels must agree.
-ods::FormatHint gaze_density(const InjectJob& job, ods::FormatHint known) {
+ods::FormatHint confirmed_by_pixels(const InjectJob& job, ods::FormatHint known) {
   const std::optional<Wordless> seen = look_at_pixels(known, job.file);
   if (seen && !seen->reading) {
     throw ods::Error(
@@ -55,7 +55,7 @@ void inject_picture(const InjectJob& job) {
     throw UsageError(fmt::format("--track, --ambisonics and --apple are for videos, but '{}' is a picture", job.file));
   if (job.remove) return ods::tag_picture(job.file, job.output, std::nullopt);
   std::vector<std::string> guesses;
-  ods::PictureTag tag = ods::complete_tag(gaze_density(job, known_format(job)), job.file, guesses);
+  ods::PictureTag tag = ods::complete_tag(confirmed_by_pixels(job, known_format(job)), job.file, guesses);
   settle_name(job, tag);
   tag.camera.yaw = job.yaw.value_or(tag.camera.yaw);
   tag.camera.pitch = job.pitch.value_or(tag.camera.pitch);

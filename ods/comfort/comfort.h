@@ -43,7 +43,7 @@ struct SeenDepth {
 struct ComfortPoint {
   bool is_known = false;                                    // in the picture, with a depth or showing empty space
   float solid_angle = 0.0f;                                 // steradians
-  double looked = 0.0;                                      // gaze_density() its elevation
+  double looked = 0.0;                                      // gaze_density() of its elevation
   float distance = std::numeric_limits<float>::infinity();  // metres from the circle's centre
   float vergence = 0.0f;                                    // radians
   EnumArray<Strain, float> strains{};

@@ -25,7 +25,7 @@ struct Look {
 };
 
 // An evenly spaced selection of pixels, row by row.
-std::vector<Look> sampled_frames(const Image& nearness, const Camera& camera, int eye) {
+std::vector<Look> sampled_looks(const Image& nearness, const Camera& camera, int eye) {
   std::vector<Look> looks;
   for (int row = 0; row < kRows; row++) {
     for (int column = 0; column < kColumns; column++) {
@@ -66,7 +66,7 @@ std::optional<double> floor_below(const Image& nearness, const Camera& camera, i
   std::vector<vec3> points;
   std::vector<float> weights;
   double all = 0.0;
-  for (const Look& look : sampled_frames(nearness, camera, eye)) {
+  for (const Look& look : sampled_looks(nearness, camera, eye)) {
     if (look.direction.y > kBelow) continue;
     all += double{look.weight};
     if (look.nearness <= 0.0f) continue;
@@ -109,7 +109,7 @@ static float middle_of(const std::vector<Look>& looks, float from, float to) {
 }
 
 bool looks_inverted(const Image& nearness, const Camera& camera, int eye) {
-  const std::vector<Look> looks = sampled_frames(nearness, camera, eye);
+  const std::vector<Look> looks = sampled_looks(nearness, camera, eye);
   const float below = middle_of(looks, -1.0f, -0.8f), level = middle_of(looks, -0.15f, 0.15f);
   const float above = middle_of(looks, 0.6f, 1.0f);
   if (below < 0.0f || level < 0.0f) return false;

@@ -43,11 +43,11 @@ void refuse_nonsense(const Survey& found, const std::string& path, bool are_dist
   const auto refuse = [&](const std::string& what) {
     throw Error(ErrorKind::kInput, fmt::format("'{}' is not a depth picture: {}", path, what));
   };
-  const auto maximum = [&](int64_t count) { return 2 * count > found.all; };
-  if (maximum(found.nan)) refuse("most of its numbers are NaN");
+  const auto is_most = [&](int64_t count) { return 2 * count > found.all; };
+  if (is_most(found.nan)) refuse("most of its numbers are NaN");
   if (found.infinite == found.all) refuse("it is infinite everywhere");
-  if (maximum(found.negative)) refuse("most of its numbers are negative");
-  if (are_distances && found.zero + found.nan + found.negative < found.all && maximum(found.zero))
+  if (is_most(found.negative)) refuse("most of its numbers are negative");
+  if (are_distances && found.zero + found.nan + found.negative < found.all && is_most(found.zero))
     refuse("most of its numbers are 0");
   if (found.minimum >= found.maximum)
     refuse(fmt::format("it is {} everywhere", found.zero == found.all ? 0.0f : found.maximum));
@@ -86,12 +86,12 @@ class Meaning {
  public:
   Meaning(const DepthNumbers& depth, const DepthFormat& format, DepthKind kind, const Survey& found) : kind_(kind) {
     const bool is_unit = depth.codes > 0 || (found.minimum >= 0.0f && found.maximum <= 1.0f);
-    least_ = is_unit ? 0.0f : found.minimum;
+    minimum_ = is_unit ? 0.0f : found.minimum;
     range_ = is_unit ? 1.0f : found.maximum - found.minimum;
-    if (kind == DepthKind::kDisparity) least_ = 0.0f, range_ = found.maximum;
-    if (kind == DepthKind::kInverse && !format.nearest && depth.codes == 0) least_ = 0.0f, range_ = 1.0f;
+    if (kind == DepthKind::kDisparity) minimum_ = 0.0f, range_ = found.maximum;
+    if (kind == DepthKind::kInverse && !format.nearest && depth.codes == 0) minimum_ = 0.0f, range_ = 1.0f;
     if (kind == DepthKind::kMetres || kind == DepthKind::kMillimetres) {
-      least_ = 0.0f, range_ = 1.0f / static_cast<float>(std::max(depth.codes, 1));
+      minimum_ = 0.0f, range_ = 1.0f / static_cast<float>(std::max(depth.codes, 1));
       if (kind == DepthKind::kMillimetres) range_ *= 1000.0f;
     }
     const float far = format.farthest.value_or(std::numeric_limits<float>::infinity());
@@ -105,9 +105,9 @@ class Meaning {
   float operator()(float number) const {
     if (std::isnan(number)) return -1.0f;
     if (std::isinf(number)) return are_distances() && number > 0.0f ? 0.0f : -1.0f;
-    const float value = (number - least_) / range_;
+    const float value = (number - minimum_) / range_;
     if (are_distances()) return value > 0.0f ? nearness(value) : -1.0f;
-    if (number < 0.0f && least_ == 0.0f) return -1.0f;
+    if (number < 0.0f && minimum_ == 0.0f) return -1.0f;
     if (kind_ == DepthKind::kRelative) return nearness(mix(near_end_, far_end_, value));
     return mix(far_end_, near_end_, value);
   }
@@ -117,7 +117,7 @@ class Meaning {
   static float mix(float a, float b, float t) { return a + (b - a) * t; }
 
   DepthKind kind_;
-  float least_ = 0.0f, range_ = 1.0f, near_end_ = 1.0f, far_end_ = 0.0f;
+  float minimum_ = 0.0f, range_ = 1.0f, near_end_ = 1.0f, far_end_ = 0.0f;
 };
 
 }  // namespace

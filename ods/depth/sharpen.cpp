@@ -155,8 +155,8 @@ class Sharpener {
 }  // namespace
 
 // With noisy colours the sides of single pixels are noisy, too, so each takes the side of most pixels around it.
-static float side_of_max(const Image& chosen, const Image& old, int x, int y, const Span& ramp, int radius,
-                         bool wraps) {
+static float majority_side(const Image& chosen, const Image& old, int x, int y, const Span& ramp, int radius,
+                           bool wraps) {
   const int hop = std::max(radius / 8, 1);
   int near = 0, all = 0;
   for (int j = -2 * hop; j <= 2 * hop; j += hop) {
@@ -188,7 +188,7 @@ int64_t sharpen_edges(Image& nearness, const GuideImage& guide, int radius, bool
   each_ramp([&](int x, int y, const Span& ramp) { *nearness.at(x, y) = sharpener.side_of(x, y, ramp); });
   const Image chosen = nearness;
   each_ramp([&](int x, int y, const Span& ramp) {
-    *nearness.at(x, y) = side_of_max(chosen, old, x, y, ramp, radius, wraps);
+    *nearness.at(x, y) = majority_side(chosen, old, x, y, ramp, radius, wraps);
     changed++;
   });
   return changed;

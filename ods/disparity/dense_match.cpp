@@ -116,7 +116,7 @@ class Volume {
   double size() const { return 2.0 * std::numbers::pi / width(); }
 
   const Band left_;
-  const int least_, shifts_;  // the first shift, and the number of shifts
+  const int first_shift_, shifts_;  // the first shift, and the number of shifts
   Census own_, other_;
   std::vector<uint8_t> costs_;
   std::vector<Cost> sums_;
@@ -124,8 +124,8 @@ class Volume {
 
 Volume::Volume(const Band& left, const Band& right)
     : left_(left),
-      least_(-static_cast<int>(std::ceil(kOutwards / size()))),
-      shifts_((static_cast<int>(std::ceil(kInwards / size())) - least_ + 8) / 8 * 8),
+      first_shift_(-static_cast<int>(std::ceil(kOutwards / size()))),
+      shifts_((static_cast<int>(std::ceil(kInwards / size())) - first_shift_ + 8) / 8 * 8),
       own_(census_of(left)),
       other_(census_of(right)),
       costs_(own_.bits.size() * static_cast<size_t>(shifts_)),
@@ -135,7 +135,7 @@ Volume::Volume(const Band& left, const Band& right)
       uint8_t* costs = &costs_[cell(x, y)];
       const uint64_t bits = own_.bits[pixel(x, y)];
       for (int i = 0; i < shifts_; i++) {
-        const size_t there = pixel(turned(x - least_ - i), y);
+        const size_t there = pixel(turned(x - first_shift_ - i), y);
         const bool seen = own_.seen[pixel(x, y)] && other_.seen[there];
         costs[i] = seen ? static_cast<uint8_t>(std::popcount(bits ^ other_.bits[there])) : uint8_t{kUnseen};
       }
@@ -222,7 +222,7 @@ Volume::Best Volume::best_of(const Cost* sums) const {
   if (best.index <= 0 || best.index >= shifts_ - 1 || minimum >= 0.97 * second) return {};
   const double before = sums[best.index - 1], after = sums[best.index + 1];
   const double bend = before + after - 2.0 * minimum;
-  best.shift = static_cast<float>(least_ + best.index + (bend > 0.0 ? 0.5 * (before - after) / bend : 0.0));
+  best.shift = static_cast<float>(first_shift_ + best.index + (bend > 0.0 ? 0.5 * (before - after) / bend : 0.0));
   return best;
 }
 
@@ -235,7 +235,7 @@ std::vector<Volume::Best> Volume::best_shifts(int eye) const {
       const Cost* sums = &sums_[cell(x, y)];
       if (eye == 1) {
         for (int i = 0; i < shifts_; i++) {
-          row[static_cast<size_t>(i)] = sums_[cell(turned(x + least_ + i), y) + static_cast<size_t>(i)];
+          row[static_cast<size_t>(i)] = sums_[cell(turned(x + first_shift_ + i), y) + static_cast<size_t>(i)];
         }
         sums = row.data();
       }

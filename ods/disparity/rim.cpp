@@ -88,7 +88,7 @@ static float off(const Rim& rim, vec2 point) {
 
 // The circle through three points with the most borders on it, and few outside: dark objects at the rim move borders
 // inwards.
-static std::optional<Rim> circle_of_max(const std::vector<vec2>& borders) {
+static std::optional<Rim> most_supported_circle(const std::vector<vec2>& borders) {
   std::optional<Rim> best;
   int maximum = 0;
   uint32_t state = 1;
@@ -136,7 +136,7 @@ std::optional<Rim> find_rim(const Image& image) {
     }
   }
   if (static_cast<float>(borders.size()) < kRays * kMinShare) return std::nullopt;
-  std::optional<Rim> rim = circle_of_max(borders);
+  std::optional<Rim> rim = most_supported_circle(borders);
   size_t on = 0;
   for (int i = 0; rim && i < 5; i++) {
     std::vector<vec2> near;

@@ -124,14 +124,14 @@ static ColorSpace read_png(const FileInput& file) {
   std::map<std::string, std::string> chunks = color_chunks(file);
   ColorSpace color;
   if (chunks.contains("cICP")) color = of_cicp(chunks["cICP"]);
-  const auto is_open = [&] { return color.name.empty() || !color.fault.empty(); };
-  if (is_open() && chunks.contains("iCCP")) color = of_iccp(chunks["iCCP"]);
-  if (is_open() && chunks.contains("sRGB")) {
+  const auto is_unknown = [&] { return color.name.empty() || !color.fault.empty(); };
+  if (is_unknown() && chunks.contains("iCCP")) color = of_iccp(chunks["iCCP"]);
+  if (is_unknown() && chunks.contains("sRGB")) {
     color = {};
     color.name = "sRGB";
     color.curve = ColorSpace::Curve::kSrgb;
   }
-  if (is_open() && (chunks.contains("gAMA") || chunks.contains("cHRM"))) {
+  if (is_unknown() && (chunks.contains("gAMA") || chunks.contains("cHRM"))) {
     color = of_gama_and_chrm(chunks["gAMA"], chunks["cHRM"]);
   }
   return color;

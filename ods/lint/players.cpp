@@ -42,9 +42,13 @@ static PlayerView apple_view(const VideoTrack& track) {
   return {"is Apple's", shown_as({}), "it has no vexu"};
 }
 
+static bool is_named(const NameWords& words) {
+  return !words.layout_token.empty() || words.projection != nullptr;
+}
+
 static PlayerView name_view(const std::string& path) {
   const NameWords words = read_name(path);
-  if (words.layout_token.empty() && words.projection == nullptr) {
+  if (!is_named(words)) {
     return {"goes by the name", "mono, flat", "its name has no token for it"};
   }
   std::string text(words.layout ? layout_name(*words.layout) : "mono");
@@ -112,6 +116,19 @@ static bool agree(const std::string& a, const std::string& b) {
   return one == other.substr(0, open) + "lat-long" || one == other.substr(0, open) + "flat";
 }
 
+// Returns whether players that go by the name see something else than `is`.
+static bool contradicts_name(const std::string& path, const std::string& is) {
+  return is_named(read_name(path)) && !agree(is, name_view(path).takes_it_for);
+}
+
+static std::string name_warning(const std::string& path, const std::string& is) {
+  return fmt::format("its name declares {}, the file {}: players differ", name_view(path).takes_it_for, is);
+}
+
+bool name_misleads(const VideoFile& video, const VideoTrack& track, const std::string& path) {
+  return contradicts_name(path, v2_view(video, track).takes_it_for);
+}
+
 // Advises ods inject if it helps, with the necessary options: " (ods inject --track 2 adds it)".
 static std::string advice(const VideoFile& video, const VideoTrack& track, const std::string& path,
                           std::string_view what) {
@@ -131,7 +148,7 @@ static std::string advice(const VideoFile& video, const VideoTrack& track, const
 
 std::vector<std::string> video_warnings(const VideoFile& video, const VideoTrack& track, const std::string& path) {
   std::vector<std::string> warnings;
-  const PlayerView v2 = v2_view(video, track), name = name_view(path);
+  const PlayerView v2 = v2_view(video, track);
   if (track.layers) {
     warnings.emplace_back("its eyes are layers of its stream (MV-HEVC): players that do not support this see only one");
   }
@@ -148,12 +165,9 @@ std::vector<std::string> video_warnings(const VideoFile& video, const VideoTrack
     warnings.push_back(fmt::format("its vexu declares {}, its V2 {}: players differ{}", metadata_text(*track.vexu),
                                    metadata_text(*track.v2), make_one));
   }
-  const NameWords words = read_name(path);
-  const bool is_named = !words.layout_token.empty() || words.projection != nullptr;
-  if (is_named && !agree(v2.takes_it_for, name.takes_it_for)) {
+  if (name_misleads(video, track, path)) {
     warnings.push_back(
-        fmt::format("its name declares {}, the file {}: players differ", name.takes_it_for,
-                    track.v2 || track.v1 ? v2.takes_it_for : "nothing" + advice(video, track, path, "tags it")));
+        name_warning(path, track.v2 || track.v1 ? v2.takes_it_for : "nothing" + advice(video, track, path, "tags it")));
   }
   const std::optional<SphericalMetadata> said = declared_metadata(track);
   const std::string fault = said ? shape_fault(*said, track.size) : "";
@@ -191,13 +205,9 @@ std::vector<std::string> picture_warnings(const FileInfo& info, const StereoForm
   if (has_gpano && format.layout.layout) {
     warnings.push_back("it has GPano and holds two eyes: many viewers show both as one sphere, stretched");
   }
-  const PlayerView name = name_view(path), shape = shape_view({info.width, info.height});
-  const NameWords words = read_name(path);
-  const bool is_named = !words.layout_token.empty() || words.projection != nullptr;
-  if (is_named && !agree(is, name.takes_it_for)) {
-    warnings.push_back(fmt::format("its name declares {}, the file {}: players differ", name.takes_it_for, is));
-  }
-  if (!is_named && format.layout.layout && !agree(is, shape.takes_it_for)) {
+  const PlayerView shape = shape_view({info.width, info.height});
+  if (contradicts_name(path, is)) warnings.push_back(name_warning(path, is));
+  if (!is_named(read_name(path)) && format.layout.layout && !agree(is, shape.takes_it_for)) {
     warnings.push_back(
         fmt::format("players that go by its name or shape do not see that it is {} (a name that ends in "
                     "_360_TB, _180_LR ... is read by most)",

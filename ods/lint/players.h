@@ -28,6 +28,9 @@ std::vector<PlayerView> video_views(const VideoFile& video, const VideoTrack& tr
 // shape, a size that no level of its codec allows.
 std::vector<std::string> video_warnings(const VideoFile& video, const VideoTrack& track, const std::string& path);
 
+// Returns whether players that go by the file's name show something else than its metadata declare.
+bool name_misleads(const VideoFile& video, const VideoTrack& track, const std::string& path);
+
 // The interpretations of a picture, for which other programs read only GPano; `format` is the result of find_format().
 std::vector<PlayerView> picture_views(const FileInfo& info, const StereoFormat& format, bool has_gpano,
                                       const std::string& path);

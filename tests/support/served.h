@@ -128,8 +128,8 @@ class Served : public Cli {
     return 0;
   }
 
-  // Kilobytes that work() leaves in memory each time: the minimum growth of several rounds, of the least that was
-  // resident during each. A leak raises it in every round; a frame in progress, which may take 100 MB, or memory that
+  // Kilobytes that work() leaves in memory each time: the minimum growth of several rounds in the minimum
+  // resident size. A leak raises that in every round; a frame in progress, which may take 100 MB, or memory that
   // the allocator keeps for a new thread does not.
   template <class Work>
   long leaked_by(const Work& work) const {

@@ -256,7 +256,7 @@ std::vector<Attribute> gpano_properties(const std::string& xmp) {
   return properties;
 }
 
-bool is_specified(const std::string& xmp) {
+bool has_properties(const std::string& xmp) {
   bool is_broken = false;
   for (size_t at = 0;;) {
     const std::optional<Tag> tag = next_tag(xmp, at, is_broken);

@@ -39,7 +39,7 @@ std::optional<std::string> replace_gpano(const std::string& xmp, const std::vect
 std::vector<Attribute> gpano_properties(const std::string& xmp);
 
 // Returns whether a packet has any content.
-bool is_specified(const std::string& xmp);
+bool has_properties(const std::string& xmp);
 
 // The value of `name` in XMP, as name="value" or <name>value</name>; empty if absent.
 std::string_view xmp_property(std::string_view xmp, std::string_view name);

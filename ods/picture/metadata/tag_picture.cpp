@@ -152,7 +152,7 @@ static void tag_xmp(const FileInput& file, AtomicFile& to, FileFormat format, co
   if (!tag && old.empty()) return file.copy(0, file.size(), to);
   const std::optional<std::string> packet = tag ? tagged_packet(file, format, *tag, old) : replace_gpano(old, {});
   if (!packet) throw unusable(file.path(), "its XMP cannot be parsed; remove it first with another program");
-  write_xmp(file, to, is_specified(*packet) ? *packet : "");
+  write_xmp(file, to, has_properties(*packet) ? *packet : "");
 }
 
 // --- EXR -------------------------------------------------------------------------------------------------------------

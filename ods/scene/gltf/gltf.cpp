@@ -196,11 +196,11 @@ Names find_plain_materials(const GltfFile& file) {
   Names names;
   for (const JsonValue* material : file.materials) {
     const JsonValue& pbr = (*material)["pbrMetallicRoughness"];
-    const bool is_specified = !pbr["baseColorFactor"].is_null() || !pbr["baseColorTexture"].is_null() ||
-                              !extension(*material, "KHR_materials_transmission").is_null() ||
-                              !extension(*material, "KHR_materials_pbrSpecularGlossiness").is_null() ||
-                              !(*material)["emissiveFactor"].is_null();
-    if (!is_specified) names.push_back(printable(*(*material)["name"].text));
+    const bool has_color_or_texture = !pbr["baseColorFactor"].is_null() || !pbr["baseColorTexture"].is_null() ||
+                                      !extension(*material, "KHR_materials_transmission").is_null() ||
+                                      !extension(*material, "KHR_materials_pbrSpecularGlossiness").is_null() ||
+                                      !(*material)["emissiveFactor"].is_null();
+    if (!has_color_or_texture) names.push_back(printable(*(*material)["name"].text));
   }
   return names;
 }

@@ -77,9 +77,8 @@ void expect_says(const std::optional<SphericalMetadata>& place, const SphericalM
 
 // All places, field by field.
 void expect_metadata(const ods::VideoTrack& before, const ods::VideoTrack& after, const SphericalMetadata& metadata) {
-  const bool is_neutral_token =
-      metadata.stereo == VideoStereo::kOneView && metadata.projection == VideoProjection::kFlat;
-  if (is_neutral_token && !after.v2 && !after.v1) return;  // an ordinary video does not need metadata
+  const bool is_ordinary = metadata.stereo == VideoStereo::kOneView && metadata.projection == VideoProjection::kFlat;
+  if (is_ordinary && !after.v2 && !after.v1) return;  // an ordinary video does not need metadata
   ASSERT_TRUE(after.v2) << "V1 or vexu alone get V2, too";
   SphericalMetadata said = *declared_metadata(after);
   EXPECT_EQ(said.stereo, metadata.stereo);

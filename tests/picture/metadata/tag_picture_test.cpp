@@ -158,9 +158,9 @@ TEST(Xmp, EverythingButGpanoStays) {
             "GPano:PosePitchDegrees=\"3\" rdf:about='' xmlns:dc='d' dc:format='a > b'><dc:title>A &amp; "
             "B</dc:title></rdf:Description><rdf:Description></rdf:Description></rdf:RDF></x:xmpmeta>  "
             "<?xpacket end='w'?>");
-  EXPECT_TRUE(is_specified(*packet));
-  EXPECT_TRUE(is_specified(*replace_gpano(kOthers, {})));
-  EXPECT_FALSE(is_specified(*replace_gpano(make_xmp({{"GPano:PosePitchDegrees", 3}}), {})));
+  EXPECT_TRUE(has_properties(*packet));
+  EXPECT_TRUE(has_properties(*replace_gpano(kOthers, {})));
+  EXPECT_FALSE(has_properties(*replace_gpano(make_xmp({{"GPano:PosePitchDegrees", 3}}), {})));
 }
 
 TEST(Xmp, WhatIsNoXmlIsNotTouched) {
@@ -173,7 +173,7 @@ TEST(Xmp, WhatIsNoXmlIsNotTouched) {
        {"GPano:a\"?> <x y=\"1\"", "b='1'GPano:a='2'c='3'", "GPano:a b='1'", "GPano:a=1", "b"}) {
     const std::string packet = std::string("<rdf:Description ") + attributes + "></rdf:Description>";
     EXPECT_FALSE(replace_gpano(packet, {{"GPano:PosePitchDegrees", 3}})) << packet;
-    EXPECT_TRUE(is_specified(packet)) << packet;
+    EXPECT_TRUE(has_properties(packet)) << packet;
   }
 }
 
