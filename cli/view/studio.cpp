@@ -34,7 +34,8 @@ using ods::Json, ods::JsonReader, ods::LiveFrame;
 namespace {
 
 constexpr std::chrono::milliseconds kPatience{5000};  // for the next frame
-constexpr int kMaxWaiting = 16;                       // for one, so that connections are left for the rest of the site
+constexpr std::chrono::milliseconds kShortPatience{200};
+constexpr int kMaxWaiting = 16;  // with patience, so that connections are left for the rest of the site
 constexpr int kMaxWidth = 16384;
 constexpr const char* kEnvironments[] = {"auto", "studio", "sky", "white", "0"};
 constexpr const char* kQualities[] = {"draft", "preview", "final"};
@@ -335,8 +336,9 @@ WebAnswer Studio::frame(const WebRequest& request) {
     live = live_;
   }
   const Waiting waiting(waiting_);
-  if (waiting.count() > kMaxWaiting) return {.status = 503, .body = "too many pages wait for frames\n"};
-  const std::shared_ptr<const LiveFrame> frame = live->next_frame(number, kPatience);
+  // Pages that were closed or reloaded count as waiting until their patience ends.
+  const auto patience = waiting.count() > kMaxWaiting ? kShortPatience : kPatience;
+  const std::shared_ptr<const LiveFrame> frame = live->next_frame(number, patience);
   const std::string fault = live->fault();
   if (!fault.empty()) {
     const std::lock_guard<std::mutex> lock(mutex_);

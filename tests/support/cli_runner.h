@@ -68,6 +68,9 @@ class Ods {
     read_some(0);
   }
 
+  // From now on the process waits as soon as a page of stderr is unread.
+  void limit_unread() { EXPECT_GT(fcntl(err_[0], F_SETPIPE_SZ, 4096), 0); }
+
   void kill(int number) { ::kill(pid_, number); }
 
   pid_t process() const { return pid_; }
@@ -101,7 +104,7 @@ class Ods {
   static bool read_end(const pollfd& polled, int& end, std::string& text) {
     if (end < 0) return false;
     if (polled.revents == 0) return true;
-    std::array<char, 4096> bytes{};
+    std::array<char, 1024> bytes{};
     const ssize_t size = read(end, bytes.data(), bytes.size());
     if (size > 0) {
       text.append(bytes.data(), static_cast<size_t>(size));
