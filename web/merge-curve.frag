@@ -6,6 +6,7 @@
 precision highp float;
 precision highp int;
 #define inline
+#include "ods/kernel/camera/angles.h"
 #include "ods/kernel/camera/merge.h"
 
 uniform PoleMerge merges[2];  // top, bottom

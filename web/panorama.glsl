@@ -13,6 +13,7 @@ precision highp float;
 precision highp int;
 precision highp sampler2DArray;
 #define inline
+#include "ods/kernel/camera/angles.h"
 #include "ods/kernel/camera/merge.h"
 #include "ods/kernel/camera/projection.h"
 #include "ods/kernel/camera/camera.h"

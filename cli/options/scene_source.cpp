@@ -17,6 +17,7 @@
 #include "ods/scene/load/load.h"
 #include "ods/scene/motion.h"
 #include "ods/scene/sheet_glass.h"
+#include "ods/stage/outlines.h"
 
 using ods::Scene;
 
@@ -171,7 +172,8 @@ static Scene load_upright(const SceneSource& source) {
       .confine = source.foreign ? "" : confining_folder(source),
       .variant = source.variant,
       .camera = ods::camera_choice(source.camera) == ods::CameraChoice::kNamed ? source.camera : "",
-      .z_up = source.up == ods::UpAxis::kZ};
+      .z_up = source.up == ods::UpAxis::kZ,
+      .finds_origin = !(source.foreign && source.foreign->is_blender_file)};  // its camera has the file's coordinates
   Scene scene = ods::load_scene(file, options);
   const bool is_upright = ods::find_builtin(source.name) || (source.foreign && source.foreign->is_blender_file);
   if (source.up != ods::UpAxis::kAuto || is_upright || !ods::lies_on_its_back(scene)) return scene;
@@ -180,14 +182,21 @@ static Scene load_upright(const SceneSource& source) {
   return ods::load_scene(file, options);
 }
 
-// Treats a scene of another program as Cycles does: all closed glass is solid.
+// Treats a Blender file as Cycles does, for which all closed glass is solid and no face is culled, and other files as
+// real-time programs do.
 static Scene load(const SceneSource& source) {
   Scene scene = load_upright(source);
+  const bool is_blender_file = source.foreign && source.foreign->is_blender_file;
+  if (is_blender_file) {
+    make_glass_solid(scene);
+  } else if (!ods::find_builtin(source.name)) {
+    make_sheets_thin(scene);
+    mark_outlines(scene);
+  }
   if (!source.foreign) return scene;
   const ForeignScene& foreign = *source.foreign;
   scene.name = std::filesystem::path(source.name).stem().string();
   scene.warnings.insert(scene.warnings.begin(), foreign.warnings.begin(), foreign.warnings.end());
-  if (foreign.is_blender_file) make_glass_solid(scene);
   return scene;
 }
 
@@ -204,6 +213,10 @@ Scene open_scene(const SceneSource& given, ods::Settled* settled, const ods::Loo
   const bool is_solid = source.foreign && source.foreign->is_blender_file;
   if (source.solid_glass && !is_solid && make_glass_solid(scene) == 0) {
     note("--solid-glass changes nothing: no closed mesh has glass without a volume");
+  }
+  if (scene.origin != glm::dvec3(0.0)) {
+    note(fmt::format("the scene is far from its file's origin: positions count from {:.0f},{:.0f},{:.0f} there",
+                     scene.origin.x, scene.origin.y, scene.origin.z));
   }
   set_lamp_unit(scene, source);
   settle_scene(scene, source, settled, look);

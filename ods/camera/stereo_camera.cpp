@@ -19,15 +19,19 @@ bool same_map(const std::shared_ptr<const Image>& a, const std::shared_ptr<const
   return a == b || (a && b && a->width == b->width && a->height == b->height && a->pixels == b->pixels);
 }
 
-CameraMap camera_map(const Image& image) {
-  return {image.width, image.height, image.pixels.data()};
-}
-
-bool is_same_around(const CameraMap& map) {
+static bool is_same_around(const CameraMap& map, const float* texels) {
   for (int i = 0; i < map.width * map.height; i++) {
-    if (map.texels[i] != map.texels[i / map.width * map.width]) return false;
+    if (texels[i] != texels[i / map.width * map.width]) return false;
   }
   return true;
+}
+
+bool is_same_around(const Image& map) {
+  return is_same_around({map.width, map.height}, map.pixels.data());
+}
+
+bool merges_same_around(const Camera& camera) {
+  return is_same_around(camera.merge_map, camera.merge_texels);
 }
 
 bool same_eyes(const StereoCamera& a, const StereoCamera& b) {
@@ -38,7 +42,7 @@ bool same_eyes(const StereoCamera& a, const StereoCamera& b) {
   const Camera first = make_camera(a), second = make_camera(b);
   const bool same_up = length(first.up - second.up) < 1e-4f, same_right = length(first.right - second.right) < 1e-4f;
   for (const std::shared_ptr<const Image>& map : {merges_by_map ? a.merge_map : nullptr, a.head_tilt_map}) {
-    if (map && !(same_up && (same_right || is_same_around(camera_map(*map))))) return false;
+    if (map && !(same_up && (same_right || is_same_around(*map)))) return false;
   }
   return true;
 }
@@ -77,8 +81,12 @@ Camera make_camera(const StereoCamera& stereo) {
   camera.top = make_merge(stereo.top);
   camera.bottom = make_merge(stereo.bottom);
   camera.projection = make_projection(stereo.projection);
-  camera.merge_map = stereo.merge_map ? camera_map(*stereo.merge_map) : CameraMap{};
-  camera.head_tilt_map = stereo.head_tilt_map ? camera_map(*stereo.head_tilt_map) : CameraMap{};
+  const auto use = [](const std::shared_ptr<const Image>& image, CameraMap& map, const float*& texels) {
+    map = image ? CameraMap{image->width, image->height} : CameraMap{0, 0};
+    texels = image ? image->pixels.data() : nullptr;
+  };
+  use(stereo.merge_map, camera.merge_map, camera.merge_texels);
+  use(stereo.head_tilt_map, camera.head_tilt_map, camera.head_tilt_texels);
   return camera;
 }
 

@@ -88,11 +88,11 @@ struct StereoCamera {
 // Returns whether two maps have the same numbers.
 bool same_map(const std::shared_ptr<const Image>& a, const std::shared_ptr<const Image>& b);
 
-// Points into the image.
-CameraMap camera_map(const Image& image);
+// Returns whether a map has one value per elevation, all the way around.
+bool is_same_around(const Image& map);
 
-// Returns whether a map has one value per elevation, all the way around. An empty map has.
-bool is_same_around(const CameraMap& map);
+// Returns whether the camera's merge map has, or the camera has no such map.
+bool merges_same_around(const Camera& camera);
 
 // Returns whether the eyes of both are at the same positions, relative to the circle's centre, for every line of sight.
 // Precondition: both have the same circle. Maps turn with the camera, so a camera with a map that varies around may not

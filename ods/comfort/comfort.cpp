@@ -54,7 +54,7 @@ JudgedPlace place_of(const Camera& camera, int eye, vec2 uv, const ViewDirection
 // Returns whether all rays of a row leave one circle as its tangents, at one elevation.
 bool has_even_rows(const Camera& camera, int eye) {
   const vec3 right = cross(camera.up, camera.back);
-  return is_same_around(camera.merge_map) && camera.projection.kind == kLatLong && camera.axis.y == 1.0f &&
+  return merges_same_around(camera) && camera.projection.kind == kLatLong && camera.axis.y == 1.0f &&
          camera.neck == 0.0f && eye != kMono && camera.convergence == kParallel && !has_head_tilt(camera) &&
          dot(right, camera.right) > 0.0f;
 }

@@ -13,7 +13,7 @@ namespace ods {
 
 static bool is_symmetric(const Camera& camera) {
   const bool upright = camera.axis == vec3(0.0f, 1.0f, 0.0f) && camera.up == vec3(0.0f, 1.0f, 0.0f);
-  return upright && camera.projection.kind == kLatLong && !has_head_tilt(camera) && is_same_around(camera.merge_map);
+  return upright && camera.projection.kind == kLatLong && !has_head_tilt(camera) && merges_same_around(camera);
 }
 
 static float density(const Projection& projection, Extent size) {

@@ -21,7 +21,7 @@ namespace ods {
 #endif
 
 struct Bsdf {
-  int view;  // for surfaces with layers: kOwnView or kOtherView, the index of the lobes in layered[]; otherwise -1
+  int view;  // for surfaces with layers, which have other lobes: kOwnView or kOtherView; otherwise -1
   vec3 wo;   // towards the viewer, in the frame
   Frame frame;
   vec3 geometric;
@@ -217,8 +217,8 @@ struct BsdfEvaluator : LayeredEvaluator {
     vec3 h = vec3(0.0f, 0.0f, 1.0f);
     if (pick < bsdf.p_diffuse) {
       float r = sqrt(uv.x);
-      float phi = 2.0f * kPi * uv.y;
-      wi = vec3(r * cos(phi), r * sin(phi), sqrt(max(1.0f - uv.x, 1e-9f)));
+      vec2 around = cos_sin(2.0f * kPi * uv.y);
+      wi = vec3(r * around.x, r * around.y, sqrt(max(1.0f - uv.x, 1e-9f)));
     } else if (pick < bsdf.p_diffuse + bsdf.p_specular || bsdf.p_glass <= 0.0f) {
       if (!rough) return sample_mirror(bsdf, false, 0.0f);
       h = ggx_sample_visible(bsdf.wo, bsdf.alpha, uv);

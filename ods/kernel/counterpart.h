@@ -39,7 +39,7 @@ inline bool projects_quickly(Camera camera, vec3 direction) {
   if (height < 0.0f) merge = camera.bottom;
   if (merge.mode == kMergeNone) return true;
   if (merge.mode == kMergeMap || camera.convergence == kToeIn) return false;
-  return shrinks_as_cosine(merge) || asin(min(abs(height), 1.0f)) <= merge.start;
+  return shrinks_as_cosine(merge) || asin_of(min(abs(height), 1.0f)) <= merge.start;
 }
 
 inline bool wraps_around(Projection projection) {

@@ -6,6 +6,7 @@
 // Source: Ernst, Stamminger and Greiner, "Filter Importance Sampling", 2006.
 #ifdef __cplusplus
 #pragma once
+#include "ods/kernel/camera/angles.h"
 #include "ods/kernel/scene_view.h"
 namespace ods {
 #endif
@@ -17,8 +18,10 @@ const int kFilterBox = 1;             // the pixel itself
 inline float filter_value(int shape, float offset) {
   if (shape == kFilterBox) return abs(offset) <= 0.5f ? 1.0f : 0.0f;
   if (abs(offset) >= 1.5f) return 0.0f;
-  float turn = 2.0943951f * offset;  // 2 pi / 3
-  return 0.35875f + 0.48829f * cos(turn) + 0.14128f * cos(2.0f * turn) + 0.01168f * cos(3.0f * turn);
+  float c = cos_of(2.0943951f * offset);  // 2 pi / 3
+  float c2 = 2.0f * c * c - 1.0f;         // the cosine of the double angle, and of the triple one
+  float c3 = c * (2.0f * c2 - 1.0f);
+  return 0.35875f + 0.48829f * c + 0.14128f * c2 + 0.01168f * c3;
 }
 
 #ifdef __cplusplus

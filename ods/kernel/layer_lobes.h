@@ -303,18 +303,18 @@ inline BsdfSample sample_microfacets(LayeredBsdf b, bool glass, float pick, vec2
 
 // pick chooses the lobe, uv the direction; all are uniform in [0, 1).
 inline BsdfSample sample_of_layers(LayeredBsdf b, float pick, vec2 uv) {
-  float phi = 2.0f * kPi * uv.y;
+  vec2 around = cos_sin(2.0f * kPi * uv.y);
   float diffuse = b.p_diffuse + b.p_through;
   if (pick < diffuse) {
     float r = sqrt(uv.x);
     bool through = pick >= b.p_diffuse;
     float z = sqrt(max(1.0f - uv.x, 1e-9f));
-    return checked_sample(b, from_frame(b.frame, vec3(r * cos(phi), r * sin(phi), through ? -z : z)), through);
+    return checked_sample(b, from_frame(b.frame, vec3(r * around.x, r * around.y, through ? -z : z)), through);
   }
   float sheen = diffuse + b.p_sheen;
   if (pick < sheen) {
     float r = sqrt(max(1.0f - uv.x * uv.x, 0.0f));
-    return checked_sample(b, from_frame(b.frame, vec3(r * cos(phi), r * sin(phi), max(uv.x, 1e-5f))), false);
+    return checked_sample(b, from_frame(b.frame, vec3(r * around.x, r * around.y, max(uv.x, 1e-5f))), false);
   }
   float coat = sheen + b.p_coat;
   if (pick < coat) return sample_coat(b, uv);

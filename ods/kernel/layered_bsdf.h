@@ -18,7 +18,10 @@ const int kFilmNormals = 16;
 struct LayeredEvaluator : AlbedoReader {
 #endif
 
-  LayeredBsdf layered[2];  // kOwnView, kOtherView; set by make_layered()
+  // Scratch: the lobes of the surface for the path's own eye and for the other one, set by make_layered(). They are two
+  // variables: an array with a variable index would be in memory on a GPU.
+  LayeredBsdf own_layered;
+  LayeredBsdf other_layered;
 
   // The film's reflectance over a base, averaged over the reflecting microfacets.
   inline vec3 mean_film(LayeredBsdf b, vec3 base_f0) {
@@ -195,7 +198,7 @@ struct LayeredEvaluator : AlbedoReader {
     return b;
   }
 
-  // Makes layered[view] of the surface last passed to read_layers(). direction, eta: as for make_bsdf().
+  // Makes the lobes of a view of the surface last passed to read_layers(). direction, eta: as for make_bsdf().
 #ifdef __cplusplus
   [[gnu::noinline, gnu::flatten]]
 #endif
@@ -223,7 +226,16 @@ struct LayeredEvaluator : AlbedoReader {
     b.p_diffuse = b.p_diffuse * scale;
     b.p_through = b.p_through * scale;
     b.p_glass = b.p_glass * scale;
-    layered[view] = b;
+    if (view == kOwnView) {
+      own_layered = b;
+    } else {
+      other_layered = b;
+    }
+  }
+
+  inline LayeredBsdf layered_of(int view) {
+    if (view == kOwnView) return own_layered;
+    return other_layered;
   }
 
 #ifdef __cplusplus
@@ -231,7 +243,7 @@ struct LayeredEvaluator : AlbedoReader {
 #endif
   inline BsdfValue
   layered_value(int view, vec3 direction) {
-    return value_of_layers(layered[view], direction);
+    return value_of_layers(layered_of(view), direction);
   }
 
 #ifdef __cplusplus
@@ -239,7 +251,7 @@ struct LayeredEvaluator : AlbedoReader {
 #endif
   inline BsdfSample
   sample_layered(int view, float pick, vec2 uv) {
-    return sample_of_layers(layered[view], pick, uv);
+    return sample_of_layers(layered_of(view), pick, uv);
   }
 
   // Fraction of light that passes straight through smooth glass.
@@ -248,7 +260,7 @@ struct LayeredEvaluator : AlbedoReader {
 #endif
   inline vec3
   layered_transmittance(int view) {
-    LayeredBsdf b = layered[view];
+    LayeredBsdf b = layered_of(view);
     return b.glass * (b.glass_gain * glass_transmittance(glass_reflectance(b, b.wo.z, b.eta)));
   }
 

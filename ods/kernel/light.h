@@ -99,8 +99,8 @@ inline float cone_falloff(Light light, float cosine) {
 inline vec3 direction_in_cone(vec3 axis, float cosine, vec2 uv) {
   float z = 1.0f - uv.x * (1.0f - cosine);
   float r = sqrt(max(1.0f - z * z, 0.0f));
-  float phi = 2.0f * kPi * uv.y;
-  return from_frame(frame_around(axis), vec3(r * cos(phi), r * sin(phi), z));
+  vec2 around = cos_sin(2.0f * kPi * uv.y);
+  return from_frame(frame_around(axis), vec3(r * around.x, r * around.y, z));
 }
 
 #ifdef __cplusplus
@@ -183,7 +183,7 @@ struct LightSampler : BsdfEvaluator {
   inline float environment_texel_angle(EnvironmentInfo info, int y) {
     // cos a - cos b in a form that keeps its precision at the poles.
     float step = 0.5f * kPi / float(info.height);
-    return 4.0f * kPi / float(info.width) * sin(float(2 * y + 1) * step) * sin(step);
+    return 4.0f * kPi / float(info.width) * sin_of(float(2 * y + 1) * step) * sin_of(step);
   }
 
   // Pdf per solid angle of the points of a triangle light, seen from a distance along a direction.
@@ -326,7 +326,7 @@ struct LightSampler : BsdfEvaluator {
     result.radiance = light.intensity * (1.0f / pick);
     if (light.kind == kLightDirectional) {
       if (light.size <= 0.0f) return result;
-      float cosine = cos(light.size);
+      float cosine = cos_of(light.size);
       result.direction = direction_in_cone(result.direction, cosine, uv);
       result.radiance = result.radiance * (2.0f / (1.0f + cosine));
       return result;
@@ -361,11 +361,12 @@ struct LightSampler : BsdfEvaluator {
     int column = min(int(place), info.width - 1);
     column = alias_pick(scene_environment_texel(row * info.width + column).entry, column, place - float(column));
     float theta = ((float(column) + uv.x) / float(info.width) - 0.5f) * (2.0f * kPi);
-    float top = cos(kPi * float(row) / float(info.height));
-    float bottom = cos(kPi * float(row + 1) / float(info.height));
+    float top = cos_of(kPi * float(row) / float(info.height));
+    float bottom = cos_of(kPi * float(row + 1) / float(info.height));
     float height = mix(top, bottom, uv.y);
     float r = sqrt(max(1.0f - height * height, 0.0f));
-    return vec3(r * sin(theta), height, -r * cos(theta));
+    vec2 around = cos_sin(theta);
+    return vec3(r * around.y, height, -r * around.x);
   }
 
   inline LightSample sample_environment(vec3 from, vec2 cell, vec2 uv) {

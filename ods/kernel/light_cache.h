@@ -78,11 +78,12 @@ struct LightCacheReader : PathLight {
     return place;
   }
 
-  // The light over albedo in a cell; negative if the cell does not exist.
+  // The light over albedo in a cell; negative if the cell does not exist. The search ends at an empty slot, of which
+  // the table has as many as cells; it is bounded nevertheless, because a search without an end hangs a GPU.
   inline vec3 light_in_cell(CacheKey key) {
     uint mask = scene_cache_mask();
-    for (uint slot = key.home & mask;; slot = (slot + 1u) & mask) {
-      CacheCell cell = scene_cache_cell(slot);
+    for (uint i = 0u; i <= mask; i++) {
+      CacheCell cell = scene_cache_cell((key.home + i) & mask);
       if (cell.check == key.check && cell.home == key.home) return cell.light;
       if (cell.check == 0u) return vec3(-1.0f);
     }

@@ -48,10 +48,10 @@ inline float ggx_lambda(vec3 w, vec2 alpha) {
 // Samples a microfacet normal visible from wo (wo.z > 0).
 inline vec3 ggx_sample_visible(vec3 wo, vec2 alpha, vec2 u) {
   vec3 stretched = normalize(vec3(alpha.x * wo.x, alpha.y * wo.y, wo.z));
-  float phi = 2.0f * kPi * u.x;
+  vec2 around = cos_sin(2.0f * kPi * u.x);
   float z = (1.0f - u.y) * (1.0f + stretched.z) - stretched.z;
   float r = sqrt(clamp(1.0f - z * z, 0.0f, 1.0f));
-  vec3 h = vec3(r * cos(phi), r * sin(phi), z) + stretched;
+  vec3 h = vec3(r * around.x, r * around.y, z) + stretched;
   return normalize(vec3(alpha.x * h.x, alpha.y * h.y, max(h.z, 1e-9f)));
 }
 

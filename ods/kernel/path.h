@@ -12,8 +12,9 @@
 //   }
 //
 // shade() traces nothing. It consumes a hit, adds light, and leaves the next ray and a shadow ray with the light that
-// the shadow ray would bring. The state is `path`: a member of PathTracer in C++, a global of the invocation in a
-// shader. (A first version passed and returned it by value; the copies cost a third of the time on the CPU.)
+// the shadow ray would bring. The state is `path`, and what lives within one step is `this_step`: members of PathTracer
+// in C++, globals of the invocation in a shader. (A first version passed and returned the state by value; the copies
+// cost a third of the time on the CPU.)
 //
 // A catcher (an Instance of the role kCatcher) is invisible except for the shadows cast on it. If the first surface of
 // a path is a catcher, the path carries no radiance: it continues straight towards a light, whose direction is sampled
@@ -65,7 +66,6 @@ struct PathTracer : LightCacheReader {
     path.media = media;
     path.shadow_media = media;
     path.wave = -1;
-    path.chosen_wave = -1;
     path.seed = seed;
     path.index = index;
     path.shadow_pending = false;
@@ -111,7 +111,7 @@ struct PathTracer : LightCacheReader {
   // Restricts the path to one colour, weighted for all three.
   inline void take_wave(int wave) {
     path.wave = wave;
-    path.chosen_wave = -1;
+    this_step.chosen_wave = -1;
     path.throughput = path.throughput * vec3(wave == kRedWave ? 3.0f : 0.0f, wave == kGreenWave ? 3.0f : 0.0f,
                                              wave == kBlueWave ? 3.0f : 0.0f);
   }
@@ -120,7 +120,6 @@ struct PathTracer : LightCacheReader {
   // colour. Smooth surfaces reflect all colours in the same direction, so there it keeps the colour only if it is
   // refracted.
   inline float volume_eta(Surface surface, int medium, int beyond) {
-    path.chosen_wave = -1;
     if (path.wave < 0 && max(medium_dispersion(medium), medium_dispersion(beyond)) > 0.0f) {
       int wave = min(int(path_random(kCandidatePair).y * 3.0f), 2);
       bool keeps_all =
@@ -128,13 +127,13 @@ struct PathTracer : LightCacheReader {
       if (!keeps_all) {
         take_wave(wave);
       } else {
-        path.chosen_wave = wave;
+        this_step.chosen_wave = wave;
         surface_layers.wave_eta = vec3(medium_ior(beyond, kRedWave) / medium_ior(medium, kRedWave),
                                        medium_ior(beyond, kGreenWave) / medium_ior(medium, kGreenWave),
                                        medium_ior(beyond, kBlueWave) / medium_ior(medium, kBlueWave));
       }
     }
-    int wave = path.chosen_wave >= 0 ? path.chosen_wave : path.wave;
+    int wave = this_step.chosen_wave >= 0 ? this_step.chosen_wave : path.wave;
     return medium_ior(beyond, wave) / medium_ior(medium, wave);
   }
 
@@ -151,13 +150,13 @@ struct PathTracer : LightCacheReader {
     path.both_see = min(here, there) > 0.02f && facing > 4e-3f && !surface.volume;
     if (!path.both_see) return;
     path.other_density = path.other_density * there / here;
-    path.other = make_view_bsdf(kOtherView, surface, path.other_direction, eta);
+    this_step.other = make_view_bsdf(kOtherView, surface, path.other_direction, eta);
   }
 
   // Divides the light that a scattered ray will find between the eyes.
   inline void share_scattered(BsdfSample found) {
     if (!(found.pdf > 0.0f)) return;
-    BsdfValue value = bsdf_value(path.other, found.direction);
+    BsdfValue value = bsdf_value(this_step.other, found.direction);
     float other_part = path.other_density * value.pdf;
     path.own_share = found.pdf / (found.pdf + other_part);
     path.alone_ratio = 1.0f / path.own_share;
@@ -198,7 +197,7 @@ struct PathTracer : LightCacheReader {
     path.passed = 0;
     if (found.through && surface.volume) {
       path.media = beyond;
-      if (path.chosen_wave >= 0) take_wave(path.chosen_wave);
+      if (this_step.chosen_wave >= 0) take_wave(this_step.chosen_wave);
     }
     path.bounce += 1;
     play_roulette(pick.y);
@@ -292,10 +291,10 @@ struct PathTracer : LightCacheReader {
   }
 
   inline void keep_vertex(Surface surface) {
-    path.vertex = cache_place(surface);
-    path.vertex_bounce = path.bounce;
-    path.vertex_throughput = path.throughput;
-    path.vertex_radiance = path.radiance;
+    this_step.vertex = cache_place(surface);
+    this_step.vertex_bounce = path.bounce;
+    this_step.vertex_throughput = path.throughput;
+    this_step.vertex_radiance = path.radiance;
   }
 
   // The light that a surface emits back along the path's ray, less the part that its coat absorbs.
@@ -403,7 +402,8 @@ struct PathTracer : LightCacheReader {
 
   inline void shade(Hit hit, PathSettings settings) {
     path.shadow_pending = false;
-    path.vertex_bounce = -1;
+    this_step.chosen_wave = -1;
+    this_step.vertex_bounce = -1;
     if (path.caught) {
       go_to_light(hit);
       return;

@@ -35,6 +35,7 @@ struct CachePlace {
   float cell;  // size of the larger cell, metres; 0 if nothing is stored here
 };
 
+// What must survive between the steps of a path: devices that trace many paths at once keep one for each.
 struct PathState {
   Ray ray;
   vec3 throughput;
@@ -47,10 +48,9 @@ struct PathState {
   float travelled;    // distance from the last bounce to the ray's origin
   Receiver receiver;  // the surface of the last bounce
   Media media;
-  int wave;         // the one colour of a path that dispersion has split; -1 for all
-  int chosen_wave;  // at a surface that splits colours, the colour that the path keeps if it is refracted; else -1
-  uint seed;        // the pixel's
-  uint index;       // the sample's
+  int wave;    // the one colour of a path that dispersion has split; -1 for all
+  uint seed;   // the pixel's
+  uint index;  // the sample's
 
   Ray shadow_ray;
   float shadow_length;
@@ -63,7 +63,6 @@ struct PathState {
   bool both_see;         // the other eye sees the first surface, too
   vec3 other_direction;  // from the other eye to the first surface
   float other_density;   // density of the other eye's samples there, over this eye's
-  Bsdf other;            // the first surface's
   float own_share;       // fraction of the light after the first surface that goes to this eye
   vec3 other_ratio;      // light for the other eye over light for this one; 0 if not shared
   float alone_ratio;     // light without sharing over light for this eye
@@ -78,17 +77,23 @@ struct PathState {
   float light_without;  // luminance that arrives if only catchers and emitters are present
   float light_with;     // luminance that arrives with the whole scene present
 
-  // For PathSettings::keep_vertices: the surface that shade() met last, before it scatters the path.
-  CachePlace vertex;
-  int vertex_bounce;  // -1 if shade() met no surface
-  vec3 vertex_throughput;
-  vec3 vertex_radiance;  // light found by the path before this surface
-
   // The first hit, for the layers of the picture.
   bool mirrored;  // the path has met mirrors only
   float depth;    // along the camera ray from its own origin; negative if the ray hit nothing
   vec3 normal;
   vec3 albedo;
+};
+
+// What one shade() makes and uses, and leaves for the device to read before the next.
+struct PathStep {
+  int chosen_wave;  // at a surface that splits colours, the colour that the path keeps if it is refracted; else -1
+  Bsdf other;       // the first surface's, for the other eye, if both see it
+
+  // For PathSettings::keep_vertices: the surface, before it scatters the path.
+  CachePlace vertex;
+  int vertex_bounce;  // -1 if shade() met no surface
+  vec3 vertex_throughput;
+  vec3 vertex_radiance;  // light found by the path before this surface
 };
 
 const int kMaxPassed = 1024;
@@ -133,6 +138,7 @@ struct PathLight : MediumReader {
 #endif
 
   PathState path;
+  PathStep this_step;
 
   // Light passes smooth solids unbent. The device sets it before a path starts.
   bool straight_solids = false;
@@ -167,11 +173,12 @@ struct PathLight : MediumReader {
   }
 
   // Returns whether an instance is invisible to a ray of the path. Every device calls this at each candidate hit of an
-  // instance of these two roles.
+  // instance of these three roles.
   inline bool is_absent(int ray, int instance) {
     int role = scene_instance(instance).role;
     bool of_camera = ray != kShadowRay && path.bounce == 0;
     if (role == kPureLight) return ray != kPathRay || of_camera || path.caught;
+    if (role == kOutline) return !of_camera;
     return role == kUnseen && of_camera;
   }
 
@@ -354,7 +361,7 @@ struct PathLight : MediumReader {
     path.shadow_alone = path.shadow_light * path.alone_ratio;
     path.shadow_other = path.shadow_light * path.other_ratio;
     if (path.both_see && path.bounce == 0) {
-      vec3 for_other = unshadowed_light(settings, path.other, chosen);
+      vec3 for_other = unshadowed_light(settings, this_step.other, chosen);
       float own = luminance(chosen_light);
       float own_share = own / (own + path.other_density * luminance(for_other));
       path.shadow_other = for_other * scale * (path.other_density * own_share);

@@ -28,13 +28,14 @@ struct Mesh {
   int motion;  // for a mesh that deforms while the shutter is open: its first row of MotionVertex; else -1
 };
 
-// The visibility of an instance to the camera. In reflections and for light all are ordinary.
+// The visibility of an instance to the camera. In reflections and for light all are ordinary, except the last two.
 const int kOrdinary = 0;
 const int kCatcher = 1;       // invisible except for the shadows that others cast on it (ods/kernel/path.h)
 const int kFadingGround = 2;  // has no albedo in the layers and nearly no normal, like the background
 const int kDimmedLamp = 3;    // seen at most as bright as kSeenLamp
 const int kUnseen = 4;        // transparent for the camera
 const int kPureLight = 5;     // transparent for the camera and for all light: it only emits
+const int kOutline = 6;       // a toon outline: seen by the camera, transparent in reflections and for all light
 
 // A mesh placed in the world: world = (dot(row0, p1), dot(row1, p1), dot(row2, p1)) with p1 = vec4(p, 1).
 struct Instance {

@@ -52,9 +52,8 @@ struct LayerReader : SurfaceReader {
   inline vec3 anisotropy_direction(MaterialLayers layers, Frame frame, vec4 map) {
     vec2 d = vec2(1.0f, 0.0f);
     if (layers.anisotropy_slot.texture >= 0) d = vec2(map.x * 2.0f - 1.0f, map.y * 2.0f - 1.0f);
-    float c = cos(layers.anisotropy_rotation);
-    float s = sin(layers.anisotropy_rotation);
-    return frame.tangent * (c * d.x - s * d.y) + frame.bitangent * (s * d.x + c * d.y);
+    vec2 turn = cos_sin(layers.anisotropy_rotation);
+    return frame.tangent * (turn.x * d.x - turn.y * d.y) + frame.bitangent * (turn.y * d.x + turn.x * d.y);
   }
 
   // Sets surface_layers. surface: the result of surface_at() for this hit; surface.layered must be true.

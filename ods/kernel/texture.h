@@ -70,23 +70,29 @@ struct TextureReader : FilterSampler {
 
   // reduced: the texture is a reduced copy. uv as in glTF: (0, 0) is the top left corner of the picture.
   // Beyond a million repeats rounding loses the position within a texel; the texel read is still inside the texture.
+  // The four texels are read in one place: compilers for GPUs inline each place of a call. Without interpolation the
+  // fractions are 0.
   inline vec4 texture_at(Texture texture, bool reduced, vec2 uv) {
     float x = wrap_coordinate(uv.x, texture.wrap_u) * float(texture.width);
     float y = wrap_coordinate(uv.y, texture.wrap_v) * float(texture.height);
-    if (texture.nearest == 1) {
-      return texel_at(texture, reduced, min(int(x), texture.width - 1), min(int(y), texture.height - 1));
-    }
-    int x0 = floor_int(x - 0.5f);
-    int y0 = floor_int(y - 0.5f);
-    float fx = x - 0.5f - float(x0);
-    float fy = y - 0.5f - float(y0);
+    bool nearest = texture.nearest == 1;
+    int x0 = nearest ? min(int(x), texture.width - 1) : floor_int(x - 0.5f);
+    int y0 = nearest ? min(int(y), texture.height - 1) : floor_int(y - 0.5f);
+    float fx = nearest ? 0.0f : x - 0.5f - float(x0);
+    float fy = nearest ? 0.0f : y - 0.5f - float(y0);
     int x1 = wrap_texel(x0 + 1, texture.width, texture.wrap_u);
     int y1 = wrap_texel(y0 + 1, texture.height, texture.wrap_v);
     x0 = wrap_texel(x0, texture.width, texture.wrap_u);
     y0 = wrap_texel(y0, texture.height, texture.wrap_v);
-    vec4 top = mix(texel_at(texture, reduced, x0, y0), texel_at(texture, reduced, x1, y0), fx);
-    vec4 bottom = mix(texel_at(texture, reduced, x0, y1), texel_at(texture, reduced, x1, y1), fx);
-    return mix(top, bottom, fy);
+    vec4 row = vec4(0.0f);
+    vec4 top = vec4(0.0f);
+    for (int i = 0; i < 4; i++) {
+      bool left = (i & 1) == 0;
+      vec4 texel = texel_at(texture, reduced, left ? x0 : x1, i < 2 ? y0 : y1);
+      row = left ? texel : mix(row, texel, fx);
+      if (i == 1) top = row;
+    }
+    return mix(top, row, fy);
   }
 
   // The value that a material reads through a slot; 1 if the slot has no texture.
@@ -94,8 +100,13 @@ struct TextureReader : FilterSampler {
     if (slot.texture < 0) return vec4(1.0f);
     vec2 uv = slot.uv_set == 0 ? uv0 : uv1;
     vec2 place = slot.offset + slot.axis_u * uv.x + slot.axis_v * uv.y;
-    if (reduced) return texture_at(scene_reduced_texture(slot.texture), true, place);
-    return texture_at(scene_texture(slot.texture), false, place);
+    Texture texture;
+    if (reduced) {
+      texture = scene_reduced_texture(slot.texture);
+    } else {
+      texture = scene_texture(slot.texture);
+    }
+    return texture_at(texture, reduced, place);
   }
 
 #ifdef __cplusplus

@@ -29,10 +29,10 @@ inline vec3 film_response(float path, vec3 shift) {
   float square = phase * phase;
   // Gaussians through the colour matching functions. The scales are each curve's height times the square root of
   // 2 pi times its variance, over the area of the Y curve.
-  float x = 0.846590f * cos(1.6810e6f * phase + shift.x) * exp(-4.3278e9f * square) +
-            0.153868f * cos(2.2399e6f * phase + shift.x) * exp(-4.5282e9f * square);
-  float y = 1.000222f * cos(1.7953e6f * phase + shift.y) * exp(-9.3046e9f * square);
-  float z = 1.001122f * cos(2.2084e6f * phase + shift.z) * exp(-6.6121e9f * square);
+  float x = 0.846590f * cos_of(1.6810e6f * phase + shift.x) * exp(-4.3278e9f * square) +
+            0.153868f * cos_of(2.2399e6f * phase + shift.x) * exp(-4.5282e9f * square);
+  float y = 1.000222f * cos_of(1.7953e6f * phase + shift.y) * exp(-9.3046e9f * square);
+  float z = 1.001122f * cos_of(2.2084e6f * phase + shift.z) * exp(-6.6121e9f * square);
   return vec3(3.2404542f * x - 1.5371385f * y - 0.4985314f * z, -0.9692660f * x + 1.8760108f * y + 0.0415560f * z,
               0.0556434f * x - 0.2040259f * y + 1.0572252f * z);
 }

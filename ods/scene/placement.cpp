@@ -59,6 +59,17 @@ Bounds mesh_bounds(const Scene& scene, const Mesh& mesh) {
   return bounds;
 }
 
+vec3 far_middle(const Bounds& box) {
+  const vec3 middle = glm::round(0.5f * (box.low + box.high)), half = 0.5f * (box.high - box.low);
+  const float distance = std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z)});
+  const bool is_far = distance > kFirmReach && distance > 8.0f * std::max({half.x, half.y, half.z});
+  return is_far ? middle : vec3(0.0f);
+}
+
+vec3 far_middle(const Scene& scene) {
+  return far_middle(scene_bounds(scene));
+}
+
 std::string reach_warning(const Scene& scene) {
   const Bounds bounds = scene_bounds(scene);
   const vec3 corner = max(abs(bounds.low), abs(bounds.high));

@@ -29,6 +29,12 @@ bool stays_near(const glm::dmat4& matrix, const Bounds& box);
 // The box around a mesh's own vertices.
 Bounds mesh_bounds(const Scene& scene, const Mesh& mesh);
 
+// The middle of a box, in whole units, if the box is so far from the origin compared with its size that single
+// precision would spoil its shape: beyond kFirmReach, and further than 8 times the half of its longest side. Otherwise
+// 0. A scene's box is scene_bounds().
+vec3 far_middle(const Bounds& box);
+vec3 far_middle(const Scene& scene);
+
 // The warning about a scene that extends further than kFirmReach. Empty for other scenes.
 std::string reach_warning(const Scene& scene);
 

@@ -94,6 +94,8 @@ struct Scene {
   Environment environment;
   std::optional<Environment> background;  // seen by the camera, gives no light; the environment if not set
 
+  glm::dvec3 origin{0.0};  // the place in the file, with y up, where the scene has its origin; in the file's units
+
   bool as_painted = false;  // its colours include their lighting: exposure and tone curve must not change them
 
   // Number of instances at the end of the list that were added: ground and lamp (ods/stage/light/supply.h).

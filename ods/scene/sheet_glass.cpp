@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "ods/kernel/layer_lobes.h"
@@ -171,6 +172,76 @@ size_t make_glass_solid(Scene& scene) {
     if (found == solid.end()) {
       found = solid.emplace(mesh.material, copy_material(scene, mesh.material)).first;
       scene.materials.back().thickness = thickness_of(scene, mesh);
+    }
+    mesh.material = found->second;
+    changed++;
+  }
+  return changed;
+}
+
+// For each vertex, the number of the connected piece of the mesh that it belongs to: one of its vertices.
+static std::vector<uint> find_pieces(const Scene& scene, const Mesh& mesh) {
+  std::vector<uint> parent = merge_positions(scene, mesh);
+  const auto root = [&](uint vertex) {
+    while (parent[vertex] != vertex) vertex = parent[vertex] = parent[parent[vertex]];
+    return vertex;
+  };
+  for (uint i = 0; i < mesh.triangle_count; i++) {
+    const uvec3 corners = scene.triangles[mesh.first_triangle + i];
+    parent[root(corners.y)] = root(corners.x);
+    parent[root(corners.z)] = root(corners.x);
+  }
+  std::vector<uint> pieces(mesh.vertex_count);
+  for (uint i = 0; i < mesh.vertex_count; i++) pieces[i] = root(i);
+  return pieces;
+}
+
+bool is_sheet(const Scene& scene, const Mesh& mesh) {
+  constexpr double kOneSided = 0.1;  // the sum of a flat piece's areas as vectors is 1 of its area, of a dome's 0.5
+  struct Piece {
+    dvec3 vector_area{0.0};
+    double area = 0.0, volume = 0.0;
+    bool encloses_nothing() const {
+      return glm::length(vector_area) > kOneSided * area || std::abs(volume) <= 1e-6 * std::pow(area, 1.5);
+    }
+  };
+  const dvec3 origin(scene.vertices[mesh.first_vertex].position);
+  const std::vector<uint> pieces = find_pieces(scene, mesh);
+  std::map<uint, Piece> sums;
+  for (uint i = 0; i < mesh.triangle_count; i++) {
+    const uvec3 corners = scene.triangles[mesh.first_triangle + i];
+    const auto at = [&](uint corner) { return dvec3(scene.vertices[mesh.first_vertex + size_t{corner}].position); };
+    const dvec3 area = 0.5 * glm::cross(at(corners.y) - at(corners.x), at(corners.z) - at(corners.x));
+    Piece& piece = sums[pieces[corners.x]];
+    piece.vector_area += area, piece.area += glm::length(area);
+    piece.volume += glm::dot(at(corners.x) - origin, area) / 3.0;
+  }
+  double sheets = 0.0, all = 0.0;
+  for (const auto& [number, piece] : sums) {
+    all += piece.area;
+    if (piece.encloses_nothing()) sheets += piece.area;
+  }
+  return sheets > 0.5 * all;
+}
+
+// The share of light that crosses a material as thick as its file says.
+static vec3 tint_of(const Material& material) {
+  const float depth = material.attenuation_distance > 0.0f ? material.thickness / material.attenuation_distance : 0.0f;
+  return glm::pow(material.attenuation_color, vec3(depth));
+}
+
+size_t make_sheets_thin(Scene& scene) {
+  std::map<int, int> thin;  // solid -> its thin copy
+  size_t changed = 0;
+  for (Mesh& mesh : scene.meshes) {
+    const Material& solid = material_of(scene, mesh);
+    if (!is_glass(solid) || is_sheet_glass(solid) || !is_sheet(scene, mesh)) continue;
+    auto found = thin.find(mesh.material);
+    if (found == thin.end()) {
+      found = thin.emplace(mesh.material, copy_material(scene, mesh.material)).first;
+      Material& copy = scene.materials.back();
+      copy.base_color = vec4(vec3(copy.base_color) * tint_of(copy), copy.base_color.w);
+      copy.thickness = 0.0f;
     }
     mesh.material = found->second;
     changed++;

@@ -40,4 +40,13 @@ bool is_closed(const Scene& scene, const Mesh& mesh);
 // Animations of their materials are kept.
 size_t make_glass_solid(Scene& scene);
 
+// Returns whether a mesh is a sheet, or several: most of its area belongs to connected pieces that enclose nothing.
+// Their faces look to one side more than to the others, as those of a bottle with a hole do not, or they have no
+// volume, as two sides of a sheet in one place.
+bool is_sheet(const Scene& scene, const Mesh& mesh);
+
+// Makes sheets of a material with a volume, which they cannot enclose, thin glass. It has the tint of glass as thick as
+// the file says (thicknessFactor of KHR_materials_volume). Returns how many meshes changed.
+size_t make_sheets_thin(Scene& scene);
+
 }  // namespace ods

@@ -23,13 +23,22 @@ LightTable without_lights(const Scene& scene) {
   return table;
 }
 
+// Repeated surfaces, and outlines.
+std::vector<char> left_out(const Scene& scene) {
+  std::vector<char> found = find_repeats(scene);
+  for (size_t i = 0; i < found.size(); i++) {
+    if (scene.instances[i].role == kOutline) found[i] = 1;
+  }
+  return found;
+}
+
 }  // namespace
 
 SceneRays::SceneRays(const Scene& scene)
     : scene_(scene),
       no_lights_(without_lights(scene)),
-      repeats_(find_repeats(scene)),
-      embree_(scene, EmbreeScene::kMaxCopiedTriangles, repeats_) {
+      left_out_(left_out(scene)),
+      embree_(scene, EmbreeScene::kMaxCopiedTriangles, left_out_) {
   set_scene(tracer_, scene_, no_lights_);
   tracer_.ray_time = 0.5f;
 }

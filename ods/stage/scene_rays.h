@@ -32,13 +32,14 @@ struct Sight {
 class SceneRays {
  public:
   // Builds the acceleration structure for the present state of the scene, without repeated surfaces
-  // (ods/stage/repeats.h). The scene must outlive this object; after a change of its geometry a new one is needed.
+  // (ods/stage/repeats.h) and outlines (ods/stage/outlines.h). The scene must outlive this object; after a change of
+  // its geometry a new one is needed.
   explicit SceneRays(const Scene& scene);
 
   const Scene& scene() const { return scene_; }
 
-  // Returns whether rays can meet an instance: it is visible, and no other one coincides with it.
-  bool meets(size_t instance) const { return repeats_[instance] == 0 && !is_hidden(scene_, instance); }
+  // Returns whether rays can meet an instance: it is visible, not an outline, and no other one coincides with it.
+  bool meets(size_t instance) const { return left_out_[instance] == 0 && !is_hidden(scene_, instance); }
 
   // Safe from many threads at once.
   Sight look(vec3 from, vec3 direction) const;
@@ -52,7 +53,7 @@ class SceneRays {
  private:
   const Scene& scene_;
   LightTable no_lights_;
-  std::vector<char> repeats_;
+  std::vector<char> left_out_;
   EmbreeScene embree_;
   PathTracer tracer_;
 };

@@ -19,9 +19,9 @@ static Json merge_json(const PoleMerge& merge) {
   return {{"mode", merge.mode}, {"start", merge.start}, {"end", merge.end}, {"exponent", merge.exponent}};
 }
 
-static Json map_json(const CameraMap& map, bool wanted) {
+static Json map_json(const CameraMap& map, const float* values, bool wanted) {
   if (!wanted || map.width == 0) return {{"width", 0}, {"height", 0}};
-  const std::span texels(map.texels, static_cast<size_t>(map.width) * static_cast<size_t>(map.height));
+  const std::span texels(values, static_cast<size_t>(map.width) * static_cast<size_t>(map.height));
   return {{"width", map.width}, {"height", map.height}, {"texels", texels}};
 }
 
@@ -53,8 +53,8 @@ Json camera_json(const Camera& camera) {
           {"top", merge_json(camera.top)},
           {"bottom", merge_json(camera.bottom)},
           {"projection", projection_json(camera.projection)},
-          {"merge_map", map_json(camera.merge_map, has_toe_in)},
-          {"head_tilt_map", map_json(camera.head_tilt_map, has_toe_in)}};
+          {"merge_map", map_json(camera.merge_map, camera.merge_texels, has_toe_in)},
+          {"head_tilt_map", map_json(camera.head_tilt_map, camera.head_tilt_texels, has_toe_in)}};
 }
 
 }  // namespace ods

@@ -6,6 +6,7 @@
 precision highp float;
 precision highp int;
 #define inline
+#include "ods/kernel/camera/angles.h"
 #include "ods/kernel/camera/merge.h"
 #include "ods/kernel/camera/projection.h"
 #include "ods/kernel/camera/camera.h"

@@ -8,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "ods/kernel/path.h"
 #include "tests/support/statistics.h"
 
 namespace ods {
@@ -96,6 +97,17 @@ TEST(LightCacheKey, NamesEveryCellApart) {
   }
   EXPECT_EQ(names.size(), static_cast<size_t>(cells));
   EXPECT_GT(homes.size(), static_cast<size_t>(cells) * 99 / 100);
+}
+
+// A table without an empty slot must not hang a device.
+TEST(LightCacheReader, ASearchInAFullTableEnds) {
+  std::vector<CacheCell> full(4, CacheCell{1, 3, vec3(0.5f)});
+  PathTracer tracer;
+  tracer.cache_cells = full.data();
+  tracer.cache_mask = 3;
+  EXPECT_EQ(tracer.light_in_cell({6, 5}).x, -1.0f);
+  full[1] = {6, 5, vec3(0.25f)};  // found after the end of the table
+  EXPECT_EQ(tracer.light_in_cell({6, 5}).x, 0.25f);
 }
 
 }  // namespace

@@ -142,4 +142,42 @@ TEST(SheetGlass, AnimatedMaterialsGoOn) {
   EXPECT_NE(scene.meshes[0].material, scene.meshes[1].material);
 }
 
+TEST(SheetGlass, SheetMeans) {
+  const auto sheet = [](const Shape& shape) {
+    const Scene scene = scene_of(shape);
+    return is_sheet(scene, scene.meshes[0]);
+  };
+  const Shape pane = make_quad(vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)), sphere = make_sphere(0.5f, 24);
+  const Shape opposite = transformed(inside_out(pane), moved(vec3(0, 0, -4)));
+  EXPECT_TRUE(sheet(pane));
+  EXPECT_TRUE(sheet(make_disc(1.0f, 12)));
+  EXPECT_TRUE(sheet(joined(pane, opposite))) << "windows in opposite walls";
+  EXPECT_TRUE(sheet(joined(pane, inside_out(pane)))) << "two sides in one place";
+  Shape dome = sphere;
+  std::erase_if(dome.triangles, [&](const uvec3& t) { return sphere.vertices[t.x].position.y < 0.0f; });
+  EXPECT_TRUE(sheet(dome));
+  EXPECT_FALSE(sheet(sphere));
+  EXPECT_FALSE(sheet(without_last_triangle(sphere))) << "a bottle with a hole";
+  EXPECT_FALSE(sheet(make_box(vec3(1.0f, 1.0f, 0.004f)))) << "a thick pane";
+}
+
+// A window pane as real-time programs write it: one sheet with the thickness of the glass.
+TEST(SheetGlass, ASheetWithAVolumeIsThinAndTinted) {
+  Scene scene = scene_of(make_quad(vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)));
+  const Shape ball = make_sphere(0.5f, 12);
+  add_mesh(scene, ball.vertices, ball.triangles, 0);
+  add_instance(scene, 1, glm::mat4(1.0f));
+  Material& glass = scene.materials[0];
+  glass.thickness = 0.02f, glass.attenuation_distance = 0.01f, glass.attenuation_color = vec3(0.5f, 0.8f, 1.0f);
+  EXPECT_EQ(make_sheets_thin(scene), 1u);
+  const Material& thin = scene.materials.at(size_t(scene.meshes[0].material));
+  EXPECT_EQ(thin.thickness, 0.0f);
+  EXPECT_NEAR(thin.base_color.x, 0.25f, 1e-5f);
+  EXPECT_NEAR(thin.base_color.y, 0.64f, 1e-5f);
+  EXPECT_NEAR(thin.base_color.z, 1.0f, 1e-5f);
+  EXPECT_EQ(scene.meshes[1].material, 0) << "the ball encloses a volume";
+  EXPECT_EQ(scene.materials[0].thickness, 0.02f);
+  EXPECT_EQ(make_sheets_thin(scene), 0u);
+}
+
 }  // namespace ods::sheet_glass_test

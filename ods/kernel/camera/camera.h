@@ -16,6 +16,8 @@
 // where the formula itself continues into the other eye's picture half a turn away, as a wide pixel filter needs.
 #ifdef __cplusplus
 #pragma once
+#include <cstddef>
+
 #include "ods/kernel/camera/projection.h"
 namespace ods {
 #endif
@@ -29,13 +31,10 @@ const int kToeIn = 1;  // the rays of both eyes in one direction meet at the dis
 const int kShift = 2;  // the eyes' pictures are rotated against each other: no parallax at the distance
 const int kConvergenceCount = 3;
 
-// A lat-long picture of values 0..1 in the camera's frame, rows from the top.
+// The size of a lat-long picture of values 0..1 in the camera's frame, rows from the top.
 struct CameraMap {
   int width;  // 0 if there is no map
   int height;
-#ifdef __cplusplus
-  const float* texels = nullptr;  // a shader reads them from a buffer or a texture
-#endif
 };
 
 const int kMapOfMerge = 0;
@@ -58,6 +57,12 @@ struct Camera {
   Projection projection;
   CameraMap merge_map;      // for kMergeMap
   CameraMap head_tilt_map;  // 0.5 is level
+#ifdef __cplusplus
+  // The values of the maps, beside the camera: a shader has them in a buffer or a texture. All fields above have the
+  // same bytes in a shader, kCameraBytes in total.
+  const float* merge_texels = nullptr;
+  const float* head_tilt_texels = nullptr;
+#endif
 };
 
 struct Ray {
@@ -66,8 +71,10 @@ struct Ray {
 };
 
 #ifdef __cplusplus
+inline constexpr size_t kCameraBytes = offsetof(Camera, head_tilt_map) + sizeof(CameraMap);
+
 inline float camera_map_texel(const Camera& camera, int which, int i) {
-  return (which == kMapOfMerge ? camera.merge_map : camera.head_tilt_map).texels[i];
+  return (which == kMapOfMerge ? camera.merge_texels : camera.head_tilt_texels)[i];
 }
 #else
 float camera_map_texel(Camera camera, int which, int i);
@@ -107,12 +114,13 @@ inline float eye_side(int eye) {
 }
 
 inline vec3 turn_about(vec3 v, vec3 axis, float angle) {
-  return v * cos(angle) + cross(axis, v) * sin(angle) + axis * (dot(axis, v) * (1.0f - cos(angle)));
+  vec2 turn = cos_sin(angle);
+  return v * turn.x + cross(axis, v) * turn.y + axis * (dot(axis, v) * (1.0f - turn.x));
 }
 
 // The angle by which kShift rotates an eye's picture to the right.
 inline float shift_angle(Camera camera, int eye) {
-  return eye_side(eye) * asin(clamp(0.5f * camera.ipd / camera.convergence_distance, 0.0f, 1.0f));
+  return eye_side(eye) * asin_of(clamp(0.5f * camera.ipd / camera.convergence_distance, 0.0f, 1.0f));
 }
 
 // Recomputes heading and elevation relative to the camera's axis instead of its up vector.
@@ -121,7 +129,7 @@ inline ViewDirection look_about_axis(Camera camera, ViewDirection look) {
   float height = clamp(dot(look.direction, camera.axis), -1.0f, 1.0f);
   vec3 level = look.direction - camera.axis * height;
   float size = length(level);
-  look.elevation = atan(height, size);
+  look.elevation = atan_of(height, size);
   if (size > 1e-20f) look.heading = level * (1.0f / size);
   return look;
 }
@@ -171,8 +179,8 @@ inline Ray camera_ray(Camera camera, int eye, vec2 home, vec2 uv, vec2 lens) {
     // A disc about the eye, perpendicular to the ray; all its rays meet at the focus distance.
     vec3 side = normalize(cross(direction, abs(direction.y) < 0.9f ? vec3(0.0f, 1.0f, 0.0f) : vec3(1.0f, 0.0f, 0.0f)));
     float r = camera.lens_radius * sqrt(lens.x);
-    float phi = 2.0f * kPi * lens.y;
-    vec3 on_lens = side * (r * cos(phi)) + cross(side, direction) * (r * sin(phi));
+    vec2 around = cos_sin(2.0f * kPi * lens.y);
+    vec3 on_lens = side * (r * around.x) + cross(side, direction) * (r * around.y);
     direction = normalize(direction * camera.focus_distance - on_lens);
     origin = origin + on_lens;
   }

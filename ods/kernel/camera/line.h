@@ -59,14 +59,15 @@ inline vec3 toed_in_label(Camera camera, int eye, vec3 d) {
   float height = dot(d, camera.axis);
   vec3 level = d - camera.axis * height;
   if (length(level) == 0.0f) return d;
-  float phi = asin(clamp(height, -1.0f, 1.0f));
+  float phi = asin_of(clamp(height, -1.0f, 1.0f));
   float r = 0.0f;
   for (int i = 0; i < 8; i++) {
     r = 0.5f * camera.ipd * abs(eye_side(eye)) * merge_at(camera, d, phi);
-    phi = asin(clamp(height * sqrt(1.0f + r * r / (c * c)), -1.0f, 1.0f));
+    phi = asin_of(clamp(height * sqrt(1.0f + r * r / (c * c)), -1.0f, 1.0f));
   }
-  float turn = -eye_side(eye) * atan(r, c * cos(phi));
-  return turn_about(normalize(level), camera.axis, turn) * cos(phi) + camera.axis * sin(phi);
+  vec2 rise = cos_sin(phi);
+  float turn = -eye_side(eye) * atan_of(r, c * rise.x);
+  return turn_about(normalize(level), camera.axis, turn) * rise.x + camera.axis * rise.y;
 }
 
 // The direction, in the camera's frame, that the projection maps to the place where an eye's picture shows the line of

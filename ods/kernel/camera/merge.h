@@ -5,11 +5,9 @@
 // existing systems, which docs/cameras.md lists.
 #ifdef __cplusplus
 #pragma once
-#include "ods/kernel/math.h"
+#include "ods/kernel/camera/angles.h"
 namespace ods {
 #endif
-
-const float kPi = 3.14159265358979f;
 
 const int kMergeNone = 0;
 const int kMergeLinear = 1;
@@ -37,11 +35,11 @@ inline float merge_factor(PoleMerge merge, float elevation) {
   float t = clamp((elevation - merge.start) / (merge.end - merge.start), 0.0f, 1.0f);
   if (merge.mode == kMergePower) return 1.0f - pow(t, merge.exponent);
   float left = 1.0f - t;
-  if (merge.mode == kMergeCosine) left = max(0.0f, cos(t * (0.5f * kPi)));
+  if (merge.mode == kMergeCosine) left = max(0.0f, cos_of(t * (0.5f * kPi)));
   if (merge.mode == kMergeSmoothstep) left = 1.0f - t * t * (3.0f - 2.0f * t);
   if (merge.mode == kMergeSmootherstep) left = left * left * left * (left * (6.0f * left - 15.0f) + 10.0f);
   if (merge.mode == kMergeGaussian) left = (exp(-t * t) - exp(-1.0f)) / (1.0f - exp(-1.0f));
-  if (merge.mode == kMergeTiltBrush) left = 1.0f - sin(t * (0.5f / kPi));
+  if (merge.mode == kMergeTiltBrush) left = 1.0f - sin_of(t * (0.5f / kPi));
   return merge.exponent == 1.0f ? left : pow(max(left, 0.0f), merge.exponent);
 }
 

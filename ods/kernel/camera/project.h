@@ -39,21 +39,22 @@ struct Meeting {
 
 // r, n: after the merge. No ray meets points closer to the axis than r; the closest ray is used instead.
 inline Meeting meet(Camera camera, float r, float n, float rho, float y, float phi) {
+  vec2 rise = cos_sin(phi);
   Meeting meeting;
   meeting.across = r;
   if (camera.convergence != kToeIn) {
     meeting.along = sqrt(max(rho * rho - r * r, 0.0f));
-    meeting.below = y * cos(phi) - (meeting.along - n) * sin(phi);
+    meeting.below = y * rise.x - (meeting.along - n) * rise.y;
     meeting.depth = length(vec2(meeting.along - n, y));
     return meeting;
   }
   float c = camera.convergence_distance;
   float square = r * r + c * c;
-  float middle = r * r - n * c * cos(phi);
+  float middle = r * r - n * c * rise.x;
   float s = (middle + sqrt(max(middle * middle - square * (r * r + n * n - rho * rho - y * y), 0.0f))) / square;
   meeting.across = r * (1.0f - s);
   meeting.along = sqrt(max(rho * rho - meeting.across * meeting.across, 0.0f));
-  meeting.below = y - s * c * sin(phi);
+  meeting.below = y - s * c * rise.y;
   meeting.depth = s * sqrt(square);
   return meeting;
 }
@@ -61,9 +62,9 @@ inline Meeting meet(Camera camera, float r, float n, float rho, float y, float p
 // The elevation 0..pi/2 of the ray that meets a point of height y >= 0, without merge and neck.
 inline float plain_elevation(Camera camera, float r, float rho, float y) {
   Meeting meeting = meet(camera, r, 0.0f, rho, y, 0.0f);
-  if (camera.convergence != kToeIn) return atan(y, meeting.along);
+  if (camera.convergence != kToeIn) return atan_of(y, meeting.along);
   float c = camera.convergence_distance;
-  return asin(clamp(y * sqrt(r * r + c * c) / max(meeting.depth * c, 1e-30f), 0.0f, 1.0f));
+  return asin_of(clamp(y * sqrt(r * r + c * c) / max(meeting.depth * c, 1e-30f), 0.0f, 1.0f));
 }
 
 inline bool shrinks_as_cosine(PoleMerge merge) {
@@ -74,7 +75,7 @@ inline float cosine_elevation(float r, float rho, float y) {
   float b = r * r + rho * rho + y * y;
   float cos2 = 2.0f * rho * rho / (b + sqrt(max(b * b - 4.0f * r * r * rho * rho, 0.0f)));
   float merged = r * sqrt(min(cos2, 1.0f));
-  return atan(y, sqrt(max(rho * rho - merged * merged, 0.0f)));
+  return atan_of(y, sqrt(max(rho * rho - merged * merged, 0.0f)));
 }
 
 // phi with its sign. heading: the point's, needed for a merge map, which is a function of direction.
@@ -92,7 +93,8 @@ inline float elevation_of(Camera camera, float r, float rho, float y, vec3 headi
   float high = 0.5f * kPi;
   for (int i = 0; i < 40; i++) {
     float middle = 0.5f * (low + high);
-    vec3 direction = heading * cos(middle) + camera.axis * (sign_of_y * sin(middle));
+    vec2 rise = cos_sin(middle);
+    vec3 direction = heading * rise.x + camera.axis * (sign_of_y * rise.y);
     float left = merge_at(camera, direction, sign_of_y * middle);
     Meeting meeting = meet(camera, r * left, camera.neck * left, rho, abs(y), middle);
     if (meeting.below > 0.0f || rho < r * left) {
@@ -137,12 +139,13 @@ inline ImagePosition project_point(Camera camera, int eye, vec3 point) {
   Meeting meeting;
   for (int i = 0; i < rounds; i++) {
     float phi = elevation_of(camera, r, rho, y, heading);
-    left = merge_at(camera, heading * cos(phi) + camera.axis * sin(phi), phi);
+    vec2 rise = cos_sin(phi);
+    left = merge_at(camera, heading * rise.x + camera.axis * rise.y, phi);
     meeting = meet(camera, r * left, camera.neck * left, rho, abs(y), abs(phi));
     // The heading F from the point's own heading: dot(point, F) = along, dot(point, R) = side * across.
     float size = max(sqrt(meeting.along * meeting.along + meeting.across * meeting.across), 1e-30f);
     heading = (toward * meeting.along - cross(toward, camera.axis) * (side * meeting.across)) * (1.0f / size);
-    direction = heading * cos(phi) + camera.axis * sin(phi);
+    direction = heading * rise.x + camera.axis * rise.y;
   }
   vec3 start = (cross(heading, camera.axis) * (side * r) + heading * camera.neck) * left;
   if (camera.convergence == kShift) direction = turn_about(direction, camera.axis, -shift_angle(camera, eye));

@@ -96,15 +96,17 @@ inline ViewDirection look_along(vec3 direction) {
   look.direction = direction * (1.0f / size);
   look.heading = vec3(0.0f, 0.0f, -1.0f);
   if (level > 0.0f) look.heading = vec3(direction.x / level, 0.0f, direction.z / level);
-  look.elevation = atan(direction.y, level);
+  look.elevation = atan_of(direction.y, level);
   look.seen = true;
   return look;
 }
 
 inline ViewDirection look_at_angles(float theta, float phi) {
   ViewDirection look;
-  look.heading = vec3(sin(theta), 0.0f, -cos(theta));
-  look.direction = look.heading * cos(phi) + vec3(0.0f, sin(phi), 0.0f);
+  vec2 around = cos_sin(theta);
+  vec2 rise = cos_sin(phi);
+  look.heading = vec3(around.y, 0.0f, -around.x);
+  look.direction = look.heading * rise.x + vec3(0.0f, rise.y, 0.0f);
   look.elevation = phi;
   look.seen = true;
   return look;
@@ -112,12 +114,13 @@ inline ViewDirection look_at_angles(float theta, float phi) {
 
 // Position of a direction in a lat-long picture, both coordinates 0..1.
 inline vec2 direction_to_lat_long(vec3 d) {
-  return vec2(0.5f + atan(d.x, -d.z) * (0.5f / kPi), 0.5f - atan(d.y, sqrt(d.x * d.x + d.z * d.z)) * (1.0f / kPi));
+  return vec2(0.5f + atan_of(d.x, -d.z) * (0.5f / kPi),
+              0.5f - atan_of(d.y, sqrt(d.x * d.x + d.z * d.z)) * (1.0f / kPi));
 }
 
 // u of a heading, shifted by whole turns to the picture's side of the sphere.
 inline float place_heading(Projection projection, vec3 direction) {
-  float off = atan(direction.x, -direction.z) - projection.center.x;
+  float off = atan_of(direction.x, -direction.z) - projection.center.x;
   float turns = off * (0.5f / kPi) + 0.5f;
   off = (turns - floor(turns) - 0.5f) * (2.0f * kPi);
   return 0.5f + off / projection.span.x;
@@ -133,7 +136,7 @@ inline ViewDirection lat_long_look(Projection projection, vec2 uv) {
 }
 
 inline ImagePoint lat_long_place(Projection projection, vec3 direction) {
-  float phi = atan(direction.y, sqrt(direction.x * direction.x + direction.z * direction.z));
+  float phi = atan_of(direction.y, sqrt(direction.x * direction.x + direction.z * direction.z));
   ImagePoint place;
   place.uv = vec2(place_heading(projection, direction), 0.5f - (phi - projection.center.y) / projection.span.y);
   place.seen = inside_picture(place.uv);
@@ -142,7 +145,7 @@ inline ImagePoint lat_long_place(Projection projection, vec3 direction) {
 
 inline ViewDirection cylinder_look(Projection projection, vec2 uv) {
   return look_at_angles(projection.center.x + (uv.x - 0.5f) * projection.span.x,
-                        atan(projection.center.y + (0.5f - uv.y) * projection.span.y));
+                        atan_of(projection.center.y + (0.5f - uv.y) * projection.span.y, 1.0f));
 }
 
 inline ImagePoint cylinder_place(Projection projection, vec3 direction) {
@@ -171,15 +174,15 @@ inline bool inside_circle(Projection projection, vec2 uv) {
 // The angle from the lens axis at a radius, in units of the image circle's radius, and its inverse.
 inline float fisheye_angle(Projection projection, float r) {
   float quarter = 0.25f * projection.angle;
-  if (projection.kind == kFisheyeEquisolid) return 2.0f * asin(min(sin(quarter) * r, 1.0f));
-  if (projection.kind == kFisheyeStereographic) return 2.0f * atan(tan(quarter) * r);
+  if (projection.kind == kFisheyeEquisolid) return 2.0f * asin_of(min(sin_of(quarter) * r, 1.0f));
+  if (projection.kind == kFisheyeStereographic) return 2.0f * atan_of(tan_of(quarter) * r, 1.0f);
   return 2.0f * quarter * r;
 }
 
 inline float fisheye_radius(Projection projection, float angle) {
   float quarter = 0.25f * projection.angle;
-  if (projection.kind == kFisheyeEquisolid) return sin(0.5f * angle) / sin(quarter);
-  if (projection.kind == kFisheyeStereographic) return tan(min(0.5f * angle, 1.57f)) / tan(quarter);
+  if (projection.kind == kFisheyeEquisolid) return sin_of(0.5f * angle) / sin_of(quarter);
+  if (projection.kind == kFisheyeStereographic) return tan_of(min(0.5f * angle, 1.57f)) / tan_of(quarter);
   return 0.5f * angle / quarter;
 }
 
@@ -187,8 +190,9 @@ inline ViewDirection fisheye_look(Projection projection, vec2 home, vec2 uv) {
   vec2 p = vec2(2.0f * uv.x - 1.0f, 1.0f - 2.0f * uv.y);
   float r = length(p);
   float angle = fisheye_angle(projection, r);
-  float out_of_axis = r > 0.0f ? sin(angle) / r : 0.0f;
-  ViewDirection look = look_along(from_lens(projection, vec3(p.x * out_of_axis, p.y * out_of_axis, -cos(angle))));
+  vec2 bend = cos_sin(angle);
+  float out_of_axis = r > 0.0f ? bend.y / r : 0.0f;
+  ViewDirection look = look_along(from_lens(projection, vec3(p.x * out_of_axis, p.y * out_of_axis, -bend.x)));
   look.seen = inside_circle(projection, home);
   return look;
 }
@@ -196,7 +200,7 @@ inline ViewDirection fisheye_look(Projection projection, vec2 home, vec2 uv) {
 inline ImagePoint fisheye_place(Projection projection, vec3 direction) {
   vec3 p = to_lens(projection, direction);
   float out_of_axis = sqrt(p.x * p.x + p.y * p.y);
-  float r = fisheye_radius(projection, atan(out_of_axis, -p.z));
+  float r = fisheye_radius(projection, atan_of(out_of_axis, -p.z));
   float scale = out_of_axis > 0.0f ? r / out_of_axis : 0.0f;
   ImagePoint place;
   place.uv = vec2(0.5f + 0.5f * p.x * scale, 0.5f - 0.5f * p.y * scale);
@@ -222,8 +226,9 @@ inline ViewDirection polynomial_look(Projection projection, vec2 home, vec2 uv) 
   vec2 p = vec2((uv.x - 0.5f) * projection.sensor.x, (0.5f - uv.y) * projection.sensor.y);
   float r = length(p);
   float angle = polynomial_angle(projection, r);
-  float out_of_axis = r > 0.0f ? sin(angle) / r : 0.0f;
-  ViewDirection look = look_along(from_lens(projection, vec3(p.x * out_of_axis, p.y * out_of_axis, -cos(angle))));
+  vec2 bend = cos_sin(angle);
+  float out_of_axis = r > 0.0f ? bend.y / r : 0.0f;
+  ViewDirection look = look_along(from_lens(projection, vec3(p.x * out_of_axis, p.y * out_of_axis, -bend.x)));
   look.seen = inside_circle(projection, home);
   return look;
 }
@@ -254,7 +259,7 @@ inline float polynomial_radius(Projection projection, float angle) {
 inline ImagePoint polynomial_place(Projection projection, vec3 direction) {
   vec3 p = to_lens(projection, direction);
   float out_of_axis = sqrt(p.x * p.x + p.y * p.y);
-  float r = polynomial_radius(projection, atan(out_of_axis, -p.z));
+  float r = polynomial_radius(projection, atan_of(out_of_axis, -p.z));
   vec2 outwards = vec2(p.z > 0.0f ? 1.0f : 0.0f, 0.0f);  // the direction straight behind is the whole rim
   if (out_of_axis > 0.0f) outwards = vec2(p.x, p.y) * (1.0f / out_of_axis);
   ImagePoint place;
@@ -279,14 +284,14 @@ inline ImagePoint perspective_place(Projection projection, vec3 direction) {
 }
 
 inline ViewDirection eac_face_look(Projection projection, vec2 uv) {
-  vec3 p = vec3(tan(0.25f * kPi * (2.0f * uv.x - 1.0f)), tan(0.25f * kPi * (1.0f - 2.0f * uv.y)), -1.0f);
+  vec3 p = vec3(tan_of(0.25f * kPi * (2.0f * uv.x - 1.0f)), tan_of(0.25f * kPi * (1.0f - 2.0f * uv.y)), -1.0f);
   return look_along(from_lens(projection, p));
 }
 
 inline ImagePoint eac_face_place(Projection projection, vec3 direction) {
   vec3 p = to_lens(projection, direction);
   ImagePoint place;
-  place.uv = vec2(0.5f + atan(p.x, -p.z) * (2.0f / kPi), 0.5f - atan(p.y, -p.z) * (2.0f / kPi));
+  place.uv = vec2(0.5f + atan_of(p.x, -p.z) * (2.0f / kPi), 0.5f - atan_of(p.y, -p.z) * (2.0f / kPi));
   place.seen = p.z < 0.0f && inside_picture(place.uv);
   return place;
 }
@@ -348,8 +353,8 @@ inline ViewDirection cube_look(int kind, vec2 home, vec2 uv) {
   float s = 2.0f * (uv.x * float(columns) - float(column)) - 1.0f;
   float t = 1.0f - 2.0f * (uv.y * float(rows) - float(row));
   if (kind == kEac) {
-    s = tan(0.25f * kPi * s);
-    t = tan(0.25f * kPi * t);
+    s = tan_of(0.25f * kPi * s);
+    t = tan_of(0.25f * kPi * t);
   }
   CubeFace face = cube_cell(kind, row * columns + column);
   return look_along(face.middle + face.right * s + face.top * t);
@@ -372,8 +377,8 @@ inline ImagePoint cube_place(int kind, vec3 direction) {
   float s = clamp(dot(direction, face.right) / ahead, -1.0f, 1.0f);
   float t = clamp(dot(direction, face.top) / ahead, -1.0f, 1.0f);
   if (kind == kEac) {
-    s = atan(s) * (4.0f / kPi);
-    t = atan(t) * (4.0f / kPi);
+    s = atan_of(s, 1.0f) * (4.0f / kPi);
+    t = atan_of(t, 1.0f) * (4.0f / kPi);
   }
   ImagePoint place;
   place.uv = vec2((float(best % columns) + 0.5f + 0.5f * s) / float(columns),
@@ -434,7 +439,7 @@ inline float plane_solid_angle(vec2 p) {
 
 // Solid angle per square of the angles in -pi/4..pi/4 whose tangents are the coordinates on a plane at distance 1.
 inline float eac_solid_angle(vec2 place) {
-  vec2 p = vec2(tan(0.25f * kPi * place.x), tan(0.25f * kPi * place.y));
+  vec2 p = vec2(tan_of(0.25f * kPi * place.x), tan_of(0.25f * kPi * place.y));
   return plane_solid_angle(p) * (1.0f + p.x * p.x) * (1.0f + p.y * p.y);
 }
 
@@ -442,21 +447,21 @@ inline float eac_solid_angle(vec2 place) {
 // steradians up to a factor that is the same for the whole picture.
 inline float relative_solid_angle(Projection projection, vec2 home, vec2 uv) {
   vec2 p = vec2(2.0f * uv.x - 1.0f, 1.0f - 2.0f * uv.y);
-  if (projection.kind == kLatLong) return abs(cos(projection.center.y + 0.5f * p.y * projection.span.y));
+  if (projection.kind == kLatLong) return abs(cos_of(projection.center.y + 0.5f * p.y * projection.span.y));
   if (projection.kind == kCylinder)
     return plane_solid_angle(vec2(0.0f, projection.center.y + 0.5f * p.y * projection.span.y));
   if (projection.kind == kPerspective) return plane_solid_angle(p * projection.half_size);
   if (projection.kind == kFisheye) {
     float angle = max(0.5f * projection.angle * length(p), 1e-4f);
-    return sin(min(angle, kPi)) / angle;
+    return sin_of(min(angle, kPi)) / angle;
   }
   if (projection.kind == kFisheyeStereographic) {
-    p = p * tan(0.25f * projection.angle);
+    p = p * tan_of(0.25f * projection.angle);
     return 1.0f / ((1.0f + dot(p, p)) * (1.0f + dot(p, p)));
   }
   if (projection.kind == kFisheyePolynomial) {
     float r = max(length(vec2(0.5f * p.x * projection.sensor.x, 0.5f * p.y * projection.sensor.y)), 1e-4f);
-    return sin(min(polynomial_angle(projection, r), kPi)) * polynomial_slope(projection, r) / r;
+    return sin_of(min(polynomial_angle(projection, r), kPi)) * polynomial_slope(projection, r) / r;
   }
   if (projection.kind == kEacFace) return eac_solid_angle(p);
   if (projection.kind == kEac) return eac_solid_angle(place_in_cell(projection.kind, home, uv));

@@ -30,7 +30,7 @@ static std::string attribute_of(const CameraFieldRow& row, size_t i) {
 // Writes a map that is the same all around, such as a merge by depth, as a curve: "4x180:" and a number per row, from
 // the top. Empty for other maps.
 static std::string text_of_curve(const Image& map) {
-  if (map.height > kMaxCurveRows || !is_same_around(camera_map(map))) return "";
+  if (map.height > kMaxCurveRows || !is_same_around(map)) return "";
   std::string text = fmt::format("{}x{}:", map.width, map.height);
   for (int y = 0; y < map.height; y++) text += fmt::format(" {}", decimal(*map.at(0, y)));
   return text;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "ods/render/cpu/exact_hit.h"
+#include "ods/render/cpu/tree_plan.h"
 #include "ods/scene/placement.h"
 
 // The differences between Embree 3 and 4.
@@ -85,8 +86,8 @@ namespace {
 struct RayContext {
   EmbreeContext embree;
   PathTracer* tracer;
+  const TreePlan* plan;
   int ray;
-  uint still;
   uint index;       // index of the first ray's sample
   int clear;        // number of surfaces of clear glass that a shadow ray met
   ExactRays exact;  // if the scene is portable
@@ -95,17 +96,16 @@ struct RayContext {
 }  // namespace
 
 // A geometry's number in its scene is the index of our instance. If something moves, all static instances together are
-// one additional instance in the top scene.
+// one additional instance in the top scene, TreePlan::still_id.
 struct EmbreeScene::Handles {
   const Scene* scene = nullptr;
+  TreePlan plan;
   RTCDevice device = nullptr;
   RTCScene top = nullptr;
   RTCScene still = nullptr;      // null if nothing moves
-  uint still_id = 0;             // index in the top scene
   bool portable = false;         // Scene::portable: ods/render/cpu/exact_hit.h decides what a ray meets
   bool coherent = true;          // trace packets of rays as one; with instances, Embree 3.13 may never return
   std::vector<RTCScene> shared;  // by mesh; null if the mesh is copied
-  std::vector<char> moves;       // by instance
 
   Handles() = default;
   Handles(const Handles&) = delete;
@@ -124,9 +124,24 @@ static int instance_of(uint geometry, uint instance, uint still) {
   return static_cast<int>(instance == RTC_INVALID_GEOMETRY_ID || instance == still ? geometry : instance);
 }
 
+// Returns whether a candidate is the back of a face that the file contains a second time, for this side. Embree's
+// normal, and the ray, are in the space of the tree's triangles.
+static bool is_hidden_back(const RTCFilterFunctionNArguments* arguments, uint i, const RayContext& context,
+                           const Hit& hit, bool is_copy) {
+  const Instance& instance = context.tracer->scene_instance(hit.instance);
+  const std::vector<char>& doubled = context.plan->doubled[static_cast<size_t>(instance.mesh)];
+  if (doubled.empty() || doubled[static_cast<size_t>(hit.triangle)] == 0) return false;
+  const uint count = arguments->N;
+  const vec3 normal(RTCHitN_Ng_x(arguments->hit, count, i), RTCHitN_Ng_y(arguments->hit, count, i),
+                    RTCHitN_Ng_z(arguments->hit, count, i));
+  const vec3 way(RTCRayN_dir_x(arguments->ray, count, i), RTCRayN_dir_y(arguments->ray, count, i),
+                 RTCRayN_dir_z(arguments->ray, count, i));
+  return dot(normal, way) * (is_copy ? handedness_of(instance) : 1.0f) > 0.0f;
+}
+
 // Embree calls this for the candidate hits of one or several rays on surfaces with alpha, on surfaces that are
-// invisible to some rays, and, for shadow rays, on surfaces that may be clear glass; on all surfaces if the scene is
-// portable.
+// invisible to some rays, on doubled faces, and, for shadow rays, on surfaces that may be clear glass; on all surfaces
+// if the scene is portable.
 template <bool kShadow>
 static void filter(const RTCFilterFunctionNArguments* arguments) {
   auto* context = reinterpret_cast<RayContext*>(arguments->context);
@@ -139,10 +154,15 @@ static void filter(const RTCFilterFunctionNArguments* arguments) {
     hit.t = 0.0f;
     hit.u = RTCHitN_u(arguments->hit, count, i);
     hit.v = RTCHitN_v(arguments->hit, count, i);
-    hit.instance = instance_of(geometry, instance, context->still);
+    hit.instance = instance_of(geometry, instance, context->plan->still_id);
     hit.triangle = static_cast<int>(RTCHitN_primID(arguments->hit, count, i));
     const uint id = RTCRayN_id(arguments->ray, count, i);
     context->tracer->path.index = context->index + id;
+    const bool is_copy = instance == RTC_INVALID_GEOMETRY_ID || instance == context->plan->still_id;
+    if (is_hidden_back(arguments, i, *context, hit, is_copy)) {
+      arguments->valid[i] = 0;
+      continue;
+    }
     const bool is_portable = context->exact.rays != nullptr;
     const double t = is_portable ? context->exact.distance(*context->tracer, id, hit) : 0.0;
     if (t < 0.0) {
@@ -177,14 +197,10 @@ static void write_positions(const Scene& scene, const Mesh& mesh, uint key, cons
   }
 }
 
-static bool has_absences(const Instance& instance) {
-  return instance.role == kUnseen || instance.role == kPureLight;
-}
-
 // Makes an Embree geometry of a mesh's triangles. placed: the instance whose matrix transforms copies of the vertices,
-// or null. absences: some rays do not meet it.
+// or null. chosen: some rays do not meet all of its triangles.
 static RTCGeometry make_geometry(RTCDevice device, const Scene& scene, const Mesh& mesh, const Instance* placed,
-                                 bool absences) {
+                                 bool chosen) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   const uint keys = key_count(scene, mesh.motion);
   rtcSetGeometryTimeStepCount(geometry, keys);
@@ -202,7 +218,7 @@ static RTCGeometry make_geometry(RTCDevice device, const Scene& scene, const Mes
     corners[3 * i] = triangles[i].x, corners[3 * i + 1] = triangles[i].y, corners[3 * i + 2] = triangles[i].z;
   }
   const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
-  const bool may_pass = material.alpha_mode != kAlphaOpaque || absences;
+  const bool may_pass = material.alpha_mode != kAlphaOpaque || chosen;
   if (may_pass || scene.portable) rtcSetGeometryIntersectFilterFunction(geometry, filter<false>);
   if (may_pass || scene.portable || material.transmission > 0.0f) {
     rtcSetGeometryOccludedFilterFunction(geometry, filter<true>);
@@ -247,28 +263,6 @@ static void attach(RTCScene scene, RTCGeometry geometry, size_t id) {
   rtcReleaseGeometry(geometry);
 }
 
-static std::vector<char> moving_instances(const Scene& scene) {
-  std::vector<char> moves(scene.instances.size());
-  if (scene.animation.playing.empty()) return moves;
-  for (const MovingInstance& moving : scene.animation.instances) moves[static_cast<size_t>(moving.instance)] = 1;
-  return moves;
-}
-
-// Selects the meshes that are instanced: those that move, and those that would need too many copies.
-static std::vector<bool> choose_shared(const Scene& scene, const std::vector<char>& moves,
-                                       size_t max_copied_triangles) {
-  std::vector<size_t> uses(scene.meshes.size());
-  for (const Instance& instance : scene.instances) uses[static_cast<size_t>(instance.mesh)]++;
-  size_t copies = 0;
-  for (size_t i = 0; i < uses.size(); i++) copies += uses[i] * scene.meshes[i].triangle_count;
-  std::vector<bool> shared(scene.meshes.size());
-  for (size_t i = 0; i < uses.size(); i++) shared[i] = uses[i] > 1 && copies > max_copied_triangles;
-  for (size_t i = 0; i < moves.size(); i++) {
-    if (moves[i]) shared[static_cast<size_t>(scene.instances[i].mesh)] = true;
-  }
-  return shared;
-}
-
 EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles, const std::vector<char>& left_out)
     : handles_(std::make_unique<Handles>()) {
   handles_->scene = &scene;
@@ -279,30 +273,26 @@ EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles, const 
   RTCDevice device = handles_->device;
   handles_->top = new_scene(device);
   handles_->shared.resize(scene.meshes.size());
-  handles_->moves = moving_instances(scene);
-  handles_->still_id = static_cast<uint>(scene.instances.size());
-  const bool split = std::count(handles_->moves.begin(), handles_->moves.end(), 1) > 0;
+  handles_->plan = plan_trees(scene, max_copied_triangles);
+  const TreePlan& plan = handles_->plan;
+  const bool split = std::count(plan.moves.begin(), plan.moves.end(), 1) > 0;
   if (split) handles_->still = new_scene(device);
-  const std::vector<bool> shared = choose_shared(scene, handles_->moves, max_copied_triangles);
-  std::vector<char> absent_somewhere(scene.meshes.size());
-  for (const Instance& instance : scene.instances) {
-    if (has_absences(instance)) absent_somewhere[static_cast<size_t>(instance.mesh)] = 1;
-  }
   for (size_t i = 0; i < scene.instances.size(); i++) {
     const Instance& instance = scene.instances[i];
     const size_t mesh = static_cast<size_t>(instance.mesh);
     const bool hidden = is_hidden(scene, i);
-    if (hidden && !handles_->moves[i]) continue;
+    if (hidden && !plan.moves[i]) continue;
     if (!left_out.empty() && left_out[i] != 0) continue;
-    if (!shared[mesh]) {
+    if (!plan.shared[mesh]) {
+      const bool chosen = has_absences(instance) || plan.is_doubled(mesh);
       attach(split ? handles_->still : handles_->top,
-             make_geometry(device, scene, scene.meshes[mesh], &instance, has_absences(instance)), i);
+             make_geometry(device, scene, scene.meshes[mesh], &instance, chosen), i);
       continue;
     }
     if (!handles_->shared[mesh]) {
       handles_->shared[mesh] = new_scene(device);
-      attach(handles_->shared[mesh],
-             make_geometry(device, scene, scene.meshes[mesh], nullptr, absent_somewhere[mesh] != 0), 0);
+      const bool chosen = plan.absent[mesh] != 0 || plan.is_doubled(mesh);
+      attach(handles_->shared[mesh], make_geometry(device, scene, scene.meshes[mesh], nullptr, chosen), 0);
       rtcCommitScene(handles_->shared[mesh]);
     }
     handles_->coherent = false;
@@ -316,7 +306,7 @@ EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles, const 
     Instance here{};
     here.motion = -1;
     set_matrix(here, glm::dmat4(1.0));
-    attach(handles_->top, make_instance(device, handles_->still, scene, here), handles_->still_id);
+    attach(handles_->top, make_instance(device, handles_->still, scene, here), plan.still_id);
   }
   rtcCommitScene(handles_->top);
   if (rtcGetDeviceError(device) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
@@ -340,8 +330,8 @@ void EmbreeScene::update(const SceneChange& change) {
     rtcCommitGeometry(triangles);
     rtcCommitScene(tree);
   }
-  for (size_t i = 0; i < handles_->moves.size(); i++) {
-    if (!handles_->moves[i]) continue;
+  for (size_t i = 0; i < handles_->plan.moves.size(); i++) {
+    if (!handles_->plan.moves[i]) continue;
     RTCGeometry geometry = rtcGetGeometry(handles_->top, static_cast<uint>(i));
     set_transform(geometry, scene, scene.instances[i]);
     is_hidden(scene, i) ? rtcDisableGeometry(geometry) : rtcEnableGeometry(geometry);
@@ -358,12 +348,12 @@ static void set_ray(RTCRay& out, const Ray& ray, float length, float time) {
   out.time = time, out.mask = ~0u, out.id = 0, out.flags = 0;
 }
 
-static RayContext make_context(PathTracer& tracer, int ray, uint still) {
+static RayContext make_context(PathTracer& tracer, int ray, const TreePlan& plan) {
   RayContext context;
   init_context(context.embree);
   context.tracer = &tracer;
+  context.plan = &plan;
   context.ray = ray;
-  context.still = still;
   context.index = tracer.path.index;
   context.clear = 0;
   context.exact = {};
@@ -375,7 +365,7 @@ Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, int kind) const
   set_ray(found.ray, ray, std::numeric_limits<float>::infinity(), tracer.ray_time);
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  RayContext context = make_context(tracer, kind, handles_->still_id);
+  RayContext context = make_context(tracer, kind, handles_->plan);
   NearestHit nearest;
   if (handles_->portable) context.exact = {&ray, &tracer.ray_time, nullptr, &nearest};
   intersect(handles_->top, context.embree, found);
@@ -385,7 +375,7 @@ Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, int kind) const
   hit.t = missed ? -1.0f : found.ray.tfar;
   hit.u = missed ? 0.0f : found.hit.u;
   hit.v = missed ? 0.0f : found.hit.v;
-  hit.instance = missed ? -1 : instance_of(found.hit.geomID, found.hit.instID[0], handles_->still_id);
+  hit.instance = missed ? -1 : instance_of(found.hit.geomID, found.hit.instID[0], handles_->plan.still_id);
   hit.triangle = missed ? -1 : static_cast<int>(found.hit.primID);
   return hit;
 }
@@ -393,7 +383,7 @@ Hit EmbreeScene::closest_hit(PathTracer& tracer, const Ray& ray, int kind) const
 bool EmbreeScene::occluded(PathTracer& tracer, const Ray& ray, float length, int kind, int* clear) const {
   RTCRay shadow;
   set_ray(shadow, ray, handles_->portable ? length * kCandidates : length, tracer.ray_time);
-  RayContext context = make_context(tracer, kind, handles_->still_id);
+  RayContext context = make_context(tracer, kind, handles_->plan);
   if (handles_->portable) context.exact = {&ray, &tracer.ray_time, &length};
   occlude(handles_->top, context.embree, shadow);
   if (clear) *clear = context.clear;
@@ -425,9 +415,9 @@ static void set_rays(RTCRay16& out, const RayPacket& packet) {
 }
 
 // Decides the alpha of surfaces as for the paths that begin with these rays.
-static RayContext packet_context(PathTracer& tracer, const RayPacket& packet, uint still) {
+static RayContext packet_context(PathTracer& tracer, const RayPacket& packet, const TreePlan& plan) {
   tracer.start_path(packet.rays[0], no_media(), packet.seed, packet.index);
-  return make_context(tracer, kPathRay, still);
+  return make_context(tracer, kPathRay, plan);
 }
 
 static void start_ray(PathTracer& tracer, const RayPacket& packet, int i) {
@@ -456,7 +446,7 @@ void EmbreeScene::closest_hits(PathTracer& tracer, const RayPacket& packet, Hit*
     valid[i] = -1;
     found.hit.geomID[i] = found.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  RayContext context = packet_context(tracer, packet, handles_->still_id);
+  RayContext context = packet_context(tracer, packet, handles_->plan);
   NearestHit nearest[RayPacket::kMax];
   if (handles_->portable) context.exact = {packet.rays, packet.times, nullptr, nearest};
   intersect16(valid, handles_->top, context.embree, handles_->coherent, found);
@@ -465,7 +455,7 @@ void EmbreeScene::closest_hits(PathTracer& tracer, const RayPacket& packet, Hit*
     hits[i].t = missed ? -1.0f : found.ray.tfar[i];
     hits[i].u = missed ? 0.0f : found.hit.u[i];
     hits[i].v = missed ? 0.0f : found.hit.v[i];
-    hits[i].instance = missed ? -1 : instance_of(found.hit.geomID[i], found.hit.instID[0][i], handles_->still_id);
+    hits[i].instance = missed ? -1 : instance_of(found.hit.geomID[i], found.hit.instID[0][i], handles_->plan.still_id);
     hits[i].triangle = missed ? -1 : static_cast<int>(found.hit.primID[i]);
     if (handles_->portable) hits[i] = nearest[i].hit;
   }
@@ -483,7 +473,7 @@ void EmbreeScene::occluded(PathTracer& tracer, const RayPacket& packet, bool* hi
   alignas(64) int valid[RayPacket::kMax] = {};
   set_rays(shadows, packet);
   for (int i = 0; i < packet.count; i++) valid[i] = packet.lengths[i] > 0.0f ? -1 : 0;
-  RayContext context = packet_context(tracer, packet, handles_->still_id);
+  RayContext context = packet_context(tracer, packet, handles_->plan);
   if (handles_->portable) {
     context.exact = {packet.rays, packet.times, packet.lengths};
     for (float& farthest : shadows.tfar) farthest *= kCandidates;

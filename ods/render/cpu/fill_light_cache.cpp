@@ -35,10 +35,10 @@ class Trail {
 
   void begin() { count_ = 0; }
 
-  void meet(const PathState& path) {
-    const auto bounce = static_cast<size_t>(path.vertex_bounce);
-    for (; count_ <= bounce; count_++) found_[count_] = path.vertex_radiance;
-    if (bounce < kKeptBounces) vertices_[bounce] = {path.vertex, path.vertex_throughput, path.vertex_radiance};
+  void meet(const PathStep& step) {
+    const auto bounce = static_cast<size_t>(step.vertex_bounce);
+    for (; count_ <= bounce; count_++) found_[count_] = step.vertex_radiance;
+    if (bounce < kKeptBounces) vertices_[bounce] = {step.vertex, step.vertex_throughput, step.vertex_radiance};
   }
 
   // left: bounces of a path of the picture after its first.
@@ -82,8 +82,8 @@ void trace_batch(Job job, uint first, LightCacheSums& sums) {
     if (!start(job, eyes, i)) continue;
     trail.begin();
     PathTracer& tracer = job.tracer;
-    trace_path(job, job.embree.closest_hit(tracer, tracer.path.ray, kPathRay), [&](const PathState& path) {
-      if (path.vertex_bounce >= 0) trail.meet(path);
+    trace_path(job, job.embree.closest_hit(tracer, tracer.path.ray, kPathRay), [&](const PathStep& step) {
+      if (step.vertex_bounce >= 0) trail.meet(step);
     });
     if (!job.tracer.path.caught) trail.add_to(sums, job.tracer.path.radiance, left, (i / 2) % 2 == 1);
   }

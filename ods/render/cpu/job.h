@@ -44,7 +44,7 @@ inline FirstRay first_ray(const Job& job, int eye, vec2 home, vec2 uv, uint seed
   return {camera_ray(job.camera, eye, home, uv, lens), time};
 }
 
-// The render loop, from the first hit on. Calls shaded(path) after each surface. Inlining the whole kernel here, and
+// The render loop, from the first hit on. Calls shaded(step) after each surface. Inlining the whole kernel here, and
 // the camera above, makes it a quarter faster.
 template <typename Shaded>
 [[gnu::flatten]] void trace_path(Job& job, Hit hit, const Shaded& shaded) {
@@ -52,7 +52,7 @@ template <typename Shaded>
   const PathState& path = tracer.path;
   while (true) {
     tracer.shade(hit, job.settings);
-    shaded(path);
+    shaded(tracer.this_step);
     if (path.shadow_pending && job.embree.reaches_light(tracer)) tracer.add_shadow_light();
     if (!path.alive) return;
     hit = job.embree.closest_hit(tracer, path.ray, kPathRay);

@@ -235,7 +235,7 @@ bool trace_packet(Job& job, const Pass& pass, int x, int y, int packet, SampleRa
     const Counterpart& other = start.counterparts[i];
     const float theirs = job.shares && other.exists ? weight_in(pass, other.x, other.y) : 0.0f;
     if (theirs > 0.0f) job.tracer.share_path(other.direction, other.density * theirs / ours);
-    trace_path(job, start.hits[i], [](const PathState&) {});
+    trace_path(job, start.hits[i], [](const PathStep&) {});
     if (theirs > 0.0f) {
       add_shared(job.tracer.path, static_cast<size_t>(other.y) * width + static_cast<size_t>(other.x), *target.other);
     }

@@ -118,6 +118,7 @@ static Scene read_scene(GltfFile& file, const SceneOptions& given) {
   options.scene = chosen_scene(file, given);
   Scene scene;
   scene.name = std::filesystem::path(file.path).stem().string();
+  scene.origin = options.origin;
   check_extensions(file, scene);
   warn_renamed(file, scene);
   choose_variant(file, scene, options.variant);
@@ -134,14 +135,25 @@ static Scene read_scene(GltfFile& file, const SceneOptions& given) {
   return scene;
 }
 
+// Map coordinates are numbers of which single precision keeps metres. So a scene that is far away is read again, with
+// its middle subtracted in double precision.
+template <typename Open>
+static Scene read_near(const Open& open, SceneOptions options) {
+  GltfFile file = open();
+  Scene scene = read_scene(file, options);
+  const vec3 middle = options.finds_origin ? far_middle(scene) : vec3(0.0f);
+  if (middle == vec3(0.0f)) return scene;
+  options.origin += glm::dvec3(middle);
+  GltfFile again = open();
+  return read_scene(again, options);
+}
+
 Scene load_gltf(const std::string& path, const SceneOptions& options) {
-  GltfFile file = open_gltf(path, options.confine);
-  return read_scene(file, options);
+  return read_near([&] { return open_gltf(path, options.confine); }, options);
 }
 
 Scene load_gltf_bytes(std::span<const unsigned char> bytes, const std::string& path, const SceneOptions& options) {
-  GltfFile file = open_gltf_bytes(bytes, path, options.confine);
-  return read_scene(file, options);
+  return read_near([&] { return open_gltf_bytes(bytes, path, options.confine); }, options);
 }
 
 // --- losses of Blender's glTF exporter, mostly without a warning. Source: its add-on io_scene_gltf2, 3.4 to 4.x ----

@@ -39,9 +39,11 @@ struct SceneOptions {
   int scene = -1;            // index of the file's scene; -1 for its default, or the first
   std::string scene_name{};  // name of the file's scene, which overrides the index; empty for none
   std::string confine{};     // the only folder that files are read from (ods/files/confined_file.h); empty for no limit
-  std::string variant{};  // one of the file's material variants, by name; if empty, each mesh has its default material
-  std::string camera{};   // if no camera has this name, nodes with this name become view points
-  bool z_up = false;      // the file's z axis points up, instead of its y axis as in glTF
+  std::string variant{};   // one of the file's material variants, by name; if empty, each mesh has its default material
+  std::string camera{};    // if no camera has this name, nodes with this name become view points
+  bool z_up = false;       // the file's z axis points up, instead of its y axis as in glTF
+  glm::dvec3 origin{0.0};  // the place in the file, with y up, that becomes the scene's origin
+  bool finds_origin = true;  // a scene that is small and far away is moved to its origin: far_middle(), Scene::origin
 };
 
 // Throws Error(kInput), naming the file, if it is missing, damaged, or unsupported. Throws Error(kUsage) if it has no

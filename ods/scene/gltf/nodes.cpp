@@ -88,8 +88,9 @@ static Hierarchy read_hierarchy(const GltfFile& file) {
 
 // The parent transform of every root node: glTF's world has y up.
 static dmat4 root_matrix(const SceneOptions& options) {
-  if (!options.z_up) return dmat4(1.0);
-  return dmat4(dvec4(1, 0, 0, 0), dvec4(0, 0, -1, 0), dvec4(0, 1, 0, 0), dvec4(0, 0, 0, 1));
+  const dvec4 origin(-options.origin, 1.0);
+  if (!options.z_up) return dmat4(dvec4(1, 0, 0, 0), dvec4(0, 1, 0, 0), dvec4(0, 0, 1, 0), origin);
+  return dmat4(dvec4(1, 0, 0, 0), dvec4(0, 0, -1, 0), dvec4(0, 1, 0, 0), origin);
 }
 
 // The world matrix of every node.
@@ -199,15 +200,17 @@ class Placer {
   struct LoadedMesh {
     int index;
     Bounds bounds;
+    dvec3 middle{0.0};  // subtracted from its vertices
     int deformation = -1;
     bool skinned = false;  // placed by its joints
   };
   using LoadedMeshes = std::vector<LoadedMesh>;
 
+  void center(LoadedMesh& mesh);
   LoadedMeshes read(int mesh, const Deformers& bending);
   const LoadedMeshes& load_mesh(int node);
   Deformers bending_of(int node);
-  void place(const LoadedMesh& mesh, int row, const dmat4& world, const dmat4& local);
+  void place(const LoadedMesh& mesh, int row, const dmat4& world, const dmat4& at);
   std::vector<dmat4> instance_matrices(const JsonValue& node);
   void set_role(const JsonValue& node, size_t first);
 
@@ -250,11 +253,23 @@ Deformers Placer::bending_of(int index) {
   return bending;
 }
 
+// Moves the vertices of a mesh that is far from its own origin to it, so that its matrix can move them back in double
+// precision, together with its node's.
+void Placer::center(LoadedMesh& mesh) {
+  const vec3 middle = far_middle(mesh.bounds);
+  if (middle == vec3(0.0f)) return;
+  const Mesh& record = scene_.meshes[static_cast<size_t>(mesh.index)];
+  for (uint i = 0; i < record.vertex_count; i++) scene_.vertices[record.first_vertex + i].position -= middle;
+  mesh.bounds = mesh_bounds(scene_, record);
+  mesh.middle = dvec3(middle);
+}
+
 Placer::LoadedMeshes Placer::read(int mesh, const Deformers& bending) {
   LoadedMeshes loaded;
   const size_t first = scene_.animation.deformations.size();
   for (const int index : read_mesh(file_, scene_, mesh, bending)) {
     loaded.push_back({index, mesh_bounds(scene_, scene_.meshes[static_cast<size_t>(index)])});
+    if (bending.weights == -1 && bending.skin == -1) center(loaded.back());
     for (size_t i = first; i < scene_.animation.deformations.size(); i++) {
       const Deformation& deformation = scene_.animation.deformations[i];
       if (deformation.mesh != index) continue;
@@ -276,8 +291,9 @@ const Placer::LoadedMeshes& Placer::load_mesh(int index) {
 }
 
 // row: the node's index in Animation::nodes; -1 if static.
-void Placer::place(const LoadedMesh& mesh, int row, const dmat4& world, const dmat4& local) {
+void Placer::place(const LoadedMesh& mesh, int row, const dmat4& world, const dmat4& at) {
   spend(file_, 1);
+  const dmat4 local = at * trs_matrix(mesh.middle, dvec4(0.0, 0.0, 0.0, 1.0), dvec3(1.0));
   const int instance = static_cast<int>(scene_.instances.size());
   if (mesh.deformation != -1 || row != -1) {
     MovingInstance moving{instance, row, mesh.deformation, row == -1 ? world * local : local, {}, {}, row};
