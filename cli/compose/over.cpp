@@ -93,7 +93,11 @@ void warn_of_no_cover(const OverJob& job, const Footage& back, const Footage& fr
 }
 
 void lay_all(const OverJob& job, ProgressLines& lines) {
-  Footage back(job.background, identified_input(job.background, job.known));
+  ods::MediaFile media = open_input(job.background, {.known = job.known});
+  const ods::FormatHint known = media.hint;
+  std::optional<ods::PictureReader> reader;
+  if (ods::footage_kind(job.background) == FootageKind::kPicture) reader = reader_of(std::move(media));
+  Footage back(job.background, known, std::move(reader));
   Footage front(job.foreground, {});
   warn_of_no_cover(job, back, front);
   const bool to_video = ods::container_of_path(job.output).has_value();

@@ -16,6 +16,14 @@ namespace {
 
 ods::FormatHint hint_of(const ConvertOptions& given) {
   ods::FormatHint known = given.known;
+  if (given.input_fov) {
+    if (!known.projection) known.projection = ods::find_projection("fisheye")->setting;
+    if (!ods::has_fov(known.projection->kind)) {
+      throw UsageError(fmt::format("--input-fov is for {}, not for the projection {}", ods::kinds_with(ods::has_fov),
+                                   ods::projection_name(*known.projection)));
+    }
+    known.projection->fov = *given.input_fov;
+  }
   finish_lens_options(known);
   if (given.camera.file.empty()) return known;
   const ods::Sidecar file = read_camera_file(given.camera.file);
@@ -30,11 +38,13 @@ void open_header(ConvertJob& job) {
   job.kind = ods::footage_kind(given.input);
   if (job.kind == FootageKind::kFrames) job.files = ods::find_frames(given.input, given.frames);
   job.every_frame = job.files.frames;
+  ods::MediaFile media =
+      open_input(given.input, {.known = known, .scratch_folder = ods::existing_folder_of(given.output)});
   ods::OpenOptions open;
-  open.format = identified_input(given.input, known);
+  open.format = media.hint;
   switch (job.kind) {
     case FootageKind::kPicture:
-      job.picture = job.reader.emplace(given.input, open).header();
+      job.picture = job.reader.emplace(reader_of(std::move(media))).header();
       break;
     case FootageKind::kFrames:
       job.picture = ods::PictureReader(job.files.path(0), open).header();

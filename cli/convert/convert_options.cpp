@@ -57,6 +57,9 @@ void add_input_options(Options& options, ConvertOptions& given) {
       "its projection");
   add_input_layout_option(options, given.known.layout, "its layout");
   add_lens_options(options, given.known);
+  options.number(
+      "--input-fov", given.input_fov, 1.0f, 360.0f,
+      "the field of view of its fisheye or window, degrees, if its name does not say it (_FISHEYE190, _MKX200)");
   add_camera_file_option(options, given.camera.file, "its camera: a .camera.json file or a picture that carries it");
   options.custom(
       "--frames", "RANGE", "", [&](const std::string& text) { given.frames = ods::parse_frames(text); },
@@ -78,7 +81,7 @@ void add_output_options(Options& options, ConvertOptions& given) {
   options.flag("--mono", given.mono, "make a mono picture of one eye: the left one, or that of --eyes");
   add_layout_option(options, form.layout,
                     "how both eyes share the new file; by default as its name says (_TB, _LR), else the input's, "
-                    "side-by-side for --to vr180",
+                    "side-by-side for --to-projection vr180",
                     "--to-layout");
   options.flag("--sidecar", given.sidecar,
                "also write the camera to picture.camera.json, which --camera-file of other commands reads");
@@ -86,7 +89,7 @@ void add_output_options(Options& options, ConvertOptions& given) {
 }
 
 void add_camera(Options& options, CameraOptions& camera) {
-  add_projection_options(options, camera.changes.projection, "--to");
+  add_projection_options(options, camera.changes.projection, "--to-projection,--to");
   options.group("Turn");
   add_field_option(options, "--yaw", camera.yaw, CameraField::kYaw, "turn to the right, degrees");
   add_field_option(options, "--pitch", camera.pitch, CameraField::kPitch, "tilt up, degrees; mono pictures only");

@@ -20,6 +20,7 @@ struct ConvertOptions {
   std::vector<std::string> words;  // the command line
   std::string input, output;
   ods::FormatHint known;  // about the input
+  std::optional<float> input_fov;
   DepthInput depth;
   std::optional<std::vector<int>> frames;
   CameraOptions camera;  // its file is the input's camera

@@ -64,7 +64,7 @@ ods::VideoPlan plan_for(ConvertJob& job) {
 // Encoding costs quality and time: changes of metadata alone are for other commands.
 void refuse_copy(const ConvertJob& job, const ods::VideoPlan& plan) {
   const bool is_turned = job.footage && job.footage->stream().is_turned;
-  const bool has_layers = job.footage && job.footage->video().views != ods::Views::kFirst;
+  const bool has_layers = job.footage && ods::has_layers(job.footage->video().views);
   const bool is_same = !is_turned && !has_layers && (plan.layout == job.picture.layout || job.picture.eyes.size() == 1);
   if (job.given.span().is_part() || !job.turns.empty() || job.given.video.specifies_encoding() || !is_same ||
       !is_same_picture(job.picture, job.target))

@@ -26,6 +26,13 @@ std::vector<int> wished_eyes(const ods::StoredPicture& header, const ConvertOpti
   return makes_two ? std::vector<int>{ods::kLeft, ods::kRight} : same_format(header).eyes;
 }
 
+// The projection that the output's name says, where the input's would mislead players. A window stays one.
+void take_named_projection(const ods::ProjectionSetting& own, const ConvertOptions& options, StereoCamera& camera) {
+  const ods::NamedProjection* named = ods::read_name(options.output).projection;
+  const bool is_open = !options.camera.changes.projection.any() && own.kind != ods::kPerspective;
+  if (named && is_open && named->setting.kind != own.kind) camera.projection = named->setting;
+}
+
 // A mono picture is one of the existing eyes, wherever the eyes are to move.
 bool moves_one_eye(const ods::StoredPicture& header, const ods::ConvertTarget& target, bool merges_by_depth) {
   StereoCamera wished = target.camera;
@@ -41,6 +48,7 @@ ConversionPlan plan_conversion(const ods::StoredPicture& header, const ConvertOp
   const CameraOptions& by = options.camera;
   ods::ConvertTarget& target = plan.target;
   StereoCamera& stereo = target.camera = changed(base_camera(header, options), by.changes);
+  take_named_projection(header.camera.projection, options, stereo);
   turn(stereo, by.yaw.value_or(0.0f), by.pitch.value_or(0.0f), by.roll.value_or(0.0f));
   target.holes = options.holes;
   target.right = options.right;

@@ -74,7 +74,9 @@ void add_projection_options(Options& options, ProjectionChanges& changes, const 
   options.group("Projection");
   options.custom(
       option, "NAME", option == "--projection" ? "lat-long" : "",
-      [&changes, option](const std::string& text) { changes.named = projection_by_name(option, text); },
+      [&changes, name = option.substr(0, option.find(','))](const std::string& text) {
+        changes.named = projection_by_name(name, text);
+      },
       fmt::format("projection of each eye's picture: {}", fmt::join(ods::names_of(ods::named_projections()), ", ")));
   options.offer(option, ods::names_of(ods::named_projections()));
   options.custom(
@@ -195,18 +197,9 @@ void finish_projection(ProjectionSetting& projection, int width, int& height) {
   if (height == 0) height = ods::natural_height(projection, width);
 }
 
-ods::FormatHint identified_input(const std::string& path, const ods::FormatHint& known) {
-  std::string first = path;
-  const ods::FootageKind kind = ods::footage_kind(path);
-  if (kind == ods::FootageKind::kFrames) {
-    const ods::FrameNames names = *ods::frame_names(path);
-    const std::vector<int> frames = ods::frames_on_disk(names);
-    if (frames.empty()) return known;
-    first = names.path(frames.front());
-  }
-  if (kind == ods::FootageKind::kVideo && !ods::is_video(path)) return known;
-  std::vector<std::string> doubts;
-  const ods::FormatHint format = ods::identified(first, known, doubts);
-  for (const std::string& doubt : doubts) note(fmt::format("'{}' is {}", first, doubt));
-  return format;
+ods::MediaFile open_input(const std::string& path, const ods::MediaOptions& options) {
+  ods::MediaFile media = ods::open_media(path, options);
+  refuse_unlikely(media);
+  for (const std::string& each : media.notes) note(fmt::format("'{}' is {}", media.path, each));
+  return media;
 }

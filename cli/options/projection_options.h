@@ -9,7 +9,7 @@
 
 #include "cli/console/options.h"
 #include "ods/camera/projection.h"
-#include "ods/picture/metadata/stereo_format.h"
+#include "ods/identify/open_media.h"
 
 // The options that change a projection; fields that are absent do not change it.
 struct ProjectionChanges {
@@ -23,7 +23,7 @@ struct ProjectionChanges {
   bool any() const { return named || face || range || fov || polynomial || sensor || direction; }
 };
 
-// option: the name of the one that names the projection.
+// option: the name of the one that names the projection, perhaps with a short form: "--to-projection,--to".
 void add_projection_options(Options& options, ProjectionChanges& changes, const std::string& option = "--projection");
 
 // Throws UsageError for an option that the resulting projection does not have.
@@ -43,6 +43,5 @@ void add_lens_options(Options& options, ods::FormatHint& known);
 // Sets the format that these options imply: a fisheye, and two halves if the lenses look ahead and back.
 void finish_lens_options(ods::FormatHint& known);
 
-// Identifies the format of a picture, frames (the first that exists) or a video that a command reads, by
-// ods::identified(), whose doubts become notes. Returns `known` if there is no file; opening it then reports the error.
-ods::FormatHint identified_input(const std::string& path, const ods::FormatHint& known);
+// Opens an input by ods::open_media(), and prints its notes. Throws ods::Error like it and ods::refuse_unlikely().
+ods::MediaFile open_input(const std::string& path, const ods::MediaOptions& options);

@@ -77,7 +77,7 @@ void encode_to_file(const EncodeJob& job, ProgressLines& lines) {
   const auto start = std::chrono::steady_clock::now();
   encode_options(job.video, {256, 256}, job.threads);  // fails early: examining the frames takes time
   const ods::FrameFiles files = ods::find_frames(job.pattern, job.frames);
-  const ods::FormatHint seen = identified_input(job.pattern, job.known);
+  const ods::FormatHint seen = open_input(job.pattern, {.known = job.known}).hint;
   const bool needs_convert = !seen.lenses.empty() || seen.bars.any();  // encoding does not convert frames
   const ods::VideoPlan plan = ods::plan_video(files, needs_convert ? job.known : seen, job.layout);
   const ods::EncodeOptions options = encode_options(job.video, plan.size, job.threads);

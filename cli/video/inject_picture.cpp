@@ -28,12 +28,7 @@ ods::FormatHint known_format(const InjectJob& job) {
 
 // If only the shape identifies the picture, the pixels must agree.
 ods::FormatHint confirmed_by_pixels(const InjectJob& job, ods::FormatHint known) {
-  const std::optional<Wordless> seen = look_at_pixels(known, job.file);
-  if (seen && !seen->reading) {
-    throw ods::Error(
-        ods::ErrorKind::kInput,
-        fmt::format("cannot tag '{}': its metadata and name do not specify its format, and {}", job.file, seen->text));
-  }
+  const std::optional<Wordless> seen = wordless_to_tag(ods::open_media(job.file, {.known = known, .color_only = true}));
   if (seen) known.seen = ods::SeenFormat{seen->reading->layout, seen->reading->projection, seen->text};
   return known;
 }

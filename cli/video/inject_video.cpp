@@ -56,16 +56,10 @@ bool has_changes(const InjectJob& job) {
 }
 
 // If only the shape identifies the video, the frames must agree.
-void take_what_frames_show(const InjectJob& job, const ods::VideoTrack& track, SphericalMetadata& known,
-                           std::vector<std::string>& guesses) {
-  const std::optional<Wordless> seen = look_at_frames(known, track, job.file);
+void take_what_frames_show(const ods::MediaFile& media, SphericalMetadata& known, std::vector<std::string>& guesses) {
+  const std::optional<Wordless> seen = wordless_to_tag(media);
   if (!seen) return;
   guesses.push_back(seen->text);
-  if (!seen->reading) {
-    throw ods::Error(
-        ods::ErrorKind::kInput,
-        fmt::format("cannot tag '{}': its metadata and name do not specify its format, and {}", job.file, seen->text));
-  }
   known.stereo = seen->reading->layout ? ods::video_stereo(*seen->reading->layout) : ods::VideoStereo::kOneView;
   set_projection(known, seen->reading->projection);
 }
@@ -86,15 +80,17 @@ void settle_conflicts(const InjectJob& job, const SphericalMetadata& known, cons
 
 // Returns the metadata that the video gets; metadata that were not requested stay. Prints what the format cannot
 // express.
-SphericalMetadata wished_metadata(const InjectJob& job, ods::Container container, const ods::VideoTrack& track,
+SphericalMetadata wished_metadata(const InjectJob& job, const ods::MediaFile& media,
                                   std::vector<std::string>& guesses) {
+  const ods::VideoTrack& track = media.track;
+  const ods::Container container = media.video->container;
   SphericalMetadata known;
   if (job.is_mono) known.stereo = ods::VideoStereo::kOneView;
   if (job.layout) known.stereo = ods::video_stereo(*job.layout);
   if (!job.projection.empty()) parse_projection(job.projection, known);
   known.for_apple = job.for_apple;
   std::vector<std::string> seen;
-  take_what_frames_show(job, track, known, seen);
+  take_what_frames_show(media, known, seen);
   SphericalMetadata metadata = complete_metadata(known, track, job.file, guesses);
   guesses.insert(guesses.end(), seen.begin(), seen.end());
   set_angles(job, metadata);
@@ -119,6 +115,15 @@ SphericalMetadata wished_metadata(const InjectJob& job, ods::Container container
   return metadata;
 }
 
+// The settings that make it unnecessary to look at the frames.
+ods::FormatHint told_format(const InjectJob& job) {
+  ods::FormatHint known;
+  known.one_eye = job.is_mono || job.remove;
+  known.layout = job.layout;
+  if (!job.projection.empty() || job.remove) known.projection = ods::ProjectionSetting();  // any: it is not guessed
+  return known;
+}
+
 // The sound's new metadata; nothing if it stays as it is.
 std::optional<ods::Ambisonics> wished_sound(const InjectJob& job, const ods::VideoFile& video) {
   if (!job.ambisonics) return std::nullopt;
@@ -138,20 +143,20 @@ std::optional<ods::Ambisonics> wished_sound(const InjectJob& job, const ods::Vid
 }  // namespace
 
 void inject_video(const InjectJob& job, ProgressLines& lines) {
-  const ods::VideoFile video = ods::read_video_file(job.file);
+  const ods::MediaFile media = ods::open_media(job.file, {.known = told_format(job), .track = job.track});
+  const ods::VideoFile& video = *media.video;
   check_apple(job.for_apple, video.container);
-  const ods::VideoTrack& track = choose_track(video, job.track, job.file);
   const std::optional<ods::Ambisonics> sound = wished_sound(job, video);
   std::optional<SphericalMetadata> metadata;
   std::vector<std::string> guesses;
-  if (!job.remove) metadata = wished_metadata(job, video.container, track, guesses);
+  if (!job.remove) metadata = wished_metadata(job, media, guesses);
   const auto start = std::chrono::steady_clock::now();
   const auto progress = [&](double done) {
     const double kSoon = 1.0;  // seconds: shorter jobs do not show progress
     if (const double seconds = seconds_since(start); seconds > kSoon)
       lines.report(done, seconds, {"inject", 0, 0, job.output});
   };
-  const ods::TagResult result = tag_video(job.file, job.output, track.id, metadata, {{sound}, {}}, progress);
+  const ods::TagResult result = tag_video(job.file, job.output, media.track.id, metadata, {{sound}, {}}, progress);
   lines.clear();
   for (const std::string& guess : guesses) note(guess);
   if (metadata) note_written_metadata(*metadata, result, video.container);

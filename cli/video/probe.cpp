@@ -62,24 +62,24 @@ ProbeReport probe(const std::string& path) {
     for (const ods::VideoTrack& track : report.video->tracks) {
       report.views.push_back(video_views(*report.video, track, path));
       report.warnings.push_back(video_warnings(*report.video, track, path));
-      const std::optional<Wordless> seen = look_at_frames({}, track, path);
-      add_wordless(seen, report.warnings.back());
-      report.seen.push_back(seen ? std::optional(seen->identity) : std::nullopt);
+      const ods::MediaFile media = ods::open_media(path, {.track = static_cast<int>(track.id)});
+      add_wordless(judge_wordless(media), report.warnings.back());
+      const bool is_seen = media.identity && !media.identity->readings.empty();
+      report.seen.push_back(is_seen ? media.identity : std::nullopt);
     }
     return report;
   }
-  const ods::FileInfo info = ods::read_info(path);
-  ods::StereoFormat format = find_format(info, path, {});
-  const std::optional<ods::Identity> identity = ods::identify_if_open(path, format);
-  if (identity) format = find_format(info, path, with_seen({}, format, *identity));
+  const ods::MediaFile media = ods::open_media(path, {.color_only = true});
+  const ods::FileInfo& info = media.reader->info();
+  const ods::StereoFormat& format = media.format;
   const std::string xmp = info.is_float ? "" : ods::read_xmp(path);
   report.picture = PictureReport{info, format, ods::gpano_camera(xmp), ""};
   const bool has_gpano = report.picture->gpano.has_value();
   report.views.push_back(picture_views(info, format, has_gpano, path));
-  report.seen.push_back(identity);
+  report.seen.push_back(media.identity);
   report.warnings.push_back(picture_warnings(info, format, has_gpano, path));
   if (!info.color_fault.empty()) report.warnings[0].push_back(info.color_fault);
-  add_wordless(judged_picture(identity), report.warnings[0]);
+  add_wordless(judge_wordless(media), report.warnings[0]);
   if (format.is_photo) probe_right_eye(*report.picture, path, report.warnings[0]);
   return report;
 }

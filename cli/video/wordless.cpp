@@ -3,34 +3,18 @@
 #include "cli/video/wordless.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "ods/base/error.h"
+#include "ods/video/container/complete_metadata.h"
 
-using ods::Identity, ods::Reading;
+using ods::Reading;
 
 namespace {
 
-std::optional<Wordless> judged(const std::optional<Identity>& identity, bool (*can_express)(const Reading& reading)) {
-  if (!identity || identity->readings.empty()) return std::nullopt;
-  if (!identity->is_sure()) return Wordless{{}, *identity, "it may be " + doubt_text(*identity)};
-  const Reading& best = identity->best();
-  const std::string looks =
-      fmt::format("it looks like {}: {} ({:.2f})", reading_text(best), identity->reason, best.certainty);
-  if (can_express(best)) return Wordless{best, *identity, looks};
-  return Wordless{
-      {}, *identity, looks + "; if that is right, there is nothing to tag; otherwise give --layout and --projection"};
-}
-
 bool video_can_express(const Reading& reading) {
   if (!reading.layout && reading.projection.kind == ods::kPerspective) return false;  // an ordinary video
-  try {
-    if (reading.layout) ods::video_stereo(*reading.layout);
-    ods::SphericalMetadata metadata;
-    set_projection(metadata, reading.projection);
-  } catch (const ods::Error&) {
-    return false;
-  }
-  return true;
+  return (!reading.layout || arrangement_of(*reading.layout).is_halves()) && can_say_projection(reading.projection);
 }
 
 // Pixels do not show the field of view of a lens.
@@ -40,23 +24,22 @@ bool picture_can_express(const Reading& reading) {
 
 }  // namespace
 
-std::optional<Wordless> look_at_frames(const ods::SphericalMetadata& known, const ods::VideoTrack& track,
-                                       const std::string& path) {
-  if (!is_told_by_shape(known, track, path)) return std::nullopt;
-  ods::FormatHint hint;
-  if (known.stereo) {
-    hint.one_eye = *known.stereo == ods::VideoStereo::kOneView;
-    hint.layout = layout_with(arrangement_of(*known.stereo));
-  }
-  return judged(ods::identify_video(path, track.id, hint), video_can_express);
+std::optional<Wordless> judge_wordless(const ods::MediaFile& media) {
+  if (!media.hint.lenses.empty())
+    return Wordless{{}, fmt::format("it shows {}: ods convert unwraps them", fmt::join(media.notes, "; "))};
+  if (!media.identity || media.identity->readings.empty()) return std::nullopt;
+  if (!media.identity->is_sure()) return Wordless{{}, "it may be " + doubt_text(*media.identity)};
+  const Reading& best = media.identity->best();
+  const std::string looks =
+      fmt::format("it looks like {}: {} ({:.2f})", reading_text(best), media.identity->reason, best.certainty);
+  if (media.video ? video_can_express(best) : picture_can_express(best)) return Wordless{best, looks};
+  return Wordless{{}, looks + "; if that is right, there is nothing to tag; otherwise give --layout and --projection"};
 }
 
-std::optional<Wordless> judged_picture(const std::optional<Identity>& identity) {
-  return judged(identity, picture_can_express);
-}
-
-std::optional<Wordless> look_at_pixels(const ods::FormatHint& known, const std::string& path) {
-  if (ods::names_eye(path)) return std::nullopt;
-  const ods::StereoFormat format = find_format(ods::read_info(path), path, known);
-  return judged_picture(ods::identify_if_open(path, format, known));
+std::optional<Wordless> wordless_to_tag(const ods::MediaFile& media) {
+  std::optional<Wordless> found = judge_wordless(media);
+  if (!found || found->reading) return found;
+  throw ods::Error(
+      ods::ErrorKind::kInput,
+      fmt::format("cannot tag '{}': its metadata and name do not specify its format, and {}", media.path, found->text));
 }

@@ -125,7 +125,12 @@ std::vector<ViewItem> open_items(const ViewJob& job) {
     if (std::filesystem::is_directory(path)) {
       add_folder(path, job.known, items);
     } else {
-      items.push_back(ods::open_view_item(path, identified_input(path, job.known)));
+      ods::MediaFile media = open_input(path, {.known = job.known, .color_only = true});
+      const ods::FormatHint known = media.hint;
+      const bool is_video = media.video.has_value();
+      std::optional<ods::PictureReader> reader;
+      if (!is_video) reader = reader_of(std::move(media));
+      items.push_back(ods::open_view_item(path, known, std::move(reader)));
       for (const std::string& guess : items.back().picture.guesses) note(fmt::format("'{}' is {}", path, guess));
     }
   }

@@ -69,10 +69,22 @@ ViewSite::ViewSite(std::vector<ViewItem> items, const std::optional<SceneSource>
       std::make_unique<Studio>(*scene, [this](const std::string& path) { return add(ods::open_view_item(path)); });
 }
 
+// The key of ViewSite::picture_.
+static std::string opened_name(const ViewItem& item, const std::string& layout, const std::string& projection) {
+  return fmt::format("{}\n{}\n{}", item.path, layout, projection);
+}
+
 size_t ViewSite::add(const ViewItem& item) {
   const std::lock_guard<std::mutex> lock(of_items_);
   items_.push_back(item);
   files_.push_back(files_behind(item));
+  StoredPicture& picture = items_.back().picture;
+  if (!picture.memory) return items_.size() - 1;
+  if (!picture_) picture_ = std::make_shared<StoredPicture>(picture), opened_ = opened_name(item, "", "");
+  for (ods::StoredEye& eye : picture.eyes) {
+    for (ods::LayerPixels& layer : eye.layers) layer.first = nullptr;
+  }
+  picture.memory = nullptr;
   return items_.size() - 1;
 }
 
@@ -86,7 +98,7 @@ std::optional<ViewItem> ViewSite::item_at(size_t number) const {
 
 std::shared_ptr<const StoredPicture> ViewSite::open(const ViewItem& item, const WebRequest& request) {
   const std::string layout = value_of(request, "layout"), projection = value_of(request, "projection");
-  const std::string name = fmt::format("{}\n{}\n{}", item.path, layout, projection);
+  const std::string name = opened_name(item, layout, projection);
   if (opened_ == name) return picture_;
   ods::OpenOptions options;
   options.color_only = true;

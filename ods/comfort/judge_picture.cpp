@@ -15,7 +15,7 @@
 #include "ods/convert/unwrap.h"
 #include "ods/depth/floor.h"
 #include "ods/files/scratch.h"
-#include "ods/identify/identify.h"
+#include "ods/identify/open_media.h"
 #include "ods/image/image_file.h"
 #include "ods/image/tone.h"
 #include "ods/picture/cryptomatte.h"
@@ -68,17 +68,16 @@ struct Opened {
 };
 
 Opened open_to_judge(const std::string& path, const JudgePictureOptions& options, std::vector<std::string>& notes) {
-  OpenOptions open;
-  std::vector<std::string> doubts;
-  open.format = identified(path, options.format, doubts);
-  for (const std::string& doubt : doubts) notes.push_back(fmt::format("'{}' is {}", path, doubt));
-  PictureReader reader(path, open);
+  MediaFile media = open_media(path, {.known = options.format, .scratch_folder = options.scratch_folder});
+  refuse_unlikely(media);
+  for (const std::string& doubt : media.notes) notes.push_back(fmt::format("'{}' is {}", path, doubt));
+  PictureReader reader = reader_of(std::move(media));
   const StoredPicture& header = reader.header();
   const std::optional<size_t> layer = depth_layer(header);
   Opened opened;
   opened.path = path;
   if (layer) {
-    const FileInfo info = read_info(names_eye(path) ? path_for_eye(path, kLeft) : path);
+    const FileInfo& info = reader.info();
     const bool has_two = header.eyes.size() == 2;
     opened.matte = find_cryptomatte(info, path);
     opened.lacks_map = has_two && lacks_merge_map(info, header.camera);

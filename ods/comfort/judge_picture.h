@@ -32,8 +32,8 @@ struct JudgedPicture {
 };
 
 // Pictures whose layout and projection their metadata leave open are identified by their pixels. Throws Error(kInput)
-// as open_picture() and identified() do, and if the picture does not show distances; Error(kOutput), Error(kMemory) as
-// Scratch does.
+// as open_media() and refuse_unlikely() do, and if the picture does not show distances; Error(kOutput), Error(kMemory)
+// as Scratch does.
 JudgedPicture judge_picture(const std::string& path, const JudgePictureOptions& options = {});
 
 // Converts display-encoded grey, 1 channel, to linear light of 3 channels.

@@ -16,7 +16,7 @@
 #include "ods/comfort/motion.h"
 #include "ods/convert/unwrap.h"
 #include "ods/disparity/match.h"
-#include "ods/identify/identify.h"
+#include "ods/identify/open_media.h"
 #include "ods/picture/load_eyes.h"
 #include "ods/video/container/video_file.h"
 #include "ods/video/video_input.h"
@@ -270,10 +270,11 @@ VideoComfort VideoJudge::run(const Progress& progress) {
 
 VideoComfort judge_video(const std::string& path, const VideoComfortOptions& options, const Progress& progress) {
   VideoComfortOptions found = options;
-  std::vector<std::string> doubts;
-  if (is_video(path)) found.format = identified(path, options.format, doubts);
+  const MediaFile media = open_media(path, {.known = options.format});
+  refuse_unlikely(media);
+  found.format = media.hint;
   VideoComfort video = VideoJudge(path, found).run(progress);
-  for (const std::string& doubt : doubts) video.notes.push_back(fmt::format("'{}' is {}", path, doubt));
+  for (const std::string& doubt : media.notes) video.notes.push_back(fmt::format("'{}' is {}", path, doubt));
   return video;
 }
 

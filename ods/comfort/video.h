@@ -124,7 +124,7 @@ struct VideoComfortOptions {
 };
 
 // Judges both eyes of a video's frames. Videos whose layout and projection their metadata leave open are identified by
-// their pixels. Throws Error(kInput) as identified(), open_video() and VideoDecoder do, and if the video has one eye or
+// their pixels. Throws Error(kInput) as open_media(), open_video() and VideoDecoder do, and if the video has one eye or
 // nothing matches; Error(kCancelled).
 VideoComfort judge_video(const std::string& path, const VideoComfortOptions& options = {},
                          const Progress& progress = {});

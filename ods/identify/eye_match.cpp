@@ -14,6 +14,8 @@ namespace {
 // Low resolution averages noise out and makes the match less sensitive to parallax.
 constexpr int kCoarseWidth = 192;
 
+// Without parallax: the share of places that a repeated pattern may have in common, and that two eyes have.
+constexpr double kRepeats = 0.8, kSame = 0.9;
 constexpr double kMatchPrecision = 0.25;  // precision of a match, in pixels of its view
 
 double sign_of(const Match& match, float pixel) {
@@ -26,7 +28,8 @@ double sign_of(const Match& match, float pixel) {
 double EyeMatch::mark() const {
   const double known = places / (places + 8.0);
   const double alike = std::clamp((share - 0.35) / 0.25, -1.0, 1.0);
-  return known * (alike > 0.0 ? alike * std::min(1.0, 0.2 + 2.0 * one_sign) : alike);
+  const double is_parallax = is_still ? std::clamp((share - kRepeats) / (kSame - kRepeats), 0.0, 1.0) : one_sign;
+  return known * (alike > 0.0 ? alike * std::min(1.0, 0.2 + 2.0 * is_parallax) : alike);
 }
 
 EyeMatch match_eyes(const std::vector<Image>& eyes) {
@@ -44,7 +47,7 @@ EyeMatch match_eyes(const std::vector<Image>& eyes) {
     moved += static_cast<double>(std::abs(each.around) / matches.pixel);
   }
   const double count = static_cast<double>(matches.found.size());
-  if (count > 0.0) match.one_sign = moved < 0.3 * count ? 1.0 : std::abs(signs) / count;
+  if (count > 0.0) match.one_sign = std::abs(signs) / count, match.is_still = moved < 0.3 * count;
   return match;
 }
 

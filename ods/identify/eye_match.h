@@ -10,11 +10,13 @@
 namespace ods {
 
 // Two eyes at one place show nearly the same; two parts of one picture do not. Parallax has one sign; matches between
-// two similar sides of a scene have both.
+// two similar sides of a scene have both, or, if the scene repeats itself exactly, none. Without parallax, two eyes
+// match everywhere.
 struct EyeMatch {
   int places = 0;         // places with detail in both images
   double share = 0.0;     // fraction of the places that is found in the other image
-  double one_sign = 0.0;  // fraction of the parallax that has one sign, 0..1; 1 if nothing moves
+  double one_sign = 0.0;  // fraction of the parallax that has one sign, 0..1
+  bool is_still = false;  // nothing moves
   double mark() const;    // -1 for two parts of one picture, 1 for two eyes, 0 if undecided
 };
 

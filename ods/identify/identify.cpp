@@ -143,7 +143,13 @@ constexpr double kOther = -3.0;                           // an unsupported proj
 constexpr double kElse = 20.0;                            // known formats that are none of these
 constexpr double kSqueezed = 0.84, kSqueezedLess = 0.94;  // aspect ratios of an eye beside another in 16:9
 
+// Video sites store an equi-angular cube in 16:9, so its faces are not square.
+bool is_wide_eac(const ProjectionSetting& setting, Extent eye) {
+  return setting.kind == kEac && std::abs(9 * eye.width - 16 * eye.height) <= 18;
+}
+
 bool fits_shape(const ProjectionSetting& setting, Extent eye) {
+  if (is_wide_eac(setting, eye)) return true;
   const int natural = natural_height(setting, eye.width);
   return std::abs(eye.height - natural) <= std::max(1.0, 0.012 * natural);
 }

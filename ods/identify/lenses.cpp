@@ -8,15 +8,11 @@
 #include <array>
 #include <cmath>
 
-#include "ods/base/error.h"
 #include "ods/camera/odd_halves.h"
 #include "ods/disparity/rim.h"
-#include "ods/identify/identify.h"
 #include "ods/identify/pairs.h"
 #include "ods/identify/thumbnail.h"
 #include "ods/picture/load_eyes.h"
-#include "ods/video/container/complete_metadata.h"
-#include "ods/video/video_input.h"
 
 namespace ods {
 
@@ -214,23 +210,6 @@ static Image cut(const Image& image, EyeCorner corner, Extent size) {
   return part;
 }
 
-// A file, or a frame of a video, as one picture. Returns nullopt if it cannot be decoded.
-static std::optional<StoredPicture> look_at(const std::string& path) {
-  if (!is_video(path)) return open_whole(path);
-  try {
-    const VideoFile file = read_video_file(path);
-    VideoDecoder decoder(path, choose_track(file, {}, path).id);
-    VideoInput video;
-    video.prototype.size = decoder.stream().size;
-    video.prototype.eyes.resize(1);
-    const std::optional<DecodedFrame> frame = decoder.next();
-    return frame ? std::optional(picture_of(video, decoder.stream(), *frame)) : std::nullopt;
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::kInput) throw;
-    return std::nullopt;
-  }
-}
-
 // Averages whole blocks of pixels, so that positions do not move.
 static Image reduced(const Image& image, int by) {
   Image small(image.width / by, image.height / by, 1);
@@ -262,38 +241,65 @@ static std::string lens_text(const FisheyeLens& lens) {
   return fmt::format("{:.1f},{:.1f},{:.1f}", lens.center.x, lens.center.y, lens.radius);
 }
 
-// Returns whether the metadata leaves the format open. V1 metadata of a video that was not stitched only excludes
-// formats.
-static bool is_untold(const std::string& path, const FormatHint& known) {
-  if (!is_video(path)) return find_format(read_info(path), path, known).is_open;
-  const VideoFile file = read_video_file(path);
-  const VideoTrack& track = choose_track(file, {}, path);
-  const std::optional<SphericalMetadata> said = declared_metadata(track);
-  return said ? said->projection == VideoProjection::kOther : is_told_by_shape({}, track, path);
+static std::optional<ProjectionSetting> told_projection(const FormatHint& known, const std::string& path) {
+  if (known.projection) return known.projection;
+  const NamedProjection* named = read_name(path).projection;
+  return named ? std::optional(named->setting) : std::nullopt;
 }
 
-FormatHint with_lenses(const std::string& path, const FormatHint& known, std::vector<std::string>& notes) {
-  const std::optional<ProjectionSetting> told = known.projection ? known.projection
-                                                : known.seen     ? std::optional(known.seen->projection)
-                                                : read_name(path).projection != nullptr
-                                                    ? std::optional(read_name(path).projection->setting)
-                                                    : std::nullopt;
-  std::optional<Layout> layout = known.layout ? known.layout : known.seen ? known.seen->layout : read_name(path).layout;
+static std::optional<Layout> told_layout(const FormatHint& known, const std::string& path) {
+  return known.layout ? known.layout : read_name(path).layout;
+}
+
+// The square around an image circle; black outside the image.
+static Image around_circle(const Image& image, const FisheyeLens& lens, int side) {
+  Image square(side, side, 1);
+  const int left = static_cast<int>(std::lround(lens.center.x)) - side / 2,
+            top = static_cast<int>(std::lround(lens.center.y)) - side / 2;
+  for (int y = std::max(0, -top); y < std::min(side, image.height - top); y++) {
+    for (int x = std::max(0, -left); x < std::min(side, image.width - left); x++)
+      *square.at(x, y) = *image.at(left + x, top + y);
+  }
+  return square;
+}
+
+// Returns whether the parallax shows that the first half is the right eye's, as Canon's dual fisheye lens stores it.
+static bool is_right_first(const Halves& halves, const std::vector<FisheyeLens>& lenses) {
+  constexpr float kSure = 0.5f;
+  const int side = 2 * static_cast<int>(lenses[0].radius);
+  ProjectionSetting projection = find_projection("fisheye")->setting;
+  projection.fov = lenses[0].fov;
+  const PointPairs pairs =
+      find_pairs(around_circle(halves.first, lenses[0], side), around_circle(halves.second, lenses[1], side));
+  return static_cast<float>(parallax_in(pairs, projection).order) < -kSure;
+}
+
+bool wants_lenses(const FormatHint& known, const std::string& path, bool is_open) {
+  const std::optional<ProjectionSetting> told = told_projection(known, path);
+  const std::optional<Layout> layout = told_layout(known, path);
   const bool is_done = !known.lenses.empty() || known.camera || known.one_eye || names_eye(path);
-  if (is_done || (told && !is_fisheye(told->kind)) || (layout && !arrangement_of(*layout).is_halves())) return known;
-  if (!told && !known.front_and_back && !is_untold(path, known)) return known;
-  const std::optional<StoredPicture> whole = look_at(path);
-  if (!whole || whole->size.width < 64 || whole->size.height < 64) return known;
-  const bool is_wide = whole->size.width > whole->size.height;
+  if (is_done || (layout && !arrangement_of(*layout).is_halves())) return false;
+  return told ? is_fisheye(told->kind) : known.front_and_back || is_open;
+}
+
+FormatHint with_lenses(const StoredPicture& whole, const std::string& path, const FormatHint& known,
+                       std::vector<std::string>& notes) {
+  const std::optional<ProjectionSetting> told = told_projection(known, path);
+  std::optional<Layout> layout = told_layout(known, path);
+  if (whole.size.width < 64 || whole.size.height < 64) return known;
+  const bool is_wide = whole.size.width > whole.size.height;
   if (!layout) layout = is_wide ? Layout::kSideBySide : Layout::kTopBottom;
-  const std::optional<Extent> eye = unpacked_size(*layout, without_middle(*layout, whole->size));
+  const std::optional<Extent> eye = unpacked_size(*layout, without_middle(*layout, whole.size));
   if (!eye) return known;
   constexpr int kLongest = 1100;  // maximum side of a half, pixels
   const int by = 1 + std::max(eye->width, eye->height) / kLongest;
-  const Image grey = grey_eyes(*whole)[0];
+  const Image grey = grey_eyes(whole)[0];
   const auto half = [&](int index) { return shown(reduced(cut(grey, eye_corner(*layout, *eye, index), *eye), by)); };
-  std::optional<SeenLenses> seen = find_lenses(half(0), half(1), told ? told->fov : 180.0f);
+  const Image first = half(0), second = half(1);
+  std::optional<SeenLenses> seen = find_lenses(first, second, told ? told->fov : 180.0f);
   if (!seen) return known;
+  const bool right_first =
+      !seen->front_and_back && !told_layout(known, path) && is_right_first({first, second}, seen->lenses);
   if (known.front_and_back && !seen->front_and_back) return known;  // circles that touch the halves' edges
   for (FisheyeLens& lens : seen->lenses) lens.center *= static_cast<float>(by), lens.radius *= static_cast<float>(by);
   if (!are_apart(seen->lenses, *layout, *eye)) return known;
@@ -310,8 +316,13 @@ FormatHint with_lenses(const std::string& path, const FormatHint& known, std::ve
   if (is_inscribed(seen->lenses[0], *eye) && is_inscribed(seen->lenses[1], *eye)) return known;
   all.lenses = seen->lenses, all.projection = told ? *told : find_projection("fisheye")->setting;
   for (FisheyeLens& lens : all.lenses) lens.kind = all.projection->kind;
-  notes.push_back(fmt::format("a pair of fisheyes whose circles do not touch the edges: `circle` {},{}",
-                              lens_text(seen->lenses[0]), lens_text(seen->lenses[1])));
+  if (right_first) {
+    std::swap(all.lenses[0], all.lenses[1]);
+    all.layout = layout_with({arrangement_of(*layout).how, true});
+  }
+  notes.push_back(fmt::format("a pair of fisheyes whose circles do not touch the edges{}: `circle` {},{}",
+                              right_first ? ", the right eye first" : "", lens_text(all.lenses[0]),
+                              lens_text(all.lenses[1])));
   return all;
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ods/image/image.h"
-#include "ods/picture/metadata/stereo_format.h"
+#include "ods/picture/stored_picture.h"
 
 namespace ods {
 
@@ -23,9 +23,13 @@ struct SeenLenses {
 // field of view, roll, and the direction of the second one. Returns nullopt if the halves have no rims.
 std::optional<SeenLenses> find_lenses(const Image& first, const Image& second, float fov);
 
-// Returns `known` with the lenses of the file. They are searched if `known` is a fisheye or open, and returned if their
-// circles are not inscribed in the eyes' pictures or look ahead and back. Appends the result to `notes`. Throws
-// Error(kInput) like open_picture().
-FormatHint with_lenses(const std::string& path, const FormatHint& known, std::vector<std::string>& notes);
+// Returns whether `known` and the name allow lenses. is_open: whether the metadata leave the format open.
+bool wants_lenses(const FormatHint& known, const std::string& path, bool is_open);
+
+// Returns `known` with the lenses of a file that was opened as one eye, regardless of its layout, if their circles are
+// not inscribed in the eyes' pictures or look ahead and back. Appends the result to `notes`. Precondition:
+// wants_lenses().
+FormatHint with_lenses(const StoredPicture& whole, const std::string& path, const FormatHint& known,
+                       std::vector<std::string>& notes);
 
 }  // namespace ods

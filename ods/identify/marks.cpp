@@ -220,11 +220,11 @@ double row_difference(const Image& eye, const Image& other, int y) {
 // The number of rows at the bottom that are covered by a patch over the tripod: it is at the same place in both eyes,
 // or ends at an edge from side to side. It has detail, whereas a nadir would be one point.
 int covered_rows(const Image& eye, const Image* other) {
-  constexpr double kSame = 0.02, kBreak = -0.2, kPoint = 0.04;
+  constexpr double kEqual = 0.02, kBreak = -0.2, kPoint = 0.04;
   const int maximum = eye.height / 4, minimum = std::max(2, eye.height / 50);
   if (far_apart(eye, eye.height - 1) < kPoint) return 0;
   int same = 0;
-  while (other != nullptr && same < maximum && row_difference(eye, *other, eye.height - 1 - same) < kSame) same++;
+  while (other != nullptr && same < maximum && row_difference(eye, *other, eye.height - 1 - same) < kEqual) same++;
   if (same >= minimum) return same;
   for (int rows = minimum; rows < maximum; rows++) {
     if (continues_upwards(eye, eye.height - rows) < kBreak) return rows;

@@ -3,7 +3,6 @@
 #include "ods/image/color_tags.h"
 
 #include <fmt/format.h>
-#include <libdeflate.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 
 #include "ods/base/bytes.h"
 #include "ods/base/error.h"
+#include "ods/image/format/inflate.h"
 #include "ods/image/format/jpeg_segments.h"
 #include "ods/image/format/png_chunks.h"
 #include "ods/image/format/tiff_directory.h"
@@ -76,26 +76,11 @@ static ColorSpace of_cicp(const std::string& data) {
   return of_curve(name, kCurves.at(transfer), kPrimaries.at(primaries));
 }
 
-// The unpacked size is known only after unpacking.
-static std::string unpacked(std::string_view packed) {
-  libdeflate_decompressor* const state = libdeflate_alloc_decompressor();
-  std::string bytes;
-  size_t size = 0;
-  libdeflate_result result = LIBDEFLATE_INSUFFICIENT_SPACE;
-  for (size_t room = 1 << 14; room <= kLongestProfile && result == LIBDEFLATE_INSUFFICIENT_SPACE; room *= 4) {
-    bytes.resize(room);
-    result = libdeflate_zlib_decompress(state, packed.data(), packed.size(), bytes.data(), room, &size);
-  }
-  libdeflate_free_decompressor(state);
-  bytes.resize(result == LIBDEFLATE_SUCCESS ? size : 0);
-  return bytes;
-}
-
 // A name with a terminating zero, the compression method (0), the profile.
 static ColorSpace of_iccp(const std::string& data) {
   const size_t end = data.find('\0');
   if (end == std::string::npos || end + 2 > data.size()) return ignored("ICC profile", "is damaged");
-  return read_icc_profile(unpacked(std::string_view(data).substr(end + 2)));
+  return read_icc_profile(inflated(std::string_view(data).substr(end + 2), kLongestProfile).value_or(""));
 }
 
 static ColorSpace of_gama_and_chrm(const std::string& gama, const std::string& chrm) {

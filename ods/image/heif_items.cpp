@@ -94,10 +94,10 @@ static void read_color(const Box& property, HeifItems& items) {
 }
 
 // The focal length is relative to the picture's width.
-static void read_camera(const Box& property, HeifItems& items) {
-  const uint64_t flags = get_number(property.body, 1, 3);
+static void read_camera(std::string_view body, HeifItems& items) {
+  const uint64_t flags = get_number(body, 1, 3);
   const double unit = std::exp2(static_cast<double>(flags >> 8 & 0x1f));
-  const auto focal = static_cast<int32_t>(static_cast<uint32_t>(get_number(property.body, 4, 4)));
+  const auto focal = static_cast<int32_t>(static_cast<uint32_t>(get_number(body, 4, 4)));
   const double widths = focal / unit;
   if (widths > 0.05 && widths < 100.0) {
     items.fov = static_cast<float>(2.0 * std::atan(0.5 / widths) * 180.0 / std::numbers::pi);
@@ -106,7 +106,11 @@ static void read_camera(const Box& property, HeifItems& items) {
 
 static void read_property(const Box& property, HeifItems& items) {
   if (property.type == box_type("colr")) read_color(property, items);
-  if (property.type == box_type("cmin")) read_camera(property, items);
+  // visionOS 1 wrote the contents of `cmin` with a name of its own.
+  constexpr std::string_view kCameraId = "\x22\xcc\x04\xc7\xd6\xd9\x4e\x07\x9d\x90\x4e\xb6\xec\xba\xf3\xa3";
+  if (property.type == box_type("cmin")) read_camera(property.body, items);
+  if (property.type == box_type("uuid") && property.body.starts_with(kCameraId))
+    read_camera(std::string_view(property.body).substr(kCameraId.size()), items);
 }
 
 static void read_properties(Box& meta, HeifItems& items) {

@@ -7,8 +7,8 @@
 
 namespace ods {
 
-// 1: as stored; 2 mirrored, 3 upside down, 4 both, 5 to 8 the same with rows and columns exchanged. For JPEG and TIFF;
-// always 1 for other formats and damaged files.
+// 1: as stored; 2 mirrored, 3 upside down, 4 both, 5 to 8 the same with rows and columns exchanged. From the Exif of
+// JPEG, PNG and WebP and from the directory of TIFF; always 1 for other formats and damaged files.
 int orientation_of(const FileInput& file);
 
 }  // namespace ods

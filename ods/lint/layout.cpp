@@ -76,11 +76,12 @@ void add_misread(const Subject& subject, const Cut& cut, double certainty, const
   const std::string truth = cut_name(subject, cut.layout);
   const auto [fault, cure] = [&]() -> std::pair<Fault, std::string> {
     switch (subject.format.layout.source) {
-      case LayoutSource::kName:
+      case FormatSource::kName:
         return {Fault::kMetadata, fmt::format("rename the file: it is {}", truth)};
-      case LayoutSource::kSidecar:
+      case FormatSource::kSidecar:
         return {Fault::kMetadata, fmt::format("correct the sidecar: it is {}", truth)};
-      case LayoutSource::kFile:
+      case FormatSource::kOwnMetadata:
+      case FormatSource::kOtherMetadata:
         return {Fault::kMetadata, fmt::format("correct its metadata: it is {}", truth)};
       default:
         return {Fault::kLayoutMisread, fmt::format("read it as {} (`layout` {})", truth, truth)};

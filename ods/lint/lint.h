@@ -33,7 +33,7 @@ struct NotJudged {
 };
 
 struct LintOptions {
-  std::optional<Layout> layout;                 // guess_layout() if not set
+  std::optional<Layout> layout;                 // find_format() if not set
   std::optional<ProjectionSetting> projection;  // if not set, from the file, its sidecar or its name, else lat-long
   std::vector<FisheyeLens> lenses{};            // as in FormatHint; the eyes are then judged as they are when unwrapped
 };

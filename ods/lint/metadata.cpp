@@ -31,10 +31,8 @@ static void check_gpano(const Subject& subject, LintReport& report) {
 }
 
 static void check_name(const Subject& subject, LintReport& report) {
-  FileInfo no_metadata = subject.info;
-  no_metadata.text.clear(), no_metadata.channels.clear();
-  const LayoutGuess named = guess_layout(no_metadata, subject.path);
-  if (named.source != LayoutSource::kName || names_eye(subject.path) || named.layout == report.layout) return;
+  const NameWords named = read_name(subject.path);
+  if (named.layout_token.empty() || names_eye(subject.path) || named.layout == report.layout) return;
   const Extent size = report.file;
   if (named.layout) {
     const std::optional<Extent> other = unpacked_size(*named.layout, size);
@@ -43,7 +41,9 @@ static void check_name(const Subject& subject, LintReport& report) {
       return;  // the same halves under a more general name
     }
   }
-  add(report, 0.9, fmt::format("{}, but it is {} as {}", named.reason, read_as(report), subject.format.layout.reason),
+  add(report, 0.9,
+      fmt::format("its name ends in {}, but it is {} as {}", named.layout_token, read_as(report),
+                  subject.format.layout.reason),
       "rename it: players go by the name");
 }
 

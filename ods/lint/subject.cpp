@@ -12,7 +12,7 @@
 #include "ods/base/error.h"
 #include "ods/base/text.h"
 #include "ods/convert/unwrap.h"
-#include "ods/identify/identify.h"
+#include "ods/identify/open_media.h"
 #include "ods/lint/checks.h"
 #include "ods/picture/load_eyes.h"
 
@@ -48,62 +48,52 @@ std::vector<Image> small_colors(const StoredPicture& picture, Layout layout) {
   return small;
 }
 
-// Lint reads the eyes in the order that players assume, because it checks the order itself.
-static Identity left_first(Identity identity) {
-  std::vector<Reading>& readings = identity.readings;
-  for (size_t i = 0; i < readings.size(); i++) {
-    if (!readings[i].layout) continue;
-    EyeArrangement eyes = arrangement_of(*readings[i].layout);
-    eyes.right_first = false;
-    readings[i].layout = layout_with(eyes);
-    for (size_t k = 0; k < i; k++) {
-      if (readings[k].layout != readings[i].layout || !(readings[k].projection == readings[i].projection)) continue;
-      readings[k].certainty += std::exchange(readings[i].certainty, 0.0);
-    }
-  }
-  std::stable_sort(readings.begin(), readings.end(),
-                   [](const Reading& a, const Reading& b) { return a.certainty > b.certainty; });
-  return identity;
+// Players go by the aspect ratio, and lint looks for its contradictions. So the pixels decide only if they show
+// something that no picture of this aspect ratio has: circles, faces of a cube, halves of the sphere, or surely a
+// window.
+static bool shows_itself(const Identity& identity, const StereoFormat& without_pixels) {
+  if (identity.readings.empty()) return false;
+  const bool has_shape = without_pixels.layout.source == FormatSource::kShape;
+  const ProjectionSetting& seen = identity.best().projection;
+  if (seen.kind == kPerspective) return has_shape ? identity.is_sure() : identity.is_likely();
+  return has_image_circle(seen.kind) || is_cube(seen.kind) || (!has_shape && is_vr180(seen));
 }
 
-// Players go by the aspect ratio, and lint looks for its contradictions. So the pixels decide only if they show
-// something that no picture of this aspect ratio has: circles, faces of a cube, or halves of the sphere.
-static void look_at_pixels(Subject& subject, const StoredPicture& whole, const FormatHint& known) {
-  if (!subject.format.is_open) return;
-  const Identity identity = left_first(identify(whole, with_words(known, subject.format)));
-  const bool has_shape = subject.format.layout.source == LayoutSource::kShape;
-  if (identity.readings.empty()) return;
-  const ProjectionSetting& seen = identity.best().projection;
-  if (!has_image_circle(seen.kind) && !is_cube(seen.kind) && (has_shape || !is_vr180(seen))) return;
-  subject.format = find_format(subject.info, subject.path, with_seen(known, subject.format, identity));
+// The format by which the file is judged.
+static StereoFormat judged_format(const MediaFile& media, const FormatHint& known) {
+  StereoFormat format = find_format(media.reader->info(), media.path, known);
+  if (!media.identity) return format;
+  if (shows_itself(*media.identity, format)) return media.format;
+  if (media.identity->is_anaglyph) {
+    format.layout = {{}, FormatSource::kPixels, "it is an anaglyph, whose eyes cannot be taken apart"};
+    format.camera.projection = find_projection("perspective")->setting;
+    format.camera.projection.aspect =
+        static_cast<float>(media.reader->info().width) / static_cast<float>(media.reader->info().height);
+  }
+  return format;
 }
 
 // Packed eyes are cut here, so that the file can be cut in other ways too.
 static void load(Subject& subject, const LintOptions& options) {
   const std::string& path = subject.path;
-  subject.info = read_info(names_eye(path) ? path_for_eye(path, kLeft) : path);
-  OpenOptions open;
-  open.format.layout = options.layout;
-  open.format.projection = options.projection;
-  open.format.lenses = options.lenses;
-  open.color_only = true;
-  const FormatHint known = open.format;
-  subject.format = find_format(subject.info, path, known);
-  if (!options.lenses.empty()) {
-    const StoredPicture picture = unwrapped(open_picture(path, open));
+  MediaOptions open;
+  open.known.layout = options.layout;
+  open.known.projection = options.projection;
+  open.known.lenses = options.lenses;
+  open.color_only = open.left_first = true;
+  MediaFile media = open_media(path, open);
+  subject.info = media.reader->info();
+  subject.format = judged_format(media, open.known);
+  const bool has_lenses = !media.hint.lenses.empty();
+  if (has_lenses || names_eye(path) || subject.format.is_photo || subject.layout() == Layout::kMultiview) {
+    StoredPicture picture = reader_of(std::move(media)).read("");
+    if (has_lenses) picture = unwrapped(picture);
     subject.format.camera.projection = picture.camera.projection;
     subject.eyes = grey_eyes(picture);
     subject.small = small_colors(picture, Layout::kSeparate);
     return;
   }
-  if (names_eye(path) || subject.format.is_photo || subject.layout() == Layout::kMultiview) {
-    const StoredPicture picture = open_picture(path, open);
-    subject.eyes = grey_eyes(picture);
-    subject.small = small_colors(picture, Layout::kSeparate);
-    return;
-  }
-  const StoredPicture picture = open_whole(path);
-  look_at_pixels(subject, picture, known);
+  const StoredPicture picture = media.reader->whole();
   const Extent size{subject.info.width, subject.info.height};
   if (!unpacked_size(subject.layout(), size)) {
     throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}x{} pixels are not two eyes, {}; specify `layout`",
@@ -163,7 +153,7 @@ static std::string output_name(const std::string& path) {
 
 std::string convert_command(const Subject& subject, const std::string& options) {
   std::string from;
-  if (subject.format.layout.source == LayoutSource::kCaller) {
+  if (subject.format.layout.source == FormatSource::kOptions) {
     from += fmt::format(" `layout` {}", layout_name(subject.layout()));
   }
   if (subject.format.camera.projection != ProjectionSetting()) {

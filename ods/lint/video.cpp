@@ -10,6 +10,7 @@
 
 #include "ods/base/error.h"
 #include "ods/convert/unwrap.h"
+#include "ods/identify/open_media.h"
 #include "ods/lint/checks.h"
 #include "ods/lint/frame_trace.h"
 #include "ods/lint/players.h"
@@ -42,9 +43,9 @@ LayoutGuess layout_of(const VideoInput& video, const LintOptions& options) {
   LayoutGuess guess;
   if (video.prototype.eyes.size() == 2) guess.layout = video.prototype.layout;
   guess.reason = video.prototype.guesses.empty() ? video.prototype.layout_reason : video.prototype.guesses[0];
-  guess.source = options.layout                    ? LayoutSource::kCaller
-                 : video.prototype.guesses.empty() ? LayoutSource::kFile
-                                                   : LayoutSource::kShape;
+  guess.source = options.layout                    ? FormatSource::kOptions
+                 : video.prototype.guesses.empty() ? FormatSource::kOwnMetadata
+                                                   : FormatSource::kShape;
   return guess;
 }
 
@@ -93,7 +94,7 @@ class VideoJudge {
  public:
   VideoJudge(const std::string& path, const VideoLintOptions& options)
       : options_(options),
-        video_(open_video(path, hint(options.picture))),
+        video_(open_video(path, open_media(path, {.known = hint(options.picture)}).hint)),
         decoder_(path, video_.track, video_.views),
         trace_(decoder_.stream().size, video_.prototype.layout) {
     const int count = decoder_.stream().count;

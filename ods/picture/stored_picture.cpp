@@ -13,13 +13,12 @@
 #include "ods/base/error.h"
 #include "ods/base/text.h"
 #include "ods/camera/odd_halves.h"
-#include "ods/files/memory_file.h"
 #include "ods/files/read_file.h"
 #include "ods/files/scratch.h"
 #include "ods/picture/channel_layers.h"
 #include "ods/picture/checkerboard.h"
 #include "ods/picture/cryptomatte.h"
-#include "ods/picture/metadata/vr_photo.h"
+#include "ods/picture/picture_files.h"
 #include "ods/picture/stored_lenses.h"
 
 namespace ods {
@@ -27,8 +26,6 @@ namespace ods {
 // --- the files -------------------------------------------------------------------------------------------------------
 
 namespace {
-
-using Readers = std::vector<std::unique_ptr<RowReader>>;  // readers of the files of a picture
 
 // A layer of one view of a file, and the destination of its pixels.
 struct Plane : ChannelLayer {
@@ -278,40 +275,6 @@ static StoredEye make_eye(int which, const FileShare& share, const EyeView& view
   return eye;
 }
 
-static void check_pair(Readers& readers, const std::string& path) {
-  const FileInfo &one = readers[0]->info(), &other = readers[1]->info();
-  if (one.width != other.width || one.height != other.height) {
-    throw cannot_read(
-        path, fmt::format("its eyes have {}x{} and {}x{} pixels", one.width, one.height, other.width, other.height));
-  }
-  if (one.is_float != other.is_float) throw cannot_read(path, "one eye is scene-linear, the other display-encoded");
-  const auto is_ours = [&](const RowReader& reader) { return is_our_own(reader.color_space(), one.is_float); };
-  if (!is_ours(*readers[0]) || !is_ours(*readers[1])) {  // both become 16 bits if one has been converted to them
-    for (const auto& reader : readers) reader->widen();
-  }
-}
-
-static Readers open_files(const std::string& path) {
-  Readers readers;
-  if (!names_eye(path)) {
-    readers.push_back(open_rows(path));
-    return readers;
-  }
-  for (int eye : {kLeft, kRight}) readers.push_back(open_rows(path_for_eye(path, eye)));
-  check_pair(readers, path);
-  return readers;
-}
-
-static void open_right_eye(Readers& readers, const MemoryFile& file, const std::string& path) {
-  try {
-    readers.push_back(open_rows(file.path()));
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::kInput) throw;
-    throw cannot_read(path, "the JPEG of its right eye is damaged");
-  }
-  check_pair(readers, path);
-}
-
 static Extent eye_size(const StoredPicture& picture, const FileInfo& info, const std::string& path) {
   const std::optional<Extent> size =
       unpacked_size(picture.layout, without_middle(picture.layout, Extent{info.width, info.height}));
@@ -319,7 +282,9 @@ static Extent eye_size(const StoredPicture& picture, const FileInfo& info, const
     throw cannot_read(
         path, fmt::format("{}x{} pixels are not two eyes, {}", info.width, info.height, layout_name(picture.layout)));
   }
-  const int columns = width_step(picture.camera.projection);
+  // A face of an equi-angular cube may begin within a pixel: video sites store it in 16:9.
+  const bool is_eac = picture.camera.projection.kind == kEac;
+  const int columns = is_eac ? 1 : width_step(picture.camera.projection);
   if (size->width * squeeze_of(picture.layout, 2).width % columns != 0) {
     throw cannot_read(path, fmt::format("{} has {} faces in a row, and {} pixels do not divide by that",
                                         projection_name(picture.camera.projection), columns, size->width));
@@ -403,33 +368,64 @@ struct PictureReader::State {
   std::string path;
   OpenOptions options;
   Readers readers;
-  int eye = kMono;                // for a picture of one eye
-  std::vector<FileShare> shares;  // point to the readers
-  StoredPicture header;
+  int eye = kMono;                  // for a picture of one eye
+  std::vector<FileShare> shares{};  // point to the readers
+  StoredPicture header{};
+  std::shared_ptr<Scratch> memory{};  // of the pixels, once they are decoded
+  std::vector<std::string> faults{};  // of the pixels
+
+  void decode();
 };
 
-PictureReader::PictureReader(const std::string& path, const OpenOptions& options) {
-  Readers readers = open_files(path);
-  StereoFormat format = find_format(readers[0]->info(), path, options.format);
-  if (format.is_photo && readers[0]->info().is_pair) {
-    readers.push_back(open_rows(path, 1));
-    check_pair(readers, path);
-  } else if (format.is_photo)
-    open_right_eye(readers, MemoryFile(read_right_eye(path, format.guesses)), path);
-  StoredPicture header = describe(readers, format, path);
-  std::vector<FileShare> shares = shares_of(readers, path, header.layout, options.color_only);
-  keep_common(shares, path, header.guesses);
-  header.eyes = make_eyes(shares, header.layout, header.size, format.eye);
-  take_lenses(header, options.format, path);
-  state_.reset(new State{path, options, std::move(readers), format.eye, std::move(shares), std::move(header)});
+void PictureReader::State::decode() {
+  if (memory) return;
+  memory = make_room(shares, readers[0]->info(), options);
+  for (const auto& reader : readers) read_file(*reader, shares, *memory);
+  leave_out_unreadable(shares, path, faults);
+  memory->release();
+}
+
+PictureReader::PictureReader(const std::string& path, const OpenOptions& options)
+    : state_(new State{path, options, open_files(path)}) {
+  set_format(options.format);
+}
+
+PictureReader::PictureReader(std::unique_ptr<State> state) : state_(std::move(state)) {}
+
+PictureReader PictureReader::without_format(const std::string& path, const OpenOptions& options) {
+  return PictureReader(std::unique_ptr<State>(new State{path, options, open_files(path)}));
 }
 
 PictureReader::~PictureReader() = default;
 PictureReader::PictureReader(PictureReader&& other) noexcept = default;
 PictureReader& PictureReader::operator=(PictureReader&& other) noexcept = default;
 
+const FileInfo& PictureReader::info() const {
+  return state_->readers[0]->info();
+}
+
 const StoredPicture& PictureReader::header() const {
   return state_->header;
+}
+
+void PictureReader::set_format(const FormatHint& known) {
+  auto& [path, options, readers, eye, shares, header, memory, faults] = *state_;
+  StereoFormat format = find_format(info(), path, known);
+  if (format.is_photo && readers.size() == 1) {
+    if (memory) readers = open_files(path), memory = nullptr;  // a reader reads its file once
+    open_second_eye(readers, path, format.guesses);
+  }
+  StoredPicture found = describe(readers, format, path);
+  if (!memory) {
+    shares = shares_of(readers, path, found.layout, options.color_only);
+    keep_common(shares, path, found.guesses);
+  }
+  found.eyes = make_eyes(shares, found.layout, found.size, format.eye);
+  for (StoredEye& stored : found.eyes) {
+    for (LayerPixels& layer : stored.layers) layer.first = nullptr;
+  }
+  take_lenses(found, known, path);
+  header = std::move(found), eye = format.eye;
 }
 
 static void leave_out_unwanted(std::vector<FileShare>& shares, const PictureReader::Wants& wants) {
@@ -446,24 +442,40 @@ static void leave_out_unwanted(std::vector<FileShare>& shares, const PictureRead
   }
 }
 
+bool PictureReader::is_decoded() const {
+  return state_->memory != nullptr;
+}
+
+StoredPicture PictureReader::whole() {
+  State& state = *state_;
+  if (state.shares.empty())
+    state.shares = shares_of(state.readers, state.path, Layout::kSeparate, state.options.color_only);
+  state.decode();
+  StoredPicture picture;
+  picture.is_float = info().is_float;
+  picture.size = {info().width, info().height};
+  picture.eyes = {make_eye(kMono, state.shares[0], {})};
+  picture.eyes[0].layers.resize(1);
+  picture.memory = state.memory;
+  return picture;
+}
+
 StoredPicture PictureReader::read(const std::string& scratch_folder, const Wants& wants) {
-  leave_out_unwanted(state_->shares, wants);
+  if (!state_->memory) leave_out_unwanted(state_->shares, wants);
   return read(scratch_folder);
 }
 
 StoredPicture PictureReader::read(const std::string& scratch_folder) {
-  OpenOptions& options = state_->options;
-  options.scratch_folder = scratch_folder;
-  std::vector<FileShare>& shares = state_->shares;
-  StoredPicture picture = state_->header;
-  picture.memory = make_room(shares, state_->readers[0]->info(), options);
-  for (const auto& reader : state_->readers) read_file(*reader, shares, *picture.memory);
-  leave_out_unreadable(shares, state_->path, picture.guesses);
-  picture.memory->release();
-  picture.eyes = make_eyes(shares, picture.layout, picture.size, state_->eye);
-  for (size_t i = 0; i < picture.eyes.size(); i++) picture.eyes[i].eye = state_->header.eyes[i].eye;
+  State& state = *state_;
+  state.options.scratch_folder = scratch_folder;
+  state.decode();
+  StoredPicture picture = state.header;
+  picture.memory = state.memory;
+  picture.guesses.insert(picture.guesses.end(), state.faults.begin(), state.faults.end());
+  picture.eyes = make_eyes(state.shares, picture.layout, picture.size, state.eye);
+  for (size_t i = 0; i < picture.eyes.size(); i++) picture.eyes[i].eye = state.header.eyes[i].eye;
   const bool is_checkerboard = arrangement_of(picture.layout).how == EyePacking::kCheckerboard;
-  if (is_checkerboard) take_checkerboard_apart(picture, options);
+  if (is_checkerboard) take_checkerboard_apart(picture, state.options);
   return picture;
 }
 

@@ -83,25 +83,40 @@ StoredPicture open_picture(const std::string& path, const OpenOptions& options =
 class PictureReader {
  public:
   explicit PictureReader(const std::string& path, const OpenOptions& options = {});
+  // Opens a file whose format is still unknown: only info(), whole() and set_format() may be called.
+  static PictureReader without_format(const std::string& path, const OpenOptions& options);
   ~PictureReader();
   PictureReader(PictureReader&& other) noexcept;
   PictureReader& operator=(PictureReader&& other) noexcept;
 
+  // The header of the file; of two files, of the left one.
+  const FileInfo& info() const;
+
   // The picture without pixels: the pointers of every layer are nullptr. Faults that only the pixels show are not found
   // yet.
   const StoredPicture& header() const;
+
+  // The colours of the file (of the first one of two) as one eye, whatever its layout. Decodes the picture, which
+  // read() then does not do again.
+  StoredPicture whole();
+  bool is_decoded() const;
+
+  // Replaces OpenOptions::format, and with it the header. Throws the same errors as open_picture(). After whole(), only
+  // a VR photo is decoded again, and the format must not become Layout::kMultiview.
+  void set_format(const FormatHint& known);
 
   // The picture with its pixels. It may have fewer layers than the header: those with numbers too large for a float are
   // left out. `scratch_folder` replaces OpenOptions::scratch_folder. Precondition: not called before.
   StoredPicture read(const std::string& scratch_folder);
 
   // Reads only the wanted channels, by their names in LayerPixels, as if the layers had no others: the rest needs no
-  // memory. A layer without wanted channels stays as in the header.
+  // memory. A layer without wanted channels stays as in the header. After whole(), all channels are there.
   using Wants = std::function<bool(const std::string& channel)>;
   StoredPicture read(const std::string& scratch_folder, const Wants& wants);
 
  private:
   struct State;
+  explicit PictureReader(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
 

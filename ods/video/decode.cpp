@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "ods/base/error.h"
+#include "ods/video/interleaved.h"
 #include "ods/video/tracks/av.h"
 
 extern "C" {
@@ -197,6 +198,24 @@ static void put_beside(const AVFrame& left, const AVFrame& right, AVFrame& both)
   }
 }
 
+// H.264's and HEVC's frame packing. Squeezed eyes are what it usually means, as in Matroska.
+static std::optional<VideoStereo> packing_of(const AVFrame& frame) {
+  constexpr std::pair<AVStereo3DType, EyePacking> kKinds[] = {{AV_STEREO3D_SIDEBYSIDE, EyePacking::kBeside},
+                                                              {AV_STEREO3D_TOPBOTTOM, EyePacking::kStacked},
+                                                              {AV_STEREO3D_LINES, EyePacking::kRows},
+                                                              {AV_STEREO3D_COLUMNS, EyePacking::kColumns},
+                                                              {AV_STEREO3D_CHECKERBOARD, EyePacking::kCheckerboard}};
+  const AVFrameSideData* said = av_frame_get_side_data(&frame, AV_FRAME_DATA_STEREO3D);
+  if (said == nullptr) return std::nullopt;
+  const auto& stereo = *reinterpret_cast<const AVStereo3D*>(said->data);
+  if (stereo.type == AV_STEREO3D_FRAMESEQUENCE) return VideoStereo::kLaced;
+  const bool right_first = (stereo.flags & AV_STEREO3D_FLAG_INVERT) != 0;
+  for (const auto& [type, how] : kKinds) {
+    if (stereo.type == type) return stereo_with({how, right_first});
+  }
+  return std::nullopt;
+}
+
 // --- decoding --------------------------------------------------------------------------------------------------------
 
 static std::vector<std::string> dropped_metadata(const AVFrame& frame) {
@@ -255,6 +274,8 @@ struct VideoDecoder::State {
     if (turn == Turn::kOther)
       fail("its pictures are stored rotated; ffmpeg -i VIDEO -c:a copy UPRIGHT turns them upright");
     stream.is_turned = turn == Turn::kHalf;
+    if (facts.field_order != AV_FIELD_UNKNOWN && facts.field_order != AV_FIELD_PROGRESSIVE)
+      fail("its pictures are interlaced; ffmpeg -i VIDEO -vf bwdif=mode=send_frame -c:a copy WHOLE joins their fields");
     std::string fault = read_format(static_cast<AVPixelFormat>(facts.format), stream);
     if (fault.empty()) fault = read_color(facts, stream);
     if (!fault.empty()) fail(fault);
@@ -264,7 +285,7 @@ struct VideoDecoder::State {
       fail(fmt::format("{}x{} pixels with chroma {}: its sides are odd", stream.size.width, stream.size.height,
                        chroma_name(stream.chroma)));
     }
-    if (views != Views::kFirst) stream.size.width *= 2;
+    if (has_layers(views)) stream.size.width *= 2;
     stream.clock = {source->time_base.den, source->time_base.num};
     if (file->start_time != AV_NOPTS_VALUE) {
       stream.file_start = static_cast<double>(file->start_time) / AV_TIME_BASE;
@@ -290,7 +311,7 @@ struct VideoDecoder::State {
     decoder->pkt_timebase = source->time_base;
     decoder->thread_count = threads;
     decoder->thread_type = FF_THREAD_FRAME | FF_THREAD_SLICE;
-    if (views != Views::kFirst) {
+    if (has_layers(views)) {
       const char* all = "-1";
       checked(av_opt_set(decoder->priv_data, "view_ids", all, 0), ErrorKind::kInput, what);
     }
@@ -363,7 +384,7 @@ struct VideoDecoder::State {
   std::shared_ptr<AVFrame> take() {
     if (waiting) return std::exchange(waiting, nullptr);
     std::shared_ptr<AVFrame> frame(made(av_frame_alloc()), av::Free());
-    const bool has_frame = views == Views::kFirst ? receive(*frame) : receive_both(*frame);
+    const bool has_frame = has_layers(views) ? receive_both(*frame) : receive(*frame);
     return has_frame ? frame : nullptr;
   }
 
@@ -408,6 +429,7 @@ std::optional<DecodedFrame> VideoDecoder::next() {
   if (state.count == 0) state.stream.unkept = dropped_metadata(*frame);
   if (state.count++ == 0 && !state.has_skipped)
     state.stream.start = static_cast<double>(result.time.start) / state.ticks();
+  result.packing = packing_of(*frame);
   if (state.stream.is_turned) frame = upright(*frame);
   result.planes.bits = state.stream.bits;
   result.planes.chroma = state.stream.chroma;
@@ -421,7 +443,8 @@ std::optional<DecodedFrame> VideoDecoder::next() {
     result.alpha_stride = static_cast<size_t>(frame->linesize[3]);
   }
   result.memory = frame;
-  return result;
+  const bool is_interleaved = state.views == Views::kRows || state.views == Views::kColumns;
+  return is_interleaved ? take_apart(result, state.stream.size, state.views) : result;
 }
 
 void VideoDecoder::skip_to(double seconds) {

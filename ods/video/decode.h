@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "ods/video/container/spherical.h"
 #include "ods/video/encode.h"
 #include "ods/video/video_codec.h"
 
@@ -44,12 +45,16 @@ struct DecodedFrame {
   const std::byte* alpha = nullptr;  // if VideoStream has alpha: same bit depth, full range
   size_t alpha_stride = 0;
   std::shared_ptr<const void> memory;
+  std::optional<VideoStereo> packing;  // of the eyes, as the stream's frame packing (SEI) says; not set if it has none
 };
 
 // The layers to decode of a stream with the eyes as layers (MV-HEVC): only the first layer, as for any other stream, or
 // both as one frame, with the left eye on the left. If the stream does not specify the order, the first one is the left
-// or the right eye's.
-enum class Views { kFirst, kLeftAndRight, kRightAndLeft };
+// or the right eye's. Interleaved rows become two halves one above the other, columns two halves side by side.
+enum class Views { kFirst, kLeftAndRight, kRightAndLeft, kRows, kColumns };
+constexpr bool has_layers(Views views) {
+  return views == Views::kLeftAndRight || views == Views::kRightAndLeft;
+}
 
 // Returns whether this machine's libavcodec can decode both: FFmpeg 7.1 or later.
 bool can_decode_both_views();
@@ -57,8 +62,8 @@ bool can_decode_both_views();
 class VideoDecoder {
  public:
   // track: as in video_file.h. threads: 0 lets the decoder choose. Throws Error(kInput) for a damaged video, a missing
-  // decoder, pictures stored rotated by 90 degrees, pixel formats other than planar Y'CbCr, matrices other than
-  // ColorCode's. Precondition: views is kFirst, or can_decode_both_views().
+  // decoder, pictures stored rotated by 90 degrees or interlaced, pixel formats other than planar Y'CbCr, matrices
+  // other than ColorCode's. Precondition: !has_layers(views), or can_decode_both_views().
   VideoDecoder(const std::string& path, uint64_t track, Views views = Views::kFirst, int threads = 0);
   VideoDecoder(const VideoDecoder&) = delete;
   VideoDecoder& operator=(const VideoDecoder&) = delete;

@@ -21,8 +21,8 @@ FootageKind footage_kind(const std::string& path) {
   return container_of_path(path) || has_videos_bytes ? FootageKind::kVideo : FootageKind::kPicture;
 }
 
-Footage::Footage(const std::string& path, const FormatHint& known)
-    : path_(path), known_(known), kind_(footage_kind(path)), names_(frame_names(path)) {
+Footage::Footage(const std::string& path, const FormatHint& known, std::optional<PictureReader> reader)
+    : path_(path), known_(known), kind_(footage_kind(path)), names_(frame_names(path)), reader_(std::move(reader)) {
   if (kind_ != FootageKind::kVideo) return;
   video_ = open_video(path, known);
   decoder_ = std::make_unique<VideoDecoder>(path, video_->track, video_->views);
@@ -84,7 +84,8 @@ std::optional<StoredPicture> Footage::picture(int frame) {
     const std::string path = names_->path(frame);
     return exists(path) ? std::optional(open_picture(path, options)) : std::nullopt;
   }
-  if (!still_) still_ = open_picture(path_, options);
+  if (!still_) still_ = reader_ ? reader_->read("") : open_picture(path_, options);
+  reader_.reset();
   return still_;
 }
 

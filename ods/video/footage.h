@@ -29,9 +29,9 @@ struct TimeSpan {
 
 class Footage {
  public:
-  // Opens an input of footage_kind(). A picture is read on demand. Throws Error(kInput) for a video that cannot be
-  // read.
-  Footage(const std::string& path, const FormatHint& known);
+  // Opens an input of footage_kind(). A picture is read on demand, by `reader` if it is open already. Throws
+  // Error(kInput) for a video that cannot be read.
+  Footage(const std::string& path, const FormatHint& known, std::optional<PictureReader> reader = {});
 
   FootageKind kind() const { return kind_; }
   const std::string& path() const { return path_; }
@@ -68,6 +68,7 @@ class Footage {
   FormatHint known_;
   FootageKind kind_ = FootageKind::kPicture;
   std::optional<FrameNames> names_;
+  std::optional<PictureReader> reader_;
   std::optional<StoredPicture> still_;
   std::optional<VideoInput> video_;
   std::unique_ptr<VideoDecoder> decoder_;

@@ -68,6 +68,17 @@ static VideoTrack decoded_track(const VideoTrack& stored, const FormatHint& know
   return track;
 }
 
+// Eyes whose rows or columns alternate become two halves of the decoded frames. Returns their layout, or nullopt.
+static std::optional<Layout> split_layout(const VideoTrack& track, const FormatHint& known, VideoInput& video) {
+  const std::optional<SphericalMetadata> said = declared_metadata(track);
+  const EyeArrangement eyes = known.layout           ? arrangement_of(*known.layout)
+                              : said && said->stereo ? arrangement_of(*said->stereo)
+                                                     : EyeArrangement();
+  if (eyes.how != EyePacking::kRows && eyes.how != EyePacking::kColumns) return std::nullopt;
+  video.views = eyes.how == EyePacking::kRows ? Views::kRows : Views::kColumns;
+  return layout_with({eyes.how == EyePacking::kRows ? EyePacking::kStacked : EyePacking::kBeside, eyes.right_first});
+}
+
 static SphericalMetadata metadata_of(const VideoTrack& track, const FormatHint& known, const std::string& path,
                                      std::vector<std::string>& guesses) {
   SphericalMetadata metadata = track.v2 ? *track.v2 : track.v1.value_or(SphericalMetadata());
@@ -117,11 +128,13 @@ static void take_mesh(VideoInput& video, const VideoTrack& track) {
   }
 }
 
-VideoInput open_video(const std::string& path, const FormatHint& known) {
+VideoInput open_video(const std::string& path, const FormatHint& given) {
   const VideoFile info = read_video_file(path);
   VideoInput video;
   video.path = path;
+  FormatHint known = given;
   const VideoTrack track = decoded_track(choose_track(info, {}, path), known, video);
+  if (const std::optional<Layout> split = split_layout(track, known, video)) known.layout = split;
   video.track = track.id;
   video.fps = track.fps;
   StoredPicture& prototype = video.prototype;

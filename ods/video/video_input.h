@@ -24,7 +24,8 @@ struct VideoInput {
 // Opens a video. Missing metadata is completed as by ods inject; `known` takes precedence, and may have any projection.
 // The eye distance comes from the video (vexu), else from its sidecar, which also specifies the rest of the camera. A
 // mesh becomes StoredPicture::maps; if it cannot be read, V1 is used. Eyes that are layers of the stream (MV-HEVC) are
-// placed side by side, flat ones too, unless `known` requests only the first one (Layout::kSeparate). Throws
+// placed side by side, flat ones too, unless `known` requests only the first one (Layout::kSeparate); interleaved rows
+// and columns become halves. Throws
 // Error(kInput) for a damaged video, any other flat one, a projection other than a mesh, lat-long or a part of it,
 // undetermined metadata, or layers that this machine cannot decode.
 VideoInput open_video(const std::string& path, const FormatHint& known = {});

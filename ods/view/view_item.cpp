@@ -36,7 +36,7 @@ static bool hears_around(const std::string& path) {
   return sound[0].ambisonics->channels == 4 && !sound[0].ambisonics->has_head_locked;
 }
 
-ViewItem open_view_item(const std::string& path, const FormatHint& known) {
+ViewItem open_view_item(const std::string& path, const FormatHint& known, std::optional<PictureReader> reader) {
   ViewItem item;
   item.path = path;
   item.known = known;
@@ -48,6 +48,12 @@ ViewItem open_view_item(const std::string& path, const FormatHint& known) {
       throw Error(ErrorKind::kInput,
                   fmt::format("cannot show '{}': it has fisheyes as its camera stored them, which browsers do not "
                               "unwrap: ods convert makes a video of it that they show",
+                              path));
+    }
+    if (video.views == Views::kRows || video.views == Views::kColumns) {
+      throw Error(ErrorKind::kInput,
+                  fmt::format("cannot show '{}': its eyes are interleaved, which browsers do not take "
+                              "apart: ods convert makes a video of it that they show",
                               path));
     }
     if (video.views != Views::kFirst) {
@@ -66,9 +72,11 @@ ViewItem open_view_item(const std::string& path, const FormatHint& known) {
   OpenOptions options;
   options.format = known;
   options.color_only = true;
-  item.picture = PictureReader(path, options).header();
+  if (!reader) reader.emplace(path, options);
+  item.picture = reader->header();
   item.is_light = item.picture.is_float;
   item.has_own_file = !names_eye(path) && browsers_read(path, item.picture);
+  if (!item.has_own_file && reader->is_decoded()) item.picture = reader->read("");
   return item;
 }
 
@@ -278,6 +286,7 @@ StoredPicture open_shown(const ViewItem& item) {
     if (!frame) throw Error(ErrorKind::kInput, fmt::format("'{}' has no picture", item.path));
     return picture_of(video, decoder.stream(), *frame);
   }
+  if (item.picture.memory) return item.picture;
   OpenOptions open;
   open.format = item.known;
   open.color_only = true;

@@ -23,16 +23,17 @@ struct ViewItem {
   bool is_light = false;      // scene-linear: shown with an exposure and a tone curve
   bool has_own_file = false;  // browsers read the file itself and divide it into eyes; else each eye is sent as a JPEG
   FormatHint known;           // the format as far as the caller specified it
-  StoredPicture picture;      // its header, without pixels
+  StoredPicture picture;      // its header; with its pixels only if they were decoded before and the page needs them
   double fps = 0.0;           // of a video; 0: unknown
   bool is_ambisonic = false;  // a video's sound: first order, AmbiX
   Notes notes;
   std::string subtitles;  // of a video: WebVTT
 };
 
-// Opens a file and resolves its format as `ods convert` does. Throws Error(kInput) as open_picture() and open_video()
-// do, and for a browser format that contains no picture.
-ViewItem open_view_item(const std::string& path, const FormatHint& known = {});
+// Opens a file, by `reader` if it is open already. Throws Error(kInput) as open_picture() and open_video() do, and for
+// a browser format that contains no picture.
+ViewItem open_view_item(const std::string& path, const FormatHint& known = {},
+                        std::optional<PictureReader> reader = {});
 
 // Returns the page's view.json: items, and the layouts, projections and tone curves that can be chosen for them.
 // is_live: eyes are sent by a server, which can develop them again. studio: of the studio, or null.

@@ -21,6 +21,7 @@
 
 #include "cli/console/command.h"
 #include "ods/picture/metadata/format_source.h"
+#include "ods/picture/metadata/name_words.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/save.h"
 #include "ods/render/unfinished.h"
@@ -470,6 +471,12 @@ TEST_P(Help, ExamplesWork) {
 
 INSTANTIATE_TEST_SUITE_P(Commands, Help, ::testing::ValuesIn(command_names()),
                          [](const auto& name) { return name.param; });
+
+TEST(Docs, ListTheWordsOfNames) {
+  std::string table = "| word | meaning |\n|---|---|\n";
+  for (const NameWordRow& row : name_words()) table += fmt::format("| `{}` | {} |\n", row.word, row.text);
+  EXPECT_TRUE(has(read_file(fs::path(source_folder()) / "docs/foreign.md"), table)) << table;
+}
 
 TEST(Docs, ListTheSourcesOfAFormatInTheirOrder) {
   std::string table = "| source | for example |\n|---|---|\n";

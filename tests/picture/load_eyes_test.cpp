@@ -99,7 +99,7 @@ LayoutGuess guess(int width, int height, const std::string& path) {
   info.width = width;
   info.height = height;
   info.channels = {"R", "G", "B"};
-  return guess_layout(info, path);
+  return find_format(info, path, {}).layout;
 }
 
 TEST(GuessLayout, TheNameGoesBeforeTheShape) {

@@ -121,6 +121,10 @@ TEST_F(Heif, APhonesPairHasBothEyes) {
   EXPECT_EQ(picture.camera.projection.kind, kPerspective);
   EXPECT_NEAR(picture.camera.projection.fov, 63.4f, 0.1f);
   EXPECT_NEAR(picture.camera.projection.aspect, 128.0f / 96.0f, 1e-4f);
+  // visionOS 1 wrote the same under an id of its own.
+  const std::string id = "\x22\xcc\x04\xc7\xd6\xd9\x4e\x07\x9d\x90\x4e\xb6\xec\xba\xf3\xa3";
+  folder.write("vision.heic", with_meta(whole, group, box("uuid", id + camera.substr(8))));
+  EXPECT_NEAR(open_picture(folder.path("vision.heic")).camera.projection.fov, 63.4f, 0.1f);
   const auto blue = [&](size_t eye) { return static_cast<int>(picture.eyes[eye].layers[0].first[2]); };
   EXPECT_NEAR(blue(0), 0.1 * 255, 12);
   EXPECT_NEAR(blue(1), 0.8 * 255, 12);

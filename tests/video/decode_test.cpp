@@ -16,6 +16,7 @@
 #include "tests/support/decoded_video.h"
 #include "tests/support/made_frames.h"
 #include "tests/support/places.h"
+#include "tests/support/programs.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods {
@@ -369,6 +370,33 @@ TEST_F(Decode, PicturesTurnedByAQuarterAreRefused) {
   set_matrix(bytes, {0, 0x10000, 0, 0xffff0000, 0, 0, 0, 0, 0x40000000});
   folder.write("turned.mp4", bytes);
   expect_refused(error_of(folder.path("turned.mp4")), "stored rotated");
+}
+
+TEST_F(Decode, InterlacedPicturesAreRefused) {
+  if (const std::string why = missing("ffmpeg", "ffmpeg -version"); !why.empty()) GTEST_SKIP() << why;
+  const std::string path = folder.path("fields.mp4");
+  ASSERT_EQ(run_line("ffmpeg -v error -f lavfi -i testsrc=s=128x64 -frames:v 4 -c:v libx264 -flags +ildct+ilme "
+                     "-x264opts tff=1 -pix_fmt yuv420p " +
+                     path)
+                .code,
+            0);
+  expect_refused(error_of(path), "interlaced");
+}
+
+TEST_F(Decode, TheStreamsFramePackingIsKnown) {
+  if (const std::string why = missing("ffmpeg", "ffmpeg -version"); !why.empty()) GTEST_SKIP() << why;
+  const std::pair<int, VideoStereo> kinds[] = {
+      {1, VideoStereo::kColumns}, {2, VideoStereo::kRows}, {3, VideoStereo::kSideBySide}, {4, VideoStereo::kTopBottom}};
+  for (const auto& [number, stereo] : kinds) {
+    const std::string path = folder.path("packed.mp4");
+    ASSERT_EQ(run_line(fmt::format("ffmpeg -y -v error -f lavfi -i testsrc=s=128x64 -frames:v 2 -c:v libx264 "
+                                   "-x264opts frame-packing={} -pix_fmt yuv420p {}",
+                                   number, path))
+                  .code,
+              0);
+    VideoDecoder decoder(path, 1);
+    EXPECT_EQ(decoder.next()->packing, stereo) << number;
+  }
 }
 
 TEST_F(Decode, DamagedVideosAreOneLine) {

@@ -12,6 +12,7 @@
 #include "ods/files/file_input.h"
 #include "ods/image/codec/decoder.h"
 #include "ods/image/color_tags.h"
+#include "ods/image/format/stereo_jpeg.h"
 #include "ods/image/image_file.h"
 #include "ods/image/orientation.h"
 #include "ods/image/small_rows.h"
@@ -106,14 +107,33 @@ struct Opened {
 
 }  // namespace
 
-static Opened open(const std::string& path, int view = 0, int min_width = 0) {
-  const PictureBytes file = picture_on_disk(path);
-  const FileFormat format = format_of(file);
-  Opened opened{open_decoder(file, format, view, min_width), {}};
-  if (format == FileFormat::kJpeg || format == FileFormat::kTiff) {
-    opened.decoder = turned(std::move(opened.decoder), orientation_of(FileInput(path)));
+// A JPEG whose headers are damaged records nothing; reading the pixels reports the fault.
+static StereoJpeg stereo_jpeg(const std::string& path) {
+  try {
+    return read_stereo_jpeg(FileInput(path));
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    return {};
   }
+}
+
+static PictureBytes part_of(const PictureBytes& file, const FileRange& range) {
+  const auto read = [whole = file.read, range](size_t offset, void* to, size_t count) {
+    const bool is_inside = offset <= range.size && count <= range.size - offset;
+    return is_inside && whole(range.offset + offset, to, count);
+  };
+  return {file.name, false, range.size, read};
+}
+
+static Opened open(const std::string& path, int view = 0, int min_width = 0) {
+  PictureBytes file = picture_on_disk(path);
+  const FileFormat format = format_of(file);
+  const StereoJpeg stereo = format == FileFormat::kJpeg ? stereo_jpeg(path) : StereoJpeg();
+  if (view == 1 && stereo.right.size > 0) file = part_of(file, stereo.right);
+  Opened opened{open_decoder(file, format, view, min_width), {}};
+  opened.decoder = turned(std::move(opened.decoder), orientation_of(FileInput(path)));
   FileInfo& info = opened.decoder->info;
+  if (format == FileFormat::kJpeg) add_stereo(info, stereo);
   opened.color = read_color_space(path, format, info);
   info.color = opened.color.name;
   info.color_fault = opened.color.fault;

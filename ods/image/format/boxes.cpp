@@ -136,11 +136,45 @@ static FileBox read_header(const FileInput& file, uint64_t at, uint64_t left) {
   return {header.type, header.size, at, header.whole};
 }
 
+namespace {
+
+// The parts of a video that were found so far.
+struct FoundParts {
+  bool header = false, media = false, fragments = false;
+
+  void add(BoxType type) {
+    header = header || type == box_type("moov"), media = media || type == box_type("mdat");
+    fragments = fragments || type == box_type("moof");
+  }
+};
+
+}  // namespace
+
+// Returns whether a whole video ends before this position, and what follows is not another part of it that was cut
+// short.
+static bool is_trailer(const FileInput& file, uint64_t at, const FoundParts& before) {
+  constexpr BoxType kParts[] = {box_type("moov"), box_type("mdat"), box_type("moof"), box_type("mfra"),
+                                box_type("free"), box_type("skip"), box_type("uuid"), box_type("meta"),
+                                box_type("sidx"), box_type("styp"), box_type("emsg"), box_type("udta")};
+  if (!before.header || !before.media) return false;
+  const uint64_t left = file.size() - at;
+  if (left < 8) return !before.fragments;
+  const std::string header = file.read(at, 8);
+  const uint64_t size = get_number(header, 0, 4);
+  const auto type = static_cast<BoxType>(get_number(header, 4, 4));
+  return size > 1 && (size < 8 || size > left) && std::ranges::find(kParts, type) == std::end(kParts);
+}
+
 std::vector<FileBox> scan_boxes(const FileInput& file) {
   constexpr size_t kMax = 1000000;
   std::vector<FileBox> boxes;
+  FoundParts found;
   for (uint64_t at = 0; at < file.size();) {
     const uint64_t left = file.size() - at;
+    if (is_trailer(file, at, found)) {
+      boxes.push_back({0, 0, at, left});
+      return boxes;
+    }
     if (left < 8) throw MalformedFile("it is cut short");
     FileBox box = read_header(file, at, left);
     if (box.size > left) {
@@ -149,6 +183,7 @@ std::vector<FileBox> scan_boxes(const FileInput& file) {
     }
     if (box.size == 0) box.size = left;
     boxes.push_back(box);
+    found.add(box.type);
     at = box.end();
     if (boxes.size() > kMax) throw MalformedFile("it contains more than a million boxes");
   }

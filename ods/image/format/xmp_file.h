@@ -10,8 +10,10 @@
 
 namespace ods {
 
-// The packet of a picture's first page; empty if there is none or it cannot be decoded. In other formats, the first
-// data in the first megabyte that looks like a packet. Throws Error(kInput) if there is no such file.
+// The packet of a picture's first page, with the usual prefixes of Google's namespaces; empty if there is none or it
+// cannot be decoded. In a PNG also a compressed one, and the one that ImageMagick writes as text. In formats other than
+// JPEG, PNG and TIFF, the first data in the first megabyte that looks like a packet. Throws Error(kInput) if there is
+// no such file.
 std::string read_xmp(const std::string& path);
 std::string read_xmp(const FileInput& file);
 

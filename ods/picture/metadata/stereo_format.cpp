@@ -11,10 +11,12 @@
 #include "ods/base/text.h"
 #include "ods/camera/odd_halves.h"
 #include "ods/files/file_input.h"
+#include "ods/image/format/stereo_jpeg.h"
 #include "ods/image/format/xmp.h"
 #include "ods/image/format/xmp_file.h"
 #include "ods/image/image_file.h"
 #include "ods/picture/metadata/metadata.h"
+#include "ods/picture/metadata/name_words.h"
 #include "ods/picture/metadata/phone_window.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/metadata/vr_photo.h"
@@ -28,17 +30,6 @@ static bool is_packing(Layout layout) {
   return how != EyePacking::kMixed && how != EyePacking::kAlone;
 }
 
-// Parts after the format part of a name: frame numbers, fields of view.
-static bool is_neutral_token(const std::string& word) {
-  return word.find_first_not_of("0123456789xX") == std::string::npos;
-}
-
-static const NamedProjection* projection_token(const std::string& word) {
-  if (word == "360" || word == "360x180") return find_projection("lat-long");
-  if (word == "180" || word == "180x180") return find_projection("vr180");
-  return find_projection(word);
-}
-
 std::string name_end(const ProjectionSetting& projection, Layout layout) {
   const bool is_whole = is_full_lat_long(projection) || is_cube(projection.kind);
   const char* const angle = is_vr180(projection) ? "_180" : is_whole ? "_360" : "";
@@ -50,31 +41,61 @@ std::string name_end(const ProjectionSetting& projection, Layout layout) {
   return angle + word + (layout == Layout::kMultiview ? ".exr" : ".png");
 }
 
+// A layout's name or abbreviation. A file named checkerboard usually shows a checkerboard pattern.
+static std::optional<Layout> layout_token(const std::string& word) {
+  for (const NameWordRow& row : name_words()) {
+    if (row.word == word && row.layout) return row.layout;
+  }
+  const std::optional<Layout> layout = layout_of(word);
+  const bool is_word = layout && is_packing(*layout) && arrangement_of(*layout).how != EyePacking::kCheckerboard;
+  return is_word ? layout : std::nullopt;
+}
+
+// After a hyphen only players' own words count: a-dome may be any dome.
+static const NamedProjection* projection_token(const std::string& word, char mark) {
+  for (const NameWordRow& row : name_words()) {
+    if (row.word == word && row.projection) return &*row.projection;
+  }
+  return mark == '-' ? nullptr : find_projection(word);
+}
+
+// Takes the last word of a name into account. Returns false if the words before it do not matter.
+static bool read_word(const std::string& marked, NameWords& words) {
+  const std::string word = small_letters(marked.substr(1));
+  const std::optional<Layout> layout = layout_token(word);
+  const bool has_layout = !words.layout_token.empty();
+  // After a dot a number is a frame number, unless a word about the eyes follows.
+  const bool is_frame = marked[0] == '.' && !has_layout && is_neutral_token(word);
+  const NamedProjection* projection = is_frame ? nullptr : projection_token(word, marked[0]);
+  if (layout || word == "mono") {
+    if (has_layout) return words.layout == layout;  // twice: _3dh_LR
+    words.layout = layout;
+    words.is_mono = word == "mono";
+    words.layout_token = marked;
+  } else if (projection != nullptr) {
+    words.projection = projection;
+    words.projection_token = marked;
+  } else if (!is_neutral_token(word)) {
+    return false;
+  }
+  return words.layout_token.empty() || words.projection == nullptr;
+}
+
 NameWords read_name(const std::string& path) {
   NameWords words;
   std::string name = std::filesystem::path(path).stem().native();
-  for (size_t at = name.find_last_of("_. "); at != std::string::npos; at = name.find_last_of("_. ")) {
-    const std::string marked = name.substr(at);
-    const std::string word = small_letters(marked.substr(1));
-    const std::optional<Layout> layout = layout_of(word);
-    // After a dot a number is a frame number, not an angle.
-    const NamedProjection* projection = marked[0] == '.' && is_neutral_token(word) ? nullptr : projection_token(word);
-    // A file named checkerboard usually shows a checkerboard pattern.
-    const bool is_word = layout && is_packing(*layout) && arrangement_of(*layout).how != EyePacking::kCheckerboard;
-    if (is_word || word == "mono") {
-      words.layout = layout;
-      words.is_mono = word == "mono";
-      words.layout_token = marked;
-    } else if (projection != nullptr) {
-      words.projection = projection;
-      words.projection_token = marked;
-    } else if (!is_neutral_token(word)) {
-      break;
-    }
-    if (!words.layout_token.empty() && words.projection != nullptr) break;
+  while (true) {
+    size_t at = name.find_last_of("_. ");
+    const size_t hyphen = name.rfind('-');
+    const bool has_hyphen = hyphen != std::string::npos && (at == std::string::npos || hyphen > at);
+    const auto is_known = [&](const std::string& word) {
+      return layout_token(word).has_value() || projection_token(word, '_') != nullptr;
+    };
+    // Names such as top-bottom have hyphens of their own.
+    if (has_hyphen && (at == std::string::npos || !is_known(small_letters(name.substr(at + 1))))) at = hyphen;
+    if (at == std::string::npos || !read_word(name.substr(at), words)) return words;
     name.resize(at);
   }
-  return words;
 }
 
 std::string renamed(const std::string& path, const std::string& words) {
@@ -99,7 +120,7 @@ static std::vector<const NamedProjection*> shapes() {
   return {find_projection("lat-long"), find_projection("cube-6x1"), find_projection("cube-1x6")};
 }
 
-static LayoutGuess layout_of_shape(Extent file, const std::optional<ProjectionSetting>& known) {
+static std::optional<LayoutGuess> layout_of_shape(Extent file, const std::optional<ProjectionSetting>& known) {
   std::vector<ProjectionSetting> settings;
   if (known) settings.push_back(*known);
   for (const NamedProjection* shape : shapes()) {
@@ -108,16 +129,16 @@ static LayoutGuess layout_of_shape(Extent file, const std::optional<ProjectionSe
   for (const ProjectionSetting& setting : settings) {
     const std::string_view name = projection_name(setting);
     if (has_shape(setting, file)) {
-      return {{}, LayoutSource::kShape, fmt::format("it has the shape of one eye, {}", name)};
+      return LayoutGuess{{}, FormatSource::kShape, fmt::format("it has the shape of one eye, {}", name)};
     }
     for (Layout layout : {Layout::kTopBottom, Layout::kSideBySide}) {
       const std::optional<Extent> eye = unpacked_size(layout, file);
       if (eye && has_shape(setting, *eye)) {
-        return {layout, LayoutSource::kShape, fmt::format("it has the shape of two eyes, {}", name)};
+        return LayoutGuess{layout, FormatSource::kShape, fmt::format("it has the shape of two eyes, {}", name)};
       }
     }
   }
-  return {{}, LayoutSource::kNothing, "nothing says otherwise"};
+  return std::nullopt;
 }
 
 // Returns whether the file has a colour layer of that view; Blender's layers have names.
@@ -131,7 +152,7 @@ static bool has_view(const FileInfo& info, const std::string& view) {
 static std::optional<LayoutGuess> declared_layout(const FileInfo& info) {
   const auto said = info.text.find("ods:layout");
   if (said == info.text.end()) return std::nullopt;
-  LayoutGuess guess{layout_of(said->second), LayoutSource::kFile, "the file says so"};
+  LayoutGuess guess{layout_of(said->second), FormatSource::kOwnMetadata, "the file says so"};
   for (int eye : {kLeft, kRight, kMono}) {
     if (said->second == eye_name(eye)) return guess;
   }
@@ -139,22 +160,7 @@ static std::optional<LayoutGuess> declared_layout(const FileInfo& info) {
 }
 
 bool is_guess(const LayoutGuess& guess) {
-  return guess.source > LayoutSource::kFile;
-}
-
-LayoutGuess guess_layout(const FileInfo& info, const std::string& path,
-                         const std::optional<ProjectionSetting>& projection) {
-  if (const std::optional<LayoutGuess> said = declared_layout(info)) return *said;
-  if (has_view(info, "right") || has_view(info, "left")) {
-    return {Layout::kMultiview, LayoutSource::kFile, "it has two views"};
-  }
-  const NameWords words = read_name(path);
-  if (!words.layout_token.empty()) {
-    return {words.layout, LayoutSource::kName, fmt::format("its name ends in {}", words.layout_token)};
-  }
-  if (projection) return layout_of_shape({info.width, info.height}, projection);
-  if (words.projection != nullptr) return layout_of_shape({info.width, info.height}, words.projection->setting);
-  return layout_of_shape({info.width, info.height}, {});
+  return guess.source > FormatSource::kOtherMetadata;
 }
 
 // --- all sources combined ------------------------------------------------------------------------------------------
@@ -191,22 +197,80 @@ static bool is_taken_as_photo(const FileInfo& info, const std::string& path, con
   return !info.is_float && !known.one_eye && !known.layout && !names_eye(path) && (info.is_pair || is_photo(path));
 }
 
-static LayoutGuess find_layout(const FileInfo& info, const std::string& path, const FormatHint& known,
-                               const std::optional<Sidecar>& sidecar, bool photo) {
-  if (info.is_pair && photo) return {Layout::kSeparate, LayoutSource::kFile, "its stereo pair has both eyes"};
-  if (photo) return {Layout::kSeparate, LayoutSource::kFile, "it is a VR photo with an embedded right eye"};
-  if (names_eye(path)) return {Layout::kSeparate, LayoutSource::kPair, "its name stands for two files"};
-  if (known.one_eye) return {std::nullopt, LayoutSource::kCaller, "as asked"};
-  if (known.layout) return {known.layout, LayoutSource::kCaller, "as asked"};
-  if (sidecar && !declared_layout(info)) {
-    const bool is_one = sidecar->eyes.size() == 1;
-    return {is_one ? std::nullopt : std::optional(sidecar->layout), LayoutSource::kSidecar, "its sidecar says so"};
+namespace {
+
+// All that the sources of a format are asked for.
+struct Evidence {
+  const FileInfo& info;
+  const std::string& path;
+  const FormatHint& known;
+  std::optional<Sidecar> sidecar;
+  bool is_photo = false;
+  NameWords words{};
+  std::optional<StereoCamera> camera{};  // as specified by one of them
+};
+
+}  // namespace
+
+// The first answer, in order of precedence.
+template <typename Answer>
+static auto first_answer(const Answer& answer) -> decltype(answer(FormatSource())) {
+  for (const FormatSourceRow& row : kFormatSourceTable) {
+    if (auto found = answer(row.member)) return found;
   }
-  const LayoutGuess guess = guess_layout(info, path, known.projection);
-  if (known.seen && guess.source > LayoutSource::kPixels) {
-    return {known.seen->layout, LayoutSource::kPixels, known.seen->reason};
+  return {};
+}
+
+// From the descriptor of a JPS.
+static std::optional<LayoutGuess> layout_in_descriptor(const FileInfo& info) {
+  const auto said = info.text.find(kStereoLayout);
+  if (said == info.text.end()) return std::nullopt;
+  return LayoutGuess{layout_of(said->second), FormatSource::kOtherMetadata, "its JPS descriptor says so"};
+}
+
+static bool is_cross_eyed_by_custom(const std::string& path) {
+  const std::string extension = small_letters(std::filesystem::path(path).extension().native());
+  return extension == ".jps" || extension == ".pns";
+}
+
+static std::optional<LayoutGuess> layout_in(FormatSource source, const Evidence& of) {
+  const Extent file{of.info.width, of.info.height};
+  const auto guess = [&](std::optional<Layout> layout, const std::string& reason) {
+    return LayoutGuess{layout, source, reason};
+  };
+  switch (source) {
+    case FormatSource::kOptions:
+      if (names_eye(of.path)) return guess(Layout::kSeparate, "its name stands for two files");
+      if (of.known.one_eye) return guess({}, "as asked");
+      return of.known.layout ? std::optional(guess(of.known.layout, "as asked")) : std::nullopt;
+    case FormatSource::kOwnMetadata:
+      if (of.is_photo && of.info.is_pair) return guess(Layout::kSeparate, "its stereo pair has both eyes");
+      if (of.is_photo) return guess(Layout::kSeparate, "it is a VR photo with an embedded right eye");
+      return declared_layout(of.info);
+    case FormatSource::kSidecar:
+      if (!of.sidecar) return std::nullopt;
+      return guess(of.sidecar->eyes.size() == 1 ? std::nullopt : std::optional(of.sidecar->layout),
+                   "its sidecar says so");
+    case FormatSource::kOtherMetadata:
+      if (has_view(of.info, "right") || has_view(of.info, "left")) return guess(Layout::kMultiview, "it has two views");
+      return layout_in_descriptor(of.info);
+    case FormatSource::kName:
+      if (of.words.layout_token.empty() && is_cross_eyed_by_custom(of.path))
+        return guess(Layout::kCrossEyed, "a .jps or .pns is cross-eyed by custom");
+      if (of.words.layout_token.empty()) return std::nullopt;
+      return guess(of.words.layout, fmt::format("its name ends in {}", of.words.layout_token));
+    case FormatSource::kPixels:
+      return of.known.seen ? std::optional(guess(of.known.seen->layout, of.known.seen->reason)) : std::nullopt;
+    case FormatSource::kShape:
+      // GPano has no layout, but the part of the sphere that one eye covers.
+      if (of.camera && has_shape(of.camera->projection, file))
+        return LayoutGuess{{}, FormatSource::kOtherMetadata, "its metadata fits one eye"};
+      if (of.known.projection) return layout_of_shape(file, of.known.projection);
+      return layout_of_shape(file, of.words.projection ? std::optional(of.words.projection->setting) : std::nullopt);
+    case FormatSource::kNothing:
+      return guess({}, "nothing says otherwise");
   }
-  return guess;
+  return std::nullopt;
 }
 
 static int find_eye(const FileInfo& info, const std::optional<Sidecar>& sidecar) {
@@ -221,24 +285,57 @@ static int find_eye(const FileInfo& info, const std::optional<Sidecar>& sidecar)
   return kMono;
 }
 
-static std::optional<StereoCamera> camera_in_file(const FileInfo& info, const std::string& path,
-                                                  const StereoCamera* maps, std::vector<std::string>& warnings) {
-  if (std::optional<StereoCamera> camera = camera_of(info, warnings, maps)) return camera;
-  if (!info.is_float) {
-    const std::string xmp = read_xmp(names_eye(path) ? path_for_eye(path, kLeft) : path);
-    const std::optional<StereoCamera> camera = gpano_camera(xmp);
-    if (camera && xmp_property(xmp, "GPano:ProjectionType").empty()) {
-      warnings.push_back("its GPano gives a crop of the sphere but no projection, as VR180 cameras do: lat-long");
-    }
-    if (!camera && xmp.find("GPano:ProjectionType") != std::string::npos) {
-      warnings.push_back(fmt::format("its GPano says {}; ods supports only lat-long, whole or a part",
-                                     xmp_property(xmp, "GPano:ProjectionType")));
-    }
+// From GPano, which has no eyes.
+static std::optional<StereoCamera> camera_in_xmp(const std::string& path, std::vector<std::string>& warnings) {
+  const std::string xmp = read_xmp(names_eye(path) ? path_for_eye(path, kLeft) : path);
+  const std::optional<StereoCamera> camera = gpano_camera(xmp);
+  if (camera && xmp_property(xmp, "GPano:ProjectionType").empty()) {
+    warnings.push_back("its GPano gives a crop of the sphere but no projection, as VR180 cameras do: lat-long");
+  }
+  if (!camera && xmp.find("GPano:ProjectionType") != std::string::npos) {
+    warnings.push_back(fmt::format("its GPano says {}; ods supports only lat-long, whole or a part",
+                                   xmp_property(xmp, "GPano:ProjectionType")));
+  }
+  return camera;
+}
+
+// A square eye of a VR photo whose GPano has no crop is VR180, because no other camera writes such photos.
+static std::optional<StereoCamera> camera_in_metadata(const Evidence& of, std::vector<std::string>& guesses) {
+  if (of.info.is_float) {
+    const auto envmap = of.info.text.find("textureformat");
+    const bool is_lat_long = envmap != of.info.text.end() && envmap->second == "LatLong Environment";
+    return is_lat_long ? std::optional(StereoCamera()) : std::nullopt;
+  }
+  if (std::optional<StereoCamera> camera = camera_in_xmp(of.path, guesses)) return camera;
+  StereoCamera camera;
+  if (of.info.is_pair && of.words.projection == nullptr) {
+    const auto fov = of.info.numbers.find("heif:fov");
+    const std::optional<float> said = fov != of.info.numbers.end() ? std::optional(fov->second[0]) : std::nullopt;
+    camera.projection = phone_window(said, {of.info.width, of.info.height}, guesses);
     return camera;
   }
-  const auto envmap = info.text.find("textureformat");
-  if (envmap != info.text.end() && envmap->second == "LatLong Environment") return StereoCamera();
-  return std::nullopt;
+  if (!of.is_photo || of.info.width != of.info.height) return std::nullopt;
+  camera.projection = find_projection("vr180")->setting;
+  read_gpano_pose(read_xmp(of.path), camera);
+  guesses.push_back("vr180: it is a VR photo with square eyes");
+  return camera;
+}
+
+// Maps that the file mentions but does not contain come from the sidecar.
+static std::optional<StereoCamera> camera_in(FormatSource source, const Evidence& of,
+                                             std::vector<std::string>& guesses) {
+  switch (source) {
+    case FormatSource::kOptions:
+      return of.known.camera;
+    case FormatSource::kOwnMetadata:
+      return camera_of(of.info, guesses, of.sidecar ? &of.sidecar->camera : nullptr);
+    case FormatSource::kSidecar:
+      return of.sidecar ? std::optional(of.sidecar->camera) : std::nullopt;
+    case FormatSource::kOtherMetadata:
+      return camera_in_metadata(of, guesses);
+    default:
+      return std::nullopt;
+  }
 }
 
 static const NamedProjection* projection_of_shape(Extent eye) {
@@ -248,69 +345,56 @@ static const NamedProjection* projection_of_shape(Extent eye) {
   return nullptr;
 }
 
-// From the name, else from the pixels, else from the aspect ratio of an eye before squeezing.
-static ProjectionSetting guess_projection(Extent eye, const std::string& path, const FormatHint& known,
-                                          std::vector<std::string>& guesses) {
-  const NameWords words = read_name(path);
-  const auto guess = [&](const NamedProjection& named, const std::string& reason) {
-    guesses.push_back(fmt::format("{}: {}", named.name, reason));
-    return named.setting;
-  };
-  if (words.projection) return guess(*words.projection, fmt::format("its name ends in {}", words.projection_token));
-  if (known.seen) {
-    guesses.push_back(fmt::format("{}: its pixels look like it", projection_name(known.seen->projection)));
-    return known.seen->projection;
+namespace {
+
+struct ProjectionGuess {
+  ProjectionSetting setting;
+  std::string reason;
+};
+
+}  // namespace
+
+// eye: its size before squeezing.
+static std::optional<ProjectionGuess> projection_in(FormatSource source, const Evidence& of, Extent eye) {
+  switch (source) {
+    case FormatSource::kName:
+      if (of.words.projection == nullptr) return std::nullopt;
+      return ProjectionGuess{of.words.projection->setting,
+                             fmt::format("its name ends in {}", of.words.projection_token)};
+    case FormatSource::kPixels:
+      if (!of.known.seen) return std::nullopt;
+      return ProjectionGuess{of.known.seen->projection, "its pixels look like it"};
+    case FormatSource::kShape:
+      if (const NamedProjection* shape = projection_of_shape(eye))
+        return ProjectionGuess{shape->setting, "an eye has that shape"};
+      return std::nullopt;
+    case FormatSource::kNothing:
+      return ProjectionGuess{find_projection("lat-long")->setting, "nothing says otherwise"};
+    default:
+      return std::nullopt;
   }
-  if (const NamedProjection* shape = projection_of_shape(eye)) return guess(*shape, "an eye has that shape");
-  return guess(*find_projection("lat-long"), "nothing says otherwise");
 }
 
-// The file's own metadata takes precedence over its sidecar, which may be older. Maps that the file mentions but does
-// not contain come from the sidecar.
-static std::optional<StereoCamera> find_stated_camera(const FileInfo& info, const std::string& path,
-                                                      const FormatHint& known, const std::optional<Sidecar>& sidecar,
-                                                      std::vector<std::string>& guesses) {
-  if (known.camera) return known.camera;
-  if (sidecar && !info.text.contains("ods:projection")) return sidecar->camera;
-  const StereoCamera* maps = sidecar ? &sidecar->camera : nullptr;
-  if (std::optional<StereoCamera> own = camera_in_file(info, path, maps, guesses)) return own;
-  return sidecar ? std::optional(sidecar->camera) : std::nullopt;
-}
-
-static StereoCamera camera_of_pair(const FileInfo& info, std::vector<std::string>& guesses) {
-  const auto said = info.numbers.find("heif:fov");
-  std::optional<float> fov;
-  if (said != info.numbers.end()) fov = said->second[0];
-  StereoCamera camera;
-  camera.projection = phone_window(fov, {info.width, info.height}, guesses);
-  return camera;
-}
-
-// A square eye of a VR photo whose GPano has no crop is VR180, because no other camera writes such photos.
-static std::optional<StereoCamera> find_camera(const FileInfo& info, const std::string& path, const FormatHint& known,
-                                               const std::optional<Sidecar>& sidecar, StereoFormat& format) {
-  std::optional<StereoCamera> camera = find_stated_camera(info, path, known, sidecar, format.guesses);
-  if (!camera && info.is_pair) return camera_of_pair(info, format.guesses);
-  if (camera || !format.is_photo || info.width != info.height) return camera;
-  camera.emplace().projection = find_projection("vr180")->setting;
-  read_gpano_pose(read_xmp(path), *camera);
-  format.guesses.push_back("vr180: it is a VR photo with square eyes");
-  return camera;
+// Sets the camera's projection if no camera is known.
+static void guess_projection(const Evidence& of, StereoFormat& format) {
+  const Layout layout = format.layout.layout.value_or(Layout::kSeparate);
+  const Extent eye =
+      whole_eye(layout, without_middle(layout, Extent{of.info.width, of.info.height})).value_or(Extent{1, 1});
+  const ProjectionGuess guess = *first_answer([&](FormatSource source) { return projection_in(source, of, eye); });
+  format.camera.projection = guess.setting;
+  format.guesses.push_back(fmt::format("{}: {}", projection_name(guess.setting), guess.reason));
+  format.is_open = of.words.projection == nullptr && !of.known.seen &&
+                   (format.layout.source >= FormatSource::kShape || projection_of_shape(eye) == nullptr);
 }
 
 StereoFormat find_format(const FileInfo& info, const std::string& path, const FormatHint& known) {
   StereoFormat format;
-  const std::optional<Sidecar> sidecar = find_sidecar(info, path, known, format.guesses);
-  format.is_photo = is_taken_as_photo(info, path, known);
-  format.layout = find_layout(info, path, known, sidecar, format.is_photo);
-  const std::optional<StereoCamera> camera = find_camera(info, path, known, sidecar, format);
-  format.has_camera = camera.has_value();
-  // GPano has no layout, but the part of the sphere that one eye covers: if the file has its aspect ratio, there is
-  // only one eye.
-  if (camera && format.layout.source >= LayoutSource::kShape &&
-      has_shape(camera->projection, {info.width, info.height}))
-    format.layout = {{}, LayoutSource::kFile, "its metadata fits one eye"};
-  format.eye = find_eye(info, sidecar);
+  Evidence of{info, path, known, find_sidecar(info, path, known, format.guesses)};
+  of.is_photo = format.is_photo = is_taken_as_photo(info, path, known);
+  of.words = read_name(path);
+  of.camera = first_answer([&](FormatSource source) { return camera_in(source, of, format.guesses); });
+  format.layout = *first_answer([&](FormatSource source) { return layout_in(source, of); });
+  format.eye = find_eye(info, of.sidecar);
   const Layout layout = format.layout.layout.value_or(Layout::kSeparate);
   if (is_anaglyph(layout)) {
     throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': the eyes of an anaglyph cannot be separated", path));
@@ -318,20 +402,20 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
   if (info.text.contains("ods:layout") && !declared_layout(info)) {
     format.guesses.push_back("its ods:layout is invalid: ignored");
   }
+  if (const auto fault = info.text.find(kStereoFault); fault != info.text.end()) {
+    format.guesses.push_back(fault->second);
+  }
   if (is_guess(format.layout)) {
     const std::string_view name = format.layout.layout ? layout_name(layout) : "one eye";
     format.guesses.push_back(fmt::format("{}: {}", name, format.layout.reason));
   }
-  format.has_ipd = camera && (known.camera || sidecar || info.numbers.contains("ods:ipd"));
-  if (camera) format.camera = *camera;
+  format.has_camera = of.camera.has_value();
+  format.has_ipd = of.camera && (known.camera || of.sidecar || info.numbers.contains("ods:ipd"));
+  if (of.camera) format.camera = *of.camera;
   if (known.projection) {
     format.camera.projection = *known.projection;
-  } else if (!camera) {
-    const Extent eye =
-        whole_eye(layout, without_middle(layout, Extent{info.width, info.height})).value_or(Extent{1, 1});
-    format.camera.projection = guess_projection(eye, path, known, format.guesses);
-    format.is_open = read_name(path).projection == nullptr && !known.seen &&
-                     (format.layout.source >= LayoutSource::kShape || projection_of_shape(eye) == nullptr);
+  } else if (!of.camera) {
+    guess_projection(of, format);
   }
   return format;
 }

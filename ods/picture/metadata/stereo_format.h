@@ -15,6 +15,7 @@
 #include "ods/camera/layout.h"
 #include "ods/camera/stereo_camera.h"
 #include "ods/image/image_file.h"
+#include "ods/picture/metadata/format_source.h"
 
 namespace ods {
 
@@ -37,21 +38,13 @@ std::string name_end(const ProjectionSetting& projection, Layout layout);
 // The same path with these suffixes instead of its own format suffixes: a_180.mp4 becomes a_360_TB.mp4.
 std::string renamed(const std::string& path, const std::string& words);
 
-// The source of the layout; those after kFile are guesses.
-enum class LayoutSource { kPair, kCaller, kSidecar, kFile, kName, kPixels, kShape, kNothing };
-
 struct LayoutGuess {
   std::optional<Layout> layout;  // not set if the file contains one eye
-  LayoutSource source = LayoutSource::kNothing;
+  FormatSource source = FormatSource::kNothing;
   std::string reason;  // for messages: "its name ends in _TB"
 };
+// Returns whether no option and no metadata specifies it.
 bool is_guess(const LayoutGuess& guess);
-
-// Guesses the layout from the file's metadata (ods:layout, or the channels of two views), else its name, else its
-// aspect ratio: one eye, two stacked or two side by side, in whole-sphere lat-long, cube-6x1 or cube-1x6, or in the
-// projection of its name. `projection`: set if it is known.
-LayoutGuess guess_layout(const FileInfo& info, const std::string& path,
-                         const std::optional<ProjectionSetting>& projection = {});
 
 // The format derived from a picture's pixels.
 struct SeenFormat {

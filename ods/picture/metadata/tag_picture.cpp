@@ -13,6 +13,7 @@
 #include "ods/image/format/exr_header.h"
 #include "ods/image/format/jpeg_segments.h"
 #include "ods/image/format/png_chunks.h"
+#include "ods/image/format/stereo_jpeg.h"
 #include "ods/image/format/tiff_directory.h"
 #include "ods/image/format/xmp_file.h"
 #include "ods/image/orientation.h"
@@ -67,6 +68,7 @@ FileInfo read_picture_header(const std::string& path) {
     info.width = size.width;
     info.height = size.height;
     info.channels = {"R", "G", "B"};
+    if (format == FileFormat::kJpeg) add_stereo(info, read_stereo_jpeg(file));
   }
   if (info.width < 1 || info.height < 1) throw unusable(path, "it has no pixels");
   return info;

@@ -208,9 +208,9 @@ static MetadataConflict projection_conflict(const SphericalMetadata& said, const
 static void compare_with_names(const SphericalMetadata& known, const SphericalMetadata& said, const StereoFormat& found,
                                const std::string& path, std::vector<MetadataConflict>& conflicts) {
   const NameWords words = read_name(path);
-  const bool has_sidecar = found.layout.source == LayoutSource::kSidecar;
+  const bool has_sidecar = found.layout.source == FormatSource::kSidecar;
   const bool is_custom = said.stereo == VideoStereo::kCustom || said.stereo == VideoStereo::kOther;
-  if (!known.stereo && !is_custom && (has_sidecar || found.layout.source == LayoutSource::kName)) {
+  if (!known.stereo && !is_custom && (has_sidecar || found.layout.source == FormatSource::kName)) {
     const std::optional<VideoStereo> other = stereo_of(found.layout.layout);
     if (other && *other != said.stereo) conflicts.push_back(layout_conflict(said, *other, found.layout.reason));
   }

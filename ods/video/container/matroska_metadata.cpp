@@ -24,9 +24,23 @@ struct StereoWord {
 };
 
 }  // namespace
-constexpr StereoWord kStereoWords[] = {{VideoStereo::kOneView, 0},    {VideoStereo::kSideBySide, 1},
-                                       {VideoStereo::kBottomTop, 2},  {VideoStereo::kTopBottom, 3},
-                                       {VideoStereo::kRightLeft, 11}, {VideoStereo::kCustom, 15}};
+// RFC 9559, "StereoMode". Of two modes for the same (anaglyphs, laced eyes), the first one is written.
+constexpr StereoWord kStereoWords[] = {{VideoStereo::kOneView, 0},
+                                       {VideoStereo::kSideBySide, 1},
+                                       {VideoStereo::kBottomTop, 2},
+                                       {VideoStereo::kTopBottom, 3},
+                                       {VideoStereo::kCheckerboardRightFirst, 4},
+                                       {VideoStereo::kCheckerboard, 5},
+                                       {VideoStereo::kRowsRightFirst, 6},
+                                       {VideoStereo::kRows, 7},
+                                       {VideoStereo::kColumnsRightFirst, 8},
+                                       {VideoStereo::kColumns, 9},
+                                       {VideoStereo::kAnaglyph, 10},
+                                       {VideoStereo::kRightLeft, 11},
+                                       {VideoStereo::kAnaglyph, 12},
+                                       {VideoStereo::kLaced, 13},
+                                       {VideoStereo::kLaced, 14},
+                                       {VideoStereo::kCustom, 15}};
 
 static VideoStereo stereo_of(uint64_t mode) {
   for (const StereoWord& word : kStereoWords) {
@@ -140,9 +154,9 @@ void tag_video(Element& video, const std::optional<SphericalMetadata>& metadata)
     fit_display(video, share_of(old), share_of(metadata));
     std::erase_if(video.children, [](const Element& e) { return e.id == kStereoMode; });
     for (const StereoWord& word : kStereoWords) {
-      if (metadata && word.stereo == metadata->stereo.value_or(VideoStereo::kOneView)) {
-        video.children.push_back(number_element(kStereoMode, word.mode));
-      }
+      if (!metadata || word.stereo != metadata->stereo.value_or(VideoStereo::kOneView)) continue;
+      video.children.push_back(number_element(kStereoMode, word.mode));
+      break;
     }
   }
   if (metadata && !keeps_projection && metadata->projection && metadata->projection != VideoProjection::kFlat) {

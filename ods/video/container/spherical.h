@@ -24,7 +24,16 @@ enum class VideoStereo {
   kCustom,      // as defined by the mesh
   kRightLeft,   // the right eye on the left
   kBottomTop,   // the right eye on top: only Matroska supports it
-  kOther,       // Matroska's other modes: interleaved, anaglyph
+  // Only Matroska and the streams themselves (frame packing) have these; each with the left eye first, then the right.
+  kRows,
+  kRowsRightFirst,
+  kColumns,
+  kColumnsRightFirst,
+  kCheckerboard,
+  kCheckerboardRightFirst,
+  kAnaglyph,
+  kLaced,  // the eyes alternate in time
+  kOther,
 };
 struct VideoStereoRow {
   VideoStereo member;
@@ -38,6 +47,14 @@ inline constexpr VideoStereoRow kVideoStereoTable[] = {
     {VideoStereo::kCustom, "stereo of a mesh", {EyePacking::kMixed}},
     {VideoStereo::kRightLeft, "cross-eyed", {EyePacking::kBeside, true}},
     {VideoStereo::kBottomTop, "bottom-top", {EyePacking::kStacked, true}},
+    {VideoStereo::kRows, "row-interleaved", {EyePacking::kRows}},
+    {VideoStereo::kRowsRightFirst, "row-interleaved, right eye first", {EyePacking::kRows, true}},
+    {VideoStereo::kColumns, "column-interleaved", {EyePacking::kColumns}},
+    {VideoStereo::kColumnsRightFirst, "column-interleaved, right eye first", {EyePacking::kColumns, true}},
+    {VideoStereo::kCheckerboard, "checkerboard", {EyePacking::kCheckerboard}},
+    {VideoStereo::kCheckerboardRightFirst, "checkerboard, right eye first", {EyePacking::kCheckerboard, true}},
+    {VideoStereo::kAnaglyph, "an anaglyph", {EyePacking::kMixed}},
+    {VideoStereo::kLaced, "eyes that alternate in the stream", {EyePacking::kMixed}},
     {VideoStereo::kOther, "stereo of an unusual kind", {EyePacking::kMixed}},
 };
 static_assert(has_every_member(kVideoStereoTable));

@@ -23,6 +23,7 @@
 #include "tests/support/heif_boxes.h"
 #include "tests/support/mesh_writer.h"
 #include "tests/support/programs.h"
+#include "tests/support/stereo_jpegs.h"
 #include "tests/support/worlds.h"
 
 namespace ods::foreign_files_test {
@@ -259,6 +260,31 @@ void make_spatial_photo(const TemporaryFolder& folder, const std::string& name) 
                                made::box("cmin", camera)));
 }
 
+void make_mpo(const TemporaryFolder& folder, const std::string& name) {
+  const auto seen = [&](int eye) { return jpeg_of(folder, view(phone_window(), eye, {640, 480})); };
+  folder.write(name, made::mpo(seen(kLeft), seen(kRight)));
+}
+
+void make_jps(const TemporaryFolder& folder, const std::string& name) {
+  const auto seen = [&](int eye) { return view(phone_window(), eye, {640, 480}); };
+  folder.write(name, made::jps(jpeg_of(folder, beside(seen(kRight), seen(kLeft))), 0, 2));
+}
+
+// Rows of both eyes in turn, and Matroska's metadata about them.
+void make_rows(const TemporaryFolder& folder, const std::string& name) {
+  const Extent size{1024, 512};
+  Image both(size.width, 2 * size.height, 3);
+  for (const int eye : {kLeft, kRight}) {
+    const Image one = view(named("lat-long"), eye, size);
+    for (int y = 0; y < size.height; y++) std::copy_n(one.at(0, y), 3 * size.width, both.at(0, 2 * y + eye));
+  }
+  const std::string plain = folder.path("plain.mkv");
+  write_film(plain, both);
+  SphericalMetadata metadata;
+  metadata.stereo = VideoStereo::kRows, metadata.projection = VideoProjection::kEquirect;
+  tag_video(plain, folder.path(name), read_video_file(plain).tracks.at(0).id, metadata);
+}
+
 std::vector<Row> photo_rows() {
   const auto lat_long = [] { return view(named("lat-long"), kMono, {1024, 512}); };
   return {
@@ -271,6 +297,8 @@ std::vector<Row> photo_rows() {
        "",
        true},
       {"spatial photo", "ods convert spatial.heic -o window_LR.jpg", make_spatial_photo, {"perspective"}, "", true},
+      {"MPO", "ods convert trip.mpo -o trip_LR.jpg", make_mpo, {"perspective"}, ""},
+      {"JPS", "ods convert cross.jps -o cross_LR.jpg", make_jps, {"perspective"}, ""},
       {"photo stored turned", "ods convert held_360.jpg -o upright_360.jpg", make_turned_photo, {"lat-long", 1}, ""},
       {"360 in black bars",
        "ods convert sent.jpg -o world_360.jpg",
@@ -291,6 +319,7 @@ std::vector<Row> film_rows() {
       {"VR180 video with a mesh", "ods convert mirage.mp4 -o talk_180_LR.mp4", make_mesh_film, {"vr180"}, ""},
       {"pair of fisheyes", "ods convert canon.mov -o talk_180_LR.mp4", make_cut_circles, {"vr180"}, ""},
       {"fisheyes ahead", "ods convert gear360.mp4 -o world_360.mp4", make_two_lenses, {"lat-long", 1}, ""},
+      {"video of interleaved rows", "ods convert rows.mkv -o world_360_TB.mp4", make_rows, {"lat-long"}, ""},
       {"VR180 squeezed",
        "ods convert squeezed.mp4 -o talk_180_LR.mp4",
        film([=] { return of_height(vr180(), 720); }),

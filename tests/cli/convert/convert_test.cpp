@@ -191,6 +191,37 @@ TEST_F(ConvertCommand, NamesTellTheLayoutAndAreNotMisleading) {
   EXPECT_EQ(err.find("warning: "), std::string::npos) << err;
 }
 
+// Fisheyes and cubes in a file that calls itself 180 or 360 would mislead players; a window stays a window.
+TEST_F(ConvertCommand, NamesTellTheProjection) {
+  const std::string room = make("room.png");
+  ASSERT_EQ(convert(room, "lenses.png", "--to-projection fisheye --to-layout side-by-side"), 0) << err;
+  const std::string known = "--layout side-by-side --projection fisheye";
+  ASSERT_EQ(convert(folder.path("lenses.png"), "x_180_LR.png", known), 0) << err;
+  EXPECT_EQ(err.find("warning: "), std::string::npos) << err;
+  EXPECT_EQ(ods::read_info(folder.path("x_180_LR.png")).width, 2 * ods::read_info(folder.path("x_180_LR.png")).height);
+  ASSERT_EQ(convert(folder.path("lenses.png"), "x_180_RL.png", known + " --to fisheye"), 0) << err;
+  EXPECT_NE(err.find("warning: "), std::string::npos) << err;
+  ASSERT_EQ(convert(room, "window.png", "--mono --to perspective"), 0) << err;
+  ASSERT_EQ(convert(folder.path("window.png"), "window_360.png", "--layout mono --projection perspective"), 0) << err;
+  EXPECT_NE(err.find("warning: "), std::string::npos) << err;
+}
+
+// The circle of a wider lens shows the same directions closer to its middle.
+TEST_F(ConvertCommand, TheAngleOfALensComesFromOptionsOrName) {
+  const std::string room = make("room.png");
+  ASSERT_EQ(convert(room, "a_FISHEYE190_LR.png", "--to fisheye --fov 190 --to-layout side-by-side"), 0) << err;
+  std::filesystem::copy_file(folder.path("a_FISHEYE190_LR.png"), folder.path("b_LR.png"));
+  const auto front = [&](const std::string& name, const std::string& words) {
+    EXPECT_EQ(convert(folder.path(name), "front.png", "-q --mono --to vr180 --width 64 " + words), 0) << err;
+    return ods::read_image(folder.path("front.png")).pixels;
+  };
+  const std::vector<float> named = front("a_FISHEYE190_LR.png", "");
+  EXPECT_EQ(front("b_LR.png", "--projection fisheye --input-fov 190"), named);
+  EXPECT_NE(front("b_LR.png", "--projection fisheye"), named);
+  EXPECT_EQ(convert(folder.path("b_LR.png"), "no.png", "--projection lat-long --input-fov 190"), 2);
+  EXPECT_NE(err.find("--input-fov is for"), std::string::npos) << err;
+}
+
 TEST_F(ConvertCommand, OverwritesNothingItReads) {
   const std::string room = make("room.png"), before = folder.read("room.png");
   EXPECT_EQ(convert(room, "room.png", "--mono"), 2);

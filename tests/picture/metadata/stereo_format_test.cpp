@@ -333,11 +333,10 @@ TEST(GuessLayout, WhatIsNoLayoutIsLeftAside) {
   info.width = info.height = 64;
   info.is_float = true;
   info.text["ods:layout"] = "up-down";
-  const LayoutGuess guess = guess_layout(info, "a_LR.png");
-  EXPECT_EQ(guess.layout, Layout::kSideBySide);
-  EXPECT_EQ(guess.source, LayoutSource::kName);
-  EXPECT_TRUE(is_guess(guess));
   const StereoFormat format = find_format(info, "a_LR.png", {});
+  EXPECT_EQ(format.layout.layout, Layout::kSideBySide);
+  EXPECT_EQ(format.layout.source, FormatSource::kName);
+  EXPECT_TRUE(is_guess(format.layout));
   EXPECT_NE(format.guesses[0].find("ods:layout is invalid"), std::string::npos) << format.guesses[0];
 }
 

@@ -8,14 +8,17 @@
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tiffio.h>
 
 #include <algorithm>
 #include <cstring>
 
+#include "ods/base/bytes.h"
 #include "ods/base/error.h"
 #include "ods/image/format/exr_header.h"
+#include "ods/image/format/jpeg_segments.h"
 #include "ods/image/format/png_chunks.h"
 #include "ods/image/format/xmp_file.h"
 #include "ods/picture/metadata/metadata.h"
@@ -361,6 +364,53 @@ TEST(TagPicture, AnExrThatWasNeverFinishedIsRefused) {
 }
 
 // --- what is refused -------------------------------------------------------------------------------------------------
+
+// ImageMagick keeps the XMP of a JPEG as hexadecimal text, compressed if it is long.
+TEST(Xmp, OfImageMagicksPngIsRead) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path("a.png");
+  save_picture(gradient({kMono}), {}, path);
+  const std::string packet =
+      make_xmp({{"GPano:ProjectionType", std::string("equirectangular")}, {"GPano:PoseHeadingDegrees", 45.0f}});
+  std::string digits;
+  for (const unsigned char c : packet) digits += fmt::format("{:02x}", c);
+  for (size_t at = 72; at < digits.size(); at += 73) digits.insert(at, "\n");
+  const std::string plain = read_bytes(path), text = fmt::format("\nxmp\n{:8}\n{}\n", packet.size(), digits);
+  const auto with = [&](const char* type, const std::string& data) {
+    std::string file = plain;
+    folder.write("a.png",
+                 file.insert(kPngAfterHeader, png_chunk(type, std::string("Raw profile type xmp\0", 21) + data)));
+    return read_xmp(path);
+  };
+  EXPECT_EQ(with("tEXt", text), packet);
+  EXPECT_EQ(with("tEXt", "\nxmp\n  4\nzz"), "") << "no digits";
+  EXPECT_EQ(with("tEXt", "xmp"), "");
+  EXPECT_EQ(with("zTXt", std::string("\0no zlib", 8)), "");
+  // An uncompressed block of zlib: two bytes of header, five of the block, the text, the sum.
+  if (text.size() > 65535) return;
+  uint32_t a = 1, b = 0;
+  for (const unsigned char c : text) a = (a + c) % 65521, b = (b + a) % 65521;
+  std::string zip = std::string("\x78\x01\x01", 3);
+  for (const size_t size : {text.size(), ~text.size()})
+    zip += static_cast<char>(size & 0xff), zip += static_cast<char>(size >> 8 & 0xff);
+  zip += text;
+  append_number(zip, b << 16 | a, 4);
+  EXPECT_EQ(with("zTXt", std::string(1, '\0') + zip), packet);
+}
+
+TEST(Xmp, MayHaveAnyPrefix) {
+  const TemporaryFolder folder;
+  folder.write("a.jpg", "\xff\xd8" +
+                            jpeg_segment(kJpegApp1, std::string(kJpegXmp) +
+                                                        "<x:xmpmeta><rdf:Description "
+                                                        "xmlns:p='http://ns.google.com/photos/1.0/panorama/' "
+                                                        "p:ProjectionType='equirectangular' p:PoseHeadingDegrees='45' "
+                                                        "xmlns:other='o' other:map:p='1'/></x:xmpmeta>") +
+                            jpeg_segment(0xDA, "pixels"));
+  const std::optional<StereoCamera> camera = gpano_camera(read_xmp(folder.path("a.jpg")));
+  ASSERT_TRUE(camera);
+  EXPECT_EQ(camera->yaw, 45.0f);
+}
 
 TEST(TagPicture, GpanoIsForOneEyeAndWholeOrPartialLatLong) {
   const TemporaryFolder folder;

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "ods/base/error.h"
 #include "tests/support/made_videos.h"
 #include "tests/support/temporary_folder.h"
@@ -168,6 +170,19 @@ TEST_F(MatroskaVideo, EveryFormItKnowsComesBack) {
       EXPECT_EQ(read(tag(made::matroska({}), metadata)).v2, metadata) << metadata_text(metadata);
     }
   }
+}
+
+TEST_F(MatroskaVideo, EveryStereoModeHasAMeaning) {
+  std::set<VideoStereo> seen;
+  for (uint64_t mode = 0; mode <= 15; mode++) {
+    made::MatroskaOptions options;
+    options.video = made::element(0x53b8, made::number(mode, 1));
+    const std::optional<SphericalMetadata> said = read(made::matroska(options)).v2;
+    ASSERT_TRUE(said && said->stereo) << mode;
+    EXPECT_NE(said->stereo, VideoStereo::kOther) << mode;
+    seen.insert(*said->stereo);
+  }
+  EXPECT_EQ(seen.size(), 14u) << "two modes each for anaglyphs and for laced eyes";
 }
 
 TEST_F(MatroskaVideo, AV1InTheTagsIsReadAndTakenOut) {

@@ -376,6 +376,20 @@ TEST_F(Mp4Video, CutShortAnywhereIsAnErrorAndNothingElse) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"bad.mp4"});
 }
 
+// Cameras of Insta360 end their files with data that are no box.
+TEST_F(Mp4Video, BytesAfterTheLastBoxStay) {
+  for (const std::string& trailer : {std::string("\0\1\2\3\4\5\6\7rest", 12), std::string("short"),
+                                     std::string("\xff\xff\xff\xff") + "8db42d694ccc418790edff439fe026bf"}) {
+    for (const bool first : {true, false}) {
+      made::Mp4Options options;
+      options.header_first = first;
+      const std::string tagged = tag(made::mp4(options) + trailer, stacked());
+      EXPECT_TRUE(tagged.ends_with(trailer));
+      EXPECT_EQ(read(tagged).v2, stacked());
+    }
+  }
+}
+
 // An error or a video, but no crash and no half a file.
 TEST_F(Mp4Video, AnyByteMayBeWrong) {
   const std::string videos[] = {made::mp4({}), made::fragmented_mp4(true)};

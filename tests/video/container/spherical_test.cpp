@@ -50,7 +50,8 @@ TEST(VideoStereo, HasTheArrangementsOfLayouts) {
     }
   }
   EXPECT_EQ(stereo_with(arrangement_of(Layout::kTopBottomHalf)), VideoStereo::kTopBottom);
-  EXPECT_EQ(stereo_with(arrangement_of(Layout::kRowInterleaved)), std::nullopt);
+  EXPECT_EQ(stereo_with(arrangement_of(Layout::kRowInterleaved)), VideoStereo::kRows);
+  EXPECT_EQ(stereo_with(arrangement_of(Layout::kAnaglyph)), std::nullopt);
 }
 
 TEST(Spherical, V2IsTheBytesOfItsSpecification) {

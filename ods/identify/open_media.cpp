@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/identify/open_media.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "ods/base/error.h"
+#include "ods/files/private_folder.h"
+#include "ods/files/scratch.h"
+#include "ods/identify/lenses.h"
+#include "ods/video/container/complete_metadata.h"
+#include "ods/video/footage.h"
+#include "ods/video/make_video.h"
+
+namespace ods {
+
+// --- the pixels ------------------------------------------------------------------------------------------------------
+
+namespace {
+
+// Frames of a video, each as one picture with one eye: the first one, and a few more because videos start with dark
+// frames.
+class SomeFrames {
+ public:
+  SomeFrames(const std::string& path, uint64_t track) : decoder_(path, track) {
+    video_.prototype.size = decoder_.stream().size;
+    video_.prototype.eyes.resize(1);
+  }
+
+  // Of the eyes, as the stream says; known after next().
+  std::optional<VideoStereo> packing() const { return packing_; }
+
+  std::optional<StoredPicture> next() {
+    constexpr int kStep = 20, kMaxFrames = 4;
+    if (count_ == kMaxFrames) return std::nullopt;
+    for (int skipped = count_++ == 0 ? kStep - 1 : 0; skipped < kStep - 1; skipped++) {
+      if (!decoder_.next()) return std::nullopt;
+    }
+    const std::optional<DecodedFrame> frame = decoder_.next();
+    if (!frame) return std::nullopt;
+    packing_ = frame->packing;
+    return picture_of(video_, decoder_.stream(), *frame);
+  }
+
+ private:
+  VideoDecoder decoder_;
+  VideoInput video_;
+  std::optional<VideoStereo> packing_;
+  int count_ = 0;
+};
+
+}  // namespace
+
+// Returns whether the pixels contradict the format that the aspect ratio suggests.
+static bool excludes_shape(const Identity& identity, const StereoFormat& format) {
+  constexpr double kExcluded = 0.05;
+  double certainty = 0.0;
+  for (const Reading& reading : identity.readings) {
+    const bool same = reading.layout == format.layout.layout &&
+                      projection_name(reading.projection) == projection_name(format.camera.projection);
+    certainty += same ? reading.certainty : 0.0;
+  }
+  return certainty < kExcluded;
+}
+
+// Adds the certainty of each order of the eyes to the one that players assume.
+static Identity in_order_of_players(Identity identity) {
+  std::vector<Reading>& readings = identity.readings;
+  for (size_t i = 0; i < readings.size(); i++) {
+    if (!readings[i].layout) continue;
+    EyeArrangement eyes = arrangement_of(*readings[i].layout);
+    eyes.right_first = false;
+    readings[i].layout = layout_with(eyes);
+    for (size_t k = 0; k < i; k++) {
+      if (readings[k].layout != readings[i].layout || !(readings[k].projection == readings[i].projection)) continue;
+      readings[k].certainty += std::exchange(readings[i].certainty, 0.0);
+    }
+  }
+  std::stable_sort(readings.begin(), readings.end(),
+                   [](const Reading& a, const Reading& b) { return a.certainty > b.certainty; });
+  return identity;
+}
+
+// --- pictures --------------------------------------------------------------------------------------------------------
+
+// `format` was found without the pixels.
+static bool convinces(const Identity& identity, const StereoFormat& format) {
+  const bool has_shape = format.layout.source == FormatSource::kShape;
+  return identity.is_likely() && (!has_shape || identity.is_sure() || excludes_shape(identity, format));
+}
+
+static SeenFormat seen_format(const Identity& identity) {
+  const Reading& best = identity.best();
+  const char* const bars = identity.bars.any() ? ", inside black bars" : "";
+  return {best.layout, best.projection, fmt::format("{}{} ({:.2f})", identity.reason, bars, best.certainty)};
+}
+
+// The pixels of a pair and of two views are not examined: both have the layout in their metadata.
+static void look_at_picture(MediaFile& media, bool left_first) {
+  const StereoFormat& format = media.format;
+  if (names_eye(media.path) || format.layout.layout == Layout::kMultiview) return;
+  const bool may_have_lenses = wants_lenses(media.hint, media.path, format.is_open);
+  if (!may_have_lenses && !format.is_open) return;
+  const StoredPicture whole = media.reader->whole();
+  if (may_have_lenses) media.hint = with_lenses(whole, media.path, media.hint, media.notes);
+  if (!media.hint.lenses.empty() || !format.is_open) return;
+  FormatHint known = media.hint;
+  if (format.layout.source < FormatSource::kPixels) {
+    known.one_eye = !format.layout.layout;
+    known.layout = format.layout.layout;
+  }
+  media.identity = identify(whole, known);
+  if (left_first) media.identity = in_order_of_players(std::move(*media.identity));
+  if (whole.memory) whole.memory->release();
+  if (media.identity->readings.empty()) {
+    media.notes.emplace_back(
+        "taken for what its shape suggests, because its pixels show too little: if it is something else, say which "
+        "with `layout` and `projection`");
+  } else if (const std::string doubt = doubt_text(*media.identity); !doubt.empty()) {
+    media.notes.push_back(doubt);
+  }
+  if (!convinces(*media.identity, format)) return;
+  media.hint.bars = media.identity->bars;
+  media.hint.seen = seen_format(*media.identity);
+}
+
+static void open_picture_media(MediaFile& media, const MediaOptions& options) {
+  OpenOptions open;
+  open.color_only = options.color_only;
+  open.scratch_folder = options.scratch_folder.empty() ? temporary_folder() : options.scratch_folder;
+  media.reader = PictureReader::without_format(media.path, open);
+  const auto find = [&] { return find_format(media.reader->info(), media.path, media.hint); };
+  media.format = find();
+  look_at_picture(media, options.left_first);
+  if (media.hint.seen || !media.hint.lenses.empty()) media.format = find();
+}
+
+// --- videos ----------------------------------------------------------------------------------------------------------
+
+// Returns whether the metadata leaves the format open. V1 metadata of a video that was not stitched only excludes
+// formats.
+static bool may_show_lenses(const VideoTrack& track, const std::string& path) {
+  const std::optional<SphericalMetadata> said = declared_metadata(track);
+  return said ? said->projection == VideoProjection::kOther : is_told_by_shape({}, track, path);
+}
+
+static bool is_open(const MediaFile& media) {
+  SphericalMetadata told;
+  const FormatHint& known = media.hint;
+  if (known.one_eye) told.stereo = VideoStereo::kOneView;
+  if (known.layout) {
+    told.stereo = stereo_with(arrangement_of(*known.layout)).value_or(VideoStereo::kOther);
+  }
+  if (known.projection) told.projection = VideoProjection::kOther;
+  return !media.track.layers && is_told_by_shape(told, media.track, media.path);
+}
+
+static std::optional<Identity> identify_frames(SomeFrames& frames, std::optional<StoredPicture> frame,
+                                               const FormatHint& known) {
+  std::optional<Identity> best;
+  for (; frame; frame = frames.next()) {
+    Identity identity = identify(*frame, known);
+    const bool is_better = !best || best->readings.empty() ||
+                           (!identity.readings.empty() && identity.best().certainty > best->best().certainty);
+    if (is_better) best = std::move(identity);
+    if (best->is_sure()) break;
+  }
+  return best;
+}
+
+// The frame packing of H.264 and HEVC is the video's own metadata, which players of flat videos read.
+static void take_packing(MediaFile& media, VideoStereo packing) {
+  const std::optional<Layout> layout = layout_with(arrangement_of(packing));
+  if (!layout || *layout == Layout::kSeparate) return;
+  media.hint.layout = layout;
+  media.notes.push_back(fmt::format("{}: the frame packing of its stream says so", stereo_name(packing)));
+}
+
+static void look_at_frames(MediaFile& media) {
+  const bool is_known = media.hint.layout || media.hint.one_eye || media.track.layers || declared_metadata(media.track);
+  const bool wants = wants_lenses(media.hint, media.path, may_show_lenses(media.track, media.path));
+  if (is_known && !wants && !is_open(media)) return;
+  try {
+    SomeFrames frames(media.path, media.track.id);
+    std::optional<StoredPicture> first = frames.next();
+    if (!is_known && frames.packing()) take_packing(media, *frames.packing());
+    if (first && wants_lenses(media.hint, media.path, may_show_lenses(media.track, media.path)))
+      media.hint = with_lenses(*first, media.path, media.hint, media.notes);
+    if (media.hint.lenses.empty() && is_open(media))
+      media.identity = identify_frames(frames, std::move(first), media.hint);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;  // frames that cannot be decoded show nothing
+  }
+}
+
+static void open_video_media(MediaFile& media, const MediaOptions& options) {
+  media.video = read_video_file(media.path);
+  media.track = choose_track(*media.video, options.track, media.path);
+  look_at_frames(media);
+  if (!media.identity || media.identity->readings.empty()) return;
+  if (!media.identity->is_sure()) return media.notes.push_back(doubt_text(*media.identity));
+  const Reading& best = media.identity->best();
+  media.notes.push_back(fmt::format("{}: {} ({:.2f})", reading_text(best), media.identity->reason, best.certainty));
+  media.hint.layout = best.layout.value_or(Layout::kSeparate);
+  media.hint.projection = best.projection;
+  media.hint.bars = media.identity->bars;
+}
+
+// --- both ------------------------------------------------------------------------------------------------------------
+
+MediaFile open_media(const std::string& path, const MediaOptions& options) {
+  MediaFile media;
+  media.path = footage_kind(path) == FootageKind::kFrames ? find_frames(path, {}).path(0) : path;
+  media.hint = options.known;
+  const bool is_video = footage_kind(media.path) == FootageKind::kVideo;
+  (is_video ? open_video_media : open_picture_media)(media, options);
+  return media;
+}
+
+void refuse_unlikely(const MediaFile& media) {
+  if (!media.identity || media.identity->is_likely()) return;
+  if (!media.identity->readings.empty()) {
+    throw Error(ErrorKind::kInput,
+                fmt::format("the format of '{}' is ambiguous: it may be {}", media.path, doubt_text(*media.identity)));
+  }
+  if (media.video || media.format.layout.source != FormatSource::kNothing) return;
+  throw Error(ErrorKind::kInput,
+              fmt::format("the format of '{}' is not recorded, and its pixels show too little: specify it with "
+                          "`layout` and `projection`",
+                          media.path));
+}
+
+PictureReader reader_of(MediaFile media) {
+  media.reader->set_format(media.hint);
+  return std::move(*media.reader);
+}
+
+}  // namespace ods

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a JPEG records of two eyes: the second picture of an MPO, and the descriptor of a JPS (or a PNS, whose JPEG form
+// it is). Sources: CIPA DC-007, "Multi-Picture Format"; VRex, "JPS file format".
+#pragma once
+#include <string>
+
+#include "ods/files/file_input.h"
+#include "ods/image/format/file_info.h"
+#include "ods/image/format/png_chunks.h"
+
+namespace ods {
+
+struct StereoJpeg {
+  FileRange right;     // the JPEG of the right eye in the file; size 0 if there is none
+  std::string layout;  // the name of the layout (layout.h) of both eyes in one picture, or mono; empty if unspecified
+  std::string fault;   // for messages; empty if there is none
+};
+
+// An MPO has two eyes if it lists two pictures of the type Disparity; other types are panoramas, previews and gain
+// maps. Throws Error(kInput) like read_jpeg_headers().
+StereoJpeg read_stereo_jpeg(const FileInput& file);
+
+// Adds what it records to the header's data: FileInfo::is_pair, and the text attributes kStereoLayout and kStereoFault.
+void add_stereo(FileInfo& info, const StereoJpeg& stereo);
+inline constexpr const char *kStereoLayout = "stereo:layout", *kStereoFault = "stereo:fault";
+
+}  // namespace ods
