@@ -26,7 +26,7 @@ std::string xml_text(const std::string& text);
 // A string of JSON, YAML and JavaScript, with its double quotes. Precondition: is_quotable().
 std::string json_text(const std::string& text);
 
-// JSON of any content as text; indent: spaces per level, -1: one line. What is not UTF-8 becomes U+FFFD, and control
+// JSON of any content as text; indent: spaces per level, -1: one line. Invalid UTF-8 becomes U+FFFD, and control
 // characters are escaped, also those that JSON allows as they are: people read it in terminals.
 std::string json_document(const nlohmann::ordered_json& json, int indent = -1);
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The settings that a picture, a video or an unfinished one was made with, so that only work with the same settings is
-// continued.
+// resumed.
 #pragma once
 #include <optional>
 #include <string>
@@ -22,7 +22,7 @@ using Settings = std::vector<Setting>;
 // such lines. Names, values and paths are one line each.
 std::string settings_text(const Settings& settings);
 
-// Returns nullopt if the text is not as settings_text() wrote it: cut short, or changed.
+// Returns nullopt if the text differs from what settings_text() wrote: truncated or changed.
 std::optional<Settings> parse_settings(const std::string& text);
 
 // The differences between `then` and `now`, for messages: "samples was 64, now 128; scene 'a.glb' has changed". At most

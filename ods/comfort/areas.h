@@ -12,7 +12,7 @@ namespace ods {
 struct AreaGrid {
   int width, height;
   bool wraps;                   // the last column touches the first
-  std::vector<bool> is_in;      // by pixel: it belongs to an area
+  std::vector<bool> is_in;      // for each pixel: it is in an area
   std::vector<float> nearness;  // 1 / metres
 };
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How much each point of a stereo picture strains the eyes of its viewer, by the picture's depth. verdict.h sums the
+// Measures the strain of the viewer's eyes by each point of a stereo picture with depth. verdict.h sums the
 // points up; docs/comfort.md explains the report.
 //
 // Every pixel of one eye is judged by where that eye shows its point; the other eye shows it as far on the other side.
-// That holds for level viewing circles with pole merges of every kind, convergence and necks. Eyes that a head-tilt map
+// Exact for level viewing circles with pole merges of every kind, convergence and necks. Eyes that a head-tilt map
 // tilts are judged as if they were level.
 #pragma once
 #include <limits>
@@ -30,16 +30,16 @@ struct ComfortOptions {
   float safe_radius = 1.0f;  // metres
 };
 
-// The distance, and, if known, the thing that each pixel of one eye shows.
+// The distance that each pixel of one eye shows, and the thing if it is known.
 struct SeenDepth {
   StereoCamera camera;
   int eye = kLeft;          // kMono: judged as if two eyes saw the same
   Image depth;              // 1 channel, as EyeImage::depth; negative or NaN: unknown
-  std::vector<int> things;  // of each pixel, index in `names`; negative: nothing. Empty: unknown
+  std::vector<int> things;  // index in `names` for each pixel; negative: nothing. Empty: unknown
   std::vector<std::string> names;
 };
 
-// One pixel.
+// The measurements of one pixel.
 struct ComfortPoint {
   bool is_known = false;                                    // in the picture, with a depth or showing empty space
   float solid_angle = 0.0f;                                 // steradians
@@ -74,7 +74,7 @@ WorstStrain worst_strain(const ComfortPoint& point, const EnumArray<Strain, Stra
 struct PointComfort {
   ComfortLevel level = ComfortLevel::kOk;
   double distance = 0.0;              // metres from the circle's centre; infinite if nothing is there
-  double near = 0.0, vertical = 0.0;  // of Strain::kNear and kVertical
+  double near = 0.0, vertical = 0.0;  // values of Strain::kNear and kVertical
 };
 
 // Judges the point that an eye's picture shows at uv, `depth` along its ray.

@@ -24,14 +24,14 @@ struct JudgedPicture {
   ComfortVerdict verdict;
   StereoCamera camera;                   // as recorded or as measured
   std::vector<Image> light;              // the colours of each eye, for heat.h: 3 channels, linear; may be empty
-  std::optional<MeasuredEyes> measured;  // if it has depth, but its metadata do not record how its eyes were placed
+  std::optional<MeasuredEyes> measured;  // set if it has depth, but its metadata lacks the placement of its eyes
   std::string why_matched;               // why it was matched although it has depth; empty: it was not
-  std::vector<std::string> hidden;       // of a scene: things within the viewing circle, which no ray can hit
+  std::vector<std::string> hidden;       // for a scene: things inside the viewing circle, which no ray hits
   std::vector<std::string> notes;        // for messages
   std::vector<std::string> warnings;
 };
 
-// Pictures whose layout and projection their metadata leave open are identified by their pixels. Throws Error(kInput)
+// Identifies the picture by its pixels if the metadata leaves layout or projection open. Throws Error(kInput)
 // as open_media() and refuse_unlikely() do, and if the picture does not show distances; Error(kOutput), Error(kMemory)
 // as Scratch does.
 JudgedPicture judge_picture(const std::string& path, const JudgePictureOptions& options = {});

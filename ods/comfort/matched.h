@@ -13,7 +13,7 @@
 
 namespace ods {
 
-inline constexpr int kMatchedWidth = 1024;  // of the views that are matched: 21 minutes of arc a pixel
+inline constexpr int kMatchedWidth = 1024;  // width of the matched views: 21 minutes of arc per pixel
 
 // Throws Error(kInput) if an eye this wide has too few pixels to be matched. name: the file's name, for messages.
 void check_matchable(const ProjectionSetting& projection, int width, const std::string& name);
@@ -31,7 +31,7 @@ inline constexpr double kMinMatched = 0.02;  // the smallest MatchQuality::share
 
 // The eyes after matching. The vertical misalignment, MatchQuality::apart, is removed before.
 struct MatchedEyes : MatchQuality {
-  std::vector<SeenDepth> seen;  // of the left and the right eye: lat-long; unknown where nothing could be matched
+  std::vector<SeenDepth> seen;  // left and right eye: lat-long; unknown where nothing could be matched
   std::vector<Image> grey;      // the views
 };
 

@@ -14,8 +14,8 @@ namespace ods {
 
 struct MeasuredEyes {
   StereoCamera camera;    // its eye distance, convergence and pole merge as measured; without a merge: kMergeNone
-  double error = 0.0;     // of the merge's shares: the usual distance of an elevation from the curve, 0..1
-  double up = 0.0;        // degrees: the curve was measured so far up and down; it is straight from there on
+  double error = 0.0;     // typical deviation of an elevation's share from the curve, 0..1
+  double up = 0.0;        // limits of the measured curve, degrees up and down; straight beyond
   double down = 0.0;      // positive
   bool is_known = false;  // the merge is known: it was measured far enough up or down, and the eyes do not converge
   bool is_merged = false;

@@ -12,7 +12,7 @@
 
 namespace ods {
 
-inline constexpr int kMergeRows = 180;  // of elevations, from the zenith down
+inline constexpr int kMergeRows = 180;  // number of elevations, from the zenith down
 
 // Returns the share of the eye distance for each elevation at which no point of `seen` is above the limit (minutes of
 // arc, as worst_vertical_disparity()). 1 if nothing is seen there. Precondition: seen.eye is kMono, the camera is
@@ -23,7 +23,7 @@ std::vector<float> comfortable_shares(const SeenDepth& seen, const Viewer& viewe
 // depth layer.
 std::vector<SeenDepth> seen_by_eyes(const StoredPicture& picture);
 
-// Returns the shares for the depth that the eyes of a picture show, for eyes as the target has them.
+// Returns the shares for the depth that the eyes of a picture show, for the target's eyes.
 std::vector<float> comfortable_shares(const std::vector<SeenDepth>& eyes, const StereoCamera& target, float limit);
 
 // Sets each row to the minimum of both.
@@ -36,7 +36,7 @@ void use_merge_map(StereoCamera& camera, Image map);
 // do not look bent.
 Image merge_map_of(std::vector<float> shares);
 
-inline constexpr double kLookSeconds = 0.25;  // between the pictures of a video that SteadyMerge is made of
+inline constexpr double kLookSeconds = 0.25;  // time between the pictures of a video that SteadyMerge uses
 
 // A merge that follows the depth of a video without pumping: at most the shares of all pictures within two seconds
 // before and after, smoothed over two more seconds. It changes by at most a quarter of the eye distance per second.

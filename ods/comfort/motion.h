@@ -4,7 +4,7 @@
 // Measures how a video moves its viewer: the motion of a still world between two frames if the camera turns by omega
 // and moves by v. A point in the direction u at the distance d moves by -omega x u - (v - (v . u) u) / d; both are
 // fitted to the places that two frames have in common, by least squares with the weights of a Cauchy distribution, so
-// that things that move by themselves count little.
+// that moving objects count little.
 #pragma once
 #include "ods/disparity/gray_view.h"
 
@@ -17,7 +17,7 @@ struct ViewerMotion {
   int places = 0;            // the number of places that agree
 };
 
-inline constexpr int kMinPlaces = 20;  // of ViewerMotion::places; with fewer, the motion is unknown
+inline constexpr int kMinPlaces = 20;  // minimum of ViewerMotion::places; below it the motion is unknown
 
 // Measures the motion between two views of one eye. depth: the distances in the first (1 channel, lat-long, of any
 // width; NaN: unknown). Returns zeros if too few places agree.

@@ -28,9 +28,9 @@ namespace ods {
 
 struct Viewer {
   float ipd = 0.065f;          // between the pupils
-  float focus = 1.3f;          // where the headset's lenses focus; may be infinite
-  float gaze_degrees = 15.0f;  // how far the eyes turn before the head does
-  float roll_degrees = 0.0f;   // how far the line through the ears may be out of level
+  float focus = 1.3f;          // distance at which the headset's lenses focus; may be infinite
+  float gaze_degrees = 15.0f;  // largest turn of the eyes before the head follows
+  float roll_degrees = 0.0f;   // largest tilt of the line through the ears
 };
 
 // The kinds of strain.
@@ -39,7 +39,7 @@ enum class Strain {
   kVertical,  // worst_vertical_disparity(), in minutes of arc
   kStep,      // difference of vergence to things a degree beside it, in degrees
   kEdge,      // vergence of a thing cut by the side of a picture that does not go all around, in degrees
-  kRule,      // a rule of ComfortOptions is broken; how many times too near it is
+  kRule,      // breach of a rule of ComfortOptions: the required distance over the actual one
 };
 
 struct StrainRow {
@@ -47,7 +47,7 @@ struct StrainRow {
   std::string_view name;
   std::string_view unit;
   std::string_view title;
-  std::string_view source;  // of the limits
+  std::string_view source;  // source of the limits
 };
 inline constexpr StrainRow kStrainTable[] = {
     {Strain::kNear, "near", "dioptres", "the eyes converge nearer than they focus",
@@ -58,7 +58,7 @@ inline constexpr StrainRow kStrainTable[] = {
     {Strain::kStep, "step", "degrees", "a large step in depth to its neighbour",
      "Nagata 2002, limits of fusion of 392 people"},
     {Strain::kEdge, "edge", "degrees", "the picture's side cuts it, and one eye shows more of it",
-     "as of a step; provisional"},
+     "as for `step`; provisional"},
     {Strain::kRule, "rule", "times too near", "nearer than the rule allows", ""},
 };
 static_assert(has_every_member(kStrainTable));
@@ -80,7 +80,7 @@ constexpr std::string_view comfort_level_name(ComfortLevel level) {
   return name_in(kComfortLevelTable, level);
 }
 
-// How often people look at this elevation, relative to the horizon, per solid angle. Source: Sitzmann et al. 2018,
+// The frequency of looks at this elevation, per solid angle, relative to the horizon. Source: Sitzmann et al. 2018,
 // "Saliency in VR": a Laplace distribution of elevations, 18.6 degrees wide; provisional, quoted from memory.
 double gaze_density(double elevation);
 
@@ -95,7 +95,7 @@ StrainLimits strain_limits(Strain strain, const Viewer& viewer);
 EnumArray<Strain, StrainLimits> strain_limits(const Viewer& viewer);
 ComfortLevel level_of(double value, const StrainLimits& limits);
 
-// The place in the pictures of a point, for eyes on a circle of this radius. The point is `across` from the circle's
+// The position of a point in the pictures, for eyes on a circle of this radius. The point is `across` from the circle's
 // axis, farther than the radius, and `height` above its plane.
 struct CircleView {
   double half_parallax, elevation;

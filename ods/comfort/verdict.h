@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The verdict on a stereo picture: on all its eyes, by one rule. Reports, exit codes, the viewer's layer and warnings
-// before rendering all read it. judge_picture.h makes one of a file, ods/stage/judge_scene.h of a scene, video.h of
+// The verdict on a stereo picture, for all its eyes, by one rule. Reports, exit codes, the viewer's layer and warnings
+// before rendering all read it. judge_picture.h judges a file, ods/stage/judge_scene.h a scene, video.h
 // each moment of a video.
 #pragma once
 #include <optional>
@@ -20,8 +20,8 @@ struct StrainedPlace {
   Strain strain = Strain::kNear;  // the worst one, with its value there
   double value = 0.0;
   ComfortLevel level = ComfortLevel::kOk;
-  size_t eye = 0;          // that shows the worst point: index in ComfortVerdict::per_eye
-  double azimuth = 0.0;    // of the worst point, degrees to the right of the picture's middle
+  size_t eye = 0;          // eye with the worst point: index in ComfortVerdict::per_eye
+  double azimuth = 0.0;    // direction of the worst point, degrees to the right of the picture's middle
   double elevation = 0.0;  // degrees
   double distance = 0.0;   // metres from the circle's centre
   double share = 0.0;      // of the picture, by solid angle: the part of this thing that is not ok
@@ -35,10 +35,10 @@ struct EyeComfort {
   Image levels;                            // 1 channel: the ComfortLevel of each pixel, as a number
 };
 
-// How well the eyes of a picture without depth could be matched.
+// The quality of the matching of the eyes of a picture without depth.
 struct MatchQuality {
-  double share = 0.0;      // of the picture, by solid angle: matched
-  double precision = 0.0;  // of parallax, minutes of arc
+  double share = 0.0;      // matched fraction of the picture, by solid angle
+  double precision = 0.0;  // precision of the parallax, minutes of arc
   // The largest difference in height between the eyes within 30 degrees of the horizon, minutes of arc: a raise, pitch,
   // roll or zoom of one eye's picture.
   double apart = 0.0;
@@ -49,11 +49,11 @@ struct MatchQuality {
 struct ComfortVerdict {
   ComfortLevel level = ComfortLevel::kOk;  // the worst of the eyes and of `apart`
   std::vector<EyeComfort> per_eye;
-  std::optional<MatchQuality> match;         // of a picture without depth
+  std::optional<MatchQuality> match;         // set for a picture without depth
   ComfortLevel apart = ComfortLevel::kOk;    // the level of match->apart
   EnumArray<ComfortLevel, double> share{};   // of the known part of the picture, by solid angle
   EnumArray<ComfortLevel, double> looked{};  // the share weighted by where people look: gaze_density()
-  EnumArray<Strain, double> max{};           // of each strain
+  EnumArray<Strain, double> max{};           // largest value of each strain
   std::vector<StrainedPlace> places;         // worst first, at most ten
   double nearest = 0.0;                      // metres; infinite if there is nothing
   double unknown = 0.0;                      // share of pixels without a depth

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Judges what a stereo video does to its viewer, by matching the eyes of some of its frames, and each frame with the
+// Judges the strain of a stereo video on its viewer by matching the eyes of some of its frames, and each frame with the
 // next: the distances of things, the motion of the viewer, jumps of vergence at cuts. docs/comfort.md has the limits
 // and their sources.
 #pragma once
@@ -18,7 +18,7 @@
 
 namespace ods {
 
-// Strains over time, beside the strains within a picture.
+// Strains over time, in addition to the strains within a picture.
 enum class Ride {
   kApart,         // one eye sees things higher, minutes of arc
   kTurn,          // the viewer is turned about the vertical: degrees a second
@@ -43,7 +43,7 @@ inline constexpr RideRow kRideTable[] = {
      "minutes of arc",
      "one eye sees things higher",
      {15.0, kFusionLimit, 60.0},
-     "as of vertical disparity"},
+     "as for vertical disparity"},
     {Ride::kTurn,
      "turn",
      "degrees a second",
@@ -85,14 +85,14 @@ constexpr const RideRow& ride_row(Ride ride) {
 struct VideoMoment {
   double seconds = 0.0;
   double matched = 0.0;     // share of the picture
-  double nearest = 0.0;     // metres; infinite if nothing is
+  double nearest = 0.0;     // metres; infinite if there is nothing
   double vergence = 0.0;    // degrees: the maximum
   double vertical = 0.0;    // minutes of arc: the maximum
   double middle = 0.0;      // degrees: the median vergence within 30 degrees of the horizon
-  bool is_carried = false;  // speed, turn and tilt are known
+  bool is_carried = false;  // speed, turn and tilt were measured
   double speed = 0.0, turn = 0.0, tilt = 0.0, acceleration = 0.0;  // as Ride
-  std::optional<double> cut;                                       // a cut since the moment before: as Ride
-  double cut_at = 0.0;                                             // seconds
+  std::optional<double> cut;                                       // Ride::kCut of a cut since the last moment
+  double cut_at = 0.0;                                             // time of the cut, seconds
   ComfortLevel level = ComfortLevel::kOk;
 };
 
@@ -102,7 +102,7 @@ struct VideoStrain {
   std::string_view name, title, unit;        // of a Strain or a Ride
   double value = 0.0;
   ComfortLevel level = ComfortLevel::kOk;
-  std::optional<StrainedPlace> place;  // of a strain in the picture
+  std::optional<StrainedPlace> place;  // position, for a strain in the picture
 };
 
 struct VideoComfort {
@@ -120,7 +120,7 @@ struct VideoComfort {
 struct VideoComfortOptions {
   ComfortOptions comfort;
   FormatHint format;
-  int max_moments = 90;  // of a long video
+  int max_moments = 90;  // maximum number of judged frames
 };
 
 // Judges both eyes of a video's frames. Videos whose layout and projection their metadata leave open are identified by

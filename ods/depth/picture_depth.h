@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Adds the depth from a separate file to a picture: as its layer Z, metres along each pixel's ray, like a renderer
+// Adds the depth from a separate file to a picture: as its layer Z, metres along each pixel's ray, as a renderer
 // writes it. All functions that use depth then work on the picture.
 #pragma once
 #include <optional>

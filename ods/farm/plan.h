@@ -35,9 +35,9 @@ struct FarmPlan {
   std::string program;            // ods, as the tasks' machines call it
   int cpus = 0;                   // processors of a task; 0: all processors of a machine
   size_t memory = 0;              // bytes that a task takes, if its group does not specify it
-  std::vector<PlanPath> paths;    // that the commands name
+  std::vector<PlanPath> paths;    // paths that the commands name
   std::vector<TaskGroup> groups;  // each starts when the one before is done
-  std::string scheduler = {};     // that it was written for: "slurm"; empty: unknown
+  std::string scheduler = {};     // scheduler that it was written for: "slurm"; empty: unknown
 };
 
 // The memory of a task of the group, in bytes.

@@ -28,8 +28,8 @@ struct SlurmTask {
   int number = 1;             // of the task in its group
   TaskState state = TaskState::kWaiting;
   std::string word;       // Slurm's name for it: "PENDING", "TIMEOUT"
-  double seconds = 0.0;   // how long it has run
-  std::string node = {};  // on which it runs
+  double seconds = 0.0;   // running time
+  std::string node = {};  // node on which it runs
 };
 
 // Identifies an array: the beginning of its comment in Slurm, followed by ":FOLDER". before: the tasks of the group's

@@ -25,9 +25,9 @@
 namespace ods {
 
 struct ClaimTimes {
-  std::chrono::milliseconds beat{10'000};     // how often the holder updates it
+  std::chrono::milliseconds beat{10'000};     // interval between the holder's updates
   std::chrono::milliseconds silence{60'000};  // after this, another machine's claim is free
-  std::chrono::milliseconds settle{1'000};    // how long two machines wait that took over the same claim
+  std::chrono::milliseconds settle{1'000};    // waiting time of two machines that took over the same claim
 };
 
 class Claim {
@@ -64,7 +64,7 @@ std::string claim_path(const std::string& path);
 // of file has its name.
 std::unique_ptr<Claim> try_claim(const std::string& path, std::string& holder, ClaimTimes times = {});
 
-// Claims as try_claim() does, but throws an Error(kOutput) that names the other holder, if it holds the claim for so
+// Claims as try_claim() does, but throws an Error(kOutput) that names the other holder, if it keeps the claim that
 // long.
 std::unique_ptr<Claim> claim(const std::string& path, std::chrono::seconds patience = std::chrono::seconds(0));
 

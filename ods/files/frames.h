@@ -22,7 +22,7 @@ std::string frames_text(const std::vector<int>& frames);
 // Precondition: ascending.
 std::vector<int> gaps(const std::vector<int>& frames);
 
-// The frame number's placeholder in a file name: ####, one mark for a digit (@ does, too), %04d or %d, $F4 or $F,
+// The frame number's placeholder in a file name: ####, one mark per digit (# or @), %04d or %d, $F4 or $F,
 // {frame}. If there are several, the last one counts. Marks in folder names are ignored, and %V is left alone.
 struct FrameNames {
   std::string before, after;

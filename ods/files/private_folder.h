@@ -34,7 +34,7 @@ class PrivateFolder {
   int lock_ = -1;
 };
 
-// Makes a folder that is kept from run to run, for files of this user alone: its mode is 0700. Throws Error(kOutput) if
+// Makes a folder that persists between runs, for this user's files only, with mode 0700. Throws Error(kOutput) if
 // it cannot be made, if it or the link to it belongs to another user, or if other users could write in it.
 void make_own_folder(const std::string& path);
 

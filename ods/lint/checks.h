@@ -85,7 +85,7 @@ void check_parallax(const Subject& subject, LintReport& report);
 void check_poles(const Subject& subject, LintReport& report);
 void check_seam(const Subject& subject, LintReport& report);
 void check_alignment(const Subject& subject, LintReport& report);  // height, pitch, roll and size of one eye
-// swapped: the certainty that the eyes are swapped, since then all parallax is outwards.
+// swapped: certainty of swapped eyes, for which all parallax is outwards.
 void check_divergence(const Subject& subject, double swapped, LintReport& report);
 void check_colors(const Subject& subject, LintReport& report);     // one eye against the other
 void check_sharpness(const Subject& subject, LintReport& report);  // one eye against the other

@@ -5,7 +5,7 @@
 //
 // Nearly all checks follow from one fact of omni-directional stereo: a point at the distance rho from the viewing
 // circle's axis appears farther right in the left eye than in the right one, by theta_L - theta_R = 2 asin(r / rho).
-// That is never negative, wherever the point is, and there is no difference in height.
+// The difference is never negative, for any point, and the heights are equal.
 // docs/lint.md explains every fault.
 #pragma once
 #include <optional>

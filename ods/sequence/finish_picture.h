@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From a rendered picture to its files: denoised if wanted, saved.
+// Makes the files of a rendered picture: denoises it if requested, and saves it.
 #pragma once
 #include <optional>
 #include <span>
@@ -20,7 +20,7 @@ struct FinishOptions {
   SaveOptions save;
 };
 
-inline constexpr double kShareOfRendering = 0.97;  // of a denoised picture's time
+inline constexpr double kShareOfRendering = 0.97;  // fraction of the time of a denoised picture
 
 // Returns the options with the layers that the denoiser needs, in addition to the layers of the file.
 RenderOptions options_to_finish(RenderOptions wanted, Denoiser denoiser);

@@ -46,7 +46,7 @@ class FrameRenderer {
   FrameRenderer(SequenceOptions options, Scene& scene) : options_(std::move(options)), scene_(scene) {}
 
   const SequenceOptions& options() const { return options_; }
-  void set_options(SequenceOptions options) { options_ = std::move(options); }  // of the frames from here on
+  void set_options(SequenceOptions options) { options_ = std::move(options); }  // applies to the following frames
   const Scene& scene() const { return scene_; }
 
   // Returns whether frames are denoised together with their neighbours.

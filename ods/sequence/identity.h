@@ -25,8 +25,8 @@ inline constexpr std::string_view kPartSetting = "`part`";
 inline constexpr std::string_view kByFirstLook = "by a first look";
 inline constexpr std::string_view kExposureSetting = "`exposure`", kMergeSetting = "merge by depth";
 
-// Returns a setting that identifies a file by its contents: a copy is the same file. confine: as in SceneOptions. A
-// missing file has a value, too: reading the scene reports it. Throws Error(kInput).
+// Returns a setting that identifies a file by its contents: a copy has the same one. confine: as in SceneOptions. A
+// missing file also has a value, because reading the scene reports it. Throws Error(kInput).
 Setting file_setting(const std::string& name, const std::string& path, const std::string& confine = {});
 
 // Returns the settings that identify the input of load_scene(): a built-in scene, or a file and the files that it

@@ -18,8 +18,8 @@
 namespace ods {
 
 struct VideoOptions {
-  std::vector<int> frames;               // numbers, rising
-  std::optional<std::vector<int>> only;  // this process renders these of the frames, beside others, and makes no video
+  std::vector<int> frames;               // frame numbers, ascending
+  std::optional<std::vector<int>> only;  // frames that this process renders, alongside others; makes no video
   bool raw = false;                      // with `only`: Sink::kRaw
   std::optional<ToneCurve> tone;         // nullopt: the default; linear for Scene::as_painted
   EncodeOptions encode;
@@ -61,6 +61,6 @@ std::optional<VideoPlan> render_video(VideoJournal& journal, Scene& scene, Seque
 VideoPlan encode_frames(const VideoJournal& journal, const std::vector<int>& frames, const DisplayTransform& display,
                         const EncodeOptions& encode, bool keep_frames, const Progress& progress = {});
 
-inline constexpr double kRenderingShare = 0.95;  // of a video's time; encoding takes the rest
+inline constexpr double kRenderingShare = 0.95;  // fraction of the time that rendering takes; the rest is encoding
 
 }  // namespace ods

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A camera in a scene: eyes and lens are set by the caller, and so is the place, if it differs from the scene's.
+// A camera in a scene. The caller sets eyes and lens, and the place if it differs from the scene's.
 #pragma once
 #include <optional>
 #include <string>

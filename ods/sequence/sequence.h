@@ -31,14 +31,14 @@ struct SequenceOptions {
   RenderOptions render;  // of a picture; height 0: what suits the camera's projection. `layers` and `statistics`:
                          // whether the files have them. noise_exposure: look_first() sets it
   FinishOptions finish;
-  bool draws_on_neighbours = true;               // the own denoiser also uses the frames beside a frame
+  bool draws_on_neighbours = true;               // Denoiser::kOwn also uses the neighbouring frames
   std::function<void(const std::string&)> warn;  // gets a line of text; may be empty
 };
 
 struct SequenceFrame {
   int number = 0;
   double time = 0.0;  // seconds
-  std::string path;   // of its file
+  std::string path;   // path of its file
   uint32_t seed = 0;
 };
 
@@ -50,10 +50,10 @@ std::vector<SequenceFrame> make_frames(const SequenceOptions& options, const std
 // A picture that is saved.
 struct Rendered {
   std::vector<std::string> files;
-  double samples = 0.0;  // in all pixels together
+  double samples = 0.0;  // total of all pixels
 };
 
-// The frame at work: the place-th of those that are to be made, from 1.
+// The current frame: number `place`, counted from 1, of the frames to make.
 struct FrameAtWork {
   int place = 1, count = 1;
   std::string path;

@@ -74,7 +74,7 @@ class VideoJournal {
   std::unique_ptr<Claim> claim_;  // released last; null if the frames are shared
   std::string video_, folder_;
   Settings given_, settings_;  // as given by the caller, and with the values found
-  std::set<int> frames_;       // that this job and earlier jobs made, or planned to make
+  std::set<int> frames_;       // frames that this job and earlier jobs made or planned
 };
 
 }  // namespace ods

@@ -25,7 +25,7 @@ StereoCamera first_look_camera(const StereoCamera& camera);
 // are noise.
 std::optional<float> suitable_exposure(std::span<const Picture> looks);
 
-// That exposure and some stops more, within kMaxStops; rounded, so that it is the same number where it is printed.
+// Adds stops to an exposure, within kMaxStops. Rounds the result, so that it equals the printed number.
 float brightened(float exposure, float brighter);
 
 inline constexpr float kExposedMean = 0.18f;  // middle grey

@@ -10,7 +10,7 @@
 
 namespace ods {
 
-// For each instance, whether an earlier visible one has the same triangles at the same place. If rays may pass through
+// Flags each instance that has the same triangles and place as an earlier visible one. If rays may pass through
 // the material, by alpha or as glass, it must be the same, too. At rest.
 std::vector<char> find_repeats(const Scene& scene);
 

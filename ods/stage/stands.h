@@ -10,7 +10,7 @@
 namespace ods {
 
 // The best of the places where a person can stand on a floor, in free space, with the scene around. Returns nullopt for
-// an object, where a person could stand on top but would see nothing.
+// an object, on top of which a person could stand but would see nothing.
 std::optional<Stand> best_stand(const SceneRays& rays, const Bounds& core, float metres_per_unit);
 
 // The best place in free space among objects that float on nearly all sides. Returns nullopt if there is none.

@@ -61,7 +61,7 @@ struct SlitRig {
   // For a rig read from a file: each view's matrix as in the file, 16 numbers, row by row. `views` has the same
   // positions and directions, with rounded angles.
   std::vector<std::vector<float>> matrices;
-  Layout layout = default_layout(camera.projection);  // arrangement of the eyes in a file of the picture
+  Layout layout = default_layout(camera.projection);  // layout of the eyes in the picture's file
 };
 
 size_t view_index(const SlitRig& rig, size_t eye, int slit, int pitch);

@@ -29,7 +29,7 @@ struct VideoStream {
   FrameRate clock;          // ticks per second of FrameTime
   double start = 0.0;       // time of the first picture, in seconds
   double file_start = 0.0;  // time of the first picture or sound
-  // Data of the first picture, besides its pixels, that no encoder here keeps; texts for users. Known once it is
+  // Data of the first picture, besides its pixels, that no encoder here keeps, as texts for users. Known once it is
   // decoded.
   std::vector<std::string> unkept;
   int count = 0;  // number of pictures, as stored or computed from the duration; 0 if unknown

@@ -9,7 +9,7 @@
 
 namespace ods {
 
-// The pose is left out: a panorama is looked at in the camera's own frame. Texels of maps are included, row by row,
+// Omits the pose: the page shows a panorama in the camera's own frame. Texels of maps are included, row by row,
 // only if the place of a line of sight depends on them: with toe-in.
 Json camera_json(const Camera& camera);
 

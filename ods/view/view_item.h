@@ -24,7 +24,7 @@ struct ViewItem {
   bool has_own_file = false;  // browsers read the file itself and divide it into eyes; else each eye is sent as a JPEG
   FormatHint known;           // the format as far as the caller specified it
   StoredPicture picture;      // its header; with its pixels only if they were decoded before and the page needs them
-  double fps = 0.0;           // of a video; 0: unknown
+  double fps = 0.0;           // frame rate of a video; 0: unknown
   bool is_ambisonic = false;  // a video's sound: first order, AmbiX
   Notes notes;
   std::string subtitles;  // of a video: WebVTT
@@ -62,7 +62,7 @@ StoredPicture open_shown(const ViewItem& item);
 std::string preview_jpeg(const ViewItem& item);
 std::string thumbnail_jpeg(const ViewItem& item);
 
-// Whether an item's linear light is sent unchanged, and the PNG that is sent: both eyes, twice as wide. Its left half
+// Return whether an item's linear light is sent unchanged, and its PNG: both eyes, twice as wide. The left half
 // has the high bytes of the half floats of R, G and B, its right half the low bytes. view.json's "light_layout" is the
 // layout of the eyes.
 bool has_light(const ViewItem& item);

@@ -13,7 +13,7 @@ namespace ods {
 // read_image() converts both to linear light, and `color_fault` receives the colour metadata that is ignored. The
 // picture covers the whole sphere; one that is not twice as wide as high looks stretched (check the width and height
 // returned). Negative and NaN texels become 0, infinite ones 65504, the largest half float;
-// others are clamped to 1e9. Throws Error(kInput).
+// larger ones are clamped to 1e9. Throws Error(kInput).
 Environment load_environment(const std::string& path, std::string* color_fault = nullptr);
 
 }  // namespace ods

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Copies the contents of an old video, except its pictures, to a new video that is made of them.
+// Copies the contents of an old video, except its pictures, to the new video that is made from it.
 //
 // Packets are copied if the container supports their codec. Other sound is encoded again, as is ambisonic sound that is
 // rotated; text is encoded as the container's kind of subtitles. A cover is a picture of its own kind in each
