@@ -360,8 +360,9 @@ bool begins_with_any(const std::string& name, const std::set<std::string>& begin
   });
 }
 
-// The test of ods/MODULE/NAME, if it has one of its own, is tests/MODULE/NAME_test.cpp. The tests of a command or another
-// file of cli/MODULE are tests/cli/MODULE/NAME_test.cpp and NAME_TOPIC_test.cpp; tests of all commands are in tests/cli.
+// The test of ods/MODULE/NAME, if it has one of its own, is tests/MODULE/NAME_test.cpp. The tests of a command or
+// another file of cli/MODULE are tests/cli/MODULE/NAME_test.cpp and NAME_TOPIC_test.cpp; tests of all commands are in
+// tests/cli.
 TEST(Architecture, TestsAreWhereTheirSourcesAre) {
   std::map<std::string, std::set<std::string>> folders;  // of a source's name
   std::map<std::string, std::set<std::string>> names;    // of the sources in a folder

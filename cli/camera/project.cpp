@@ -104,7 +104,7 @@ struct ProjectJob {
 ProjectJob parse_project(Options& options) {
   ProjectJob job;
   options.describe(
-      "Projects world points into each eye's picture. It reads no scene, so it does not know what hides them.",
+      "Projects world points into each eye's picture. It reads no scene, so hidden points are projected, too.",
       kProjectExamples);
   options.arguments("X,Y,Z...", job.points, "points, in metres; without any, reads lines from stdin");
   options.text("--from-pixel", "EYE,X,Y,DEPTH", job.pixel, "unproject: the point at that depth along the pixel's ray");

@@ -48,8 +48,8 @@ OverJob parse_over(Options& options) {
       [&](const std::string& name) { job.known.projection = projection_by_name("--projection", name); },
       "the background's projection, if it is not detected");
   add_input_layout_option(options, job.known.layout, "the background's layout, if it is not detected");
-  add_layout_option(options, job.layout,
-                    "layout of the output; by default as its name says (_TB), else the background's", "--to-layout");
+  add_layout_option(options, job.layout, "layout of the output; by default from its name (_TB), else the background's",
+                    "--to-layout");
   options.flag("--by-depth", job.over.by_depth,
                "hide foreground that is farther away than the background; both need depth");
   options.number("--opacity", job.over.opacity, 0.0f, 1.0f, "opacity of the foreground");

@@ -102,7 +102,7 @@ TitleJob parse_title(Options& options) {
   if (job.output.empty()) throw UsageError("no output file: add -o title.exr");
   if (!ods::has_alpha(job.output)) throw UsageError("a title needs a format with alpha: .exr, .png, .tif or .webp");
   if ((job.fps || job.fade_in || job.fade_out) && !job.frames)
-    throw UsageError("--fps and fades need --frames, as 1-100");
+    throw UsageError("--fps and fades need --frames, such as 1-100");
   job.text = with_newlines(job.text);
   job.title.curved = !flat;
   job.save.tone = ods::ToneCurve::kLinear;  // so that a colour is shown as given

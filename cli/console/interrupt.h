@@ -8,12 +8,12 @@
 using FinalMessage = const char* (*)(int signal);
 const char* plain_final_message(int signal);  // "ods: interrupted"
 
-// From now on such a signal removes unfinished files, prints the last words and ends the process at once with 128 + its
-// number, even while loading, rendering or saving. `final_message` runs in the signal handler:
-// it must only return a literal.
+// From now on such a signal removes unfinished files, prints the final message and ends the process at once with 128 +
+// its number, even while loading, rendering or saving. `final_message` runs in the signal handler: it must only return
+// a literal.
 void end_on_interrupts(FinalMessage final_message = plain_final_message);
 
-// While one of these exists, the first such signal asks for a stop, and only the second one ends the process. At most
+// While one of these exists, the first such signal requests a stop; only the second ends the process. At most
 // one at a time.
 class GentleStop {
  public:

@@ -58,7 +58,7 @@ class RunningProgram {
 std::optional<ProgramResult> run_program(const Program& program);
 
 // The reason why a program's result is unusable, for messages: "squeue is not installed", "squeue did not finish within
-// 60 seconds", "squeue failed: LAST WORDS". Empty if it succeeded.
+// 60 seconds", "squeue failed: LAST LINE". Empty if it succeeded.
 std::string program_fault(const Program& program, const std::optional<ProgramResult>& result);
 
 // Starts a program of the user's desktop, which continues when we end, without our terminal. Does nothing if there is

@@ -76,7 +76,7 @@ void check_kinds(const ConvertOptions& given, FootageKind kind) {
   if (given.frames && !from_frames) throw UsageError("--frames is for frames; --trim chooses a part of a video");
   const bool has_times = from_frames && (to_video || given.camera.changes.merge_limit);  // a merge changes over time
   if (given.rate && !has_times) {
-    throw UsageError("--fps is for frames that become a video, or for their --merge auto; a video keeps its own times");
+    throw UsageError("--fps needs frames that become a video or use --merge auto; a video keeps its own times");
   }
   if (given.restart && !to_video) {
     throw UsageError(from_frames ? "--restart is for videos; frames continue with --skip-existing"

@@ -16,7 +16,7 @@ struct ConvertJob {
   std::vector<int> every_frame;              // the frames that all processes convert together
   std::optional<ods::Footage> footage;       // a video
   std::optional<ods::PictureReader> reader;  // a picture, until read_pixels()
-  ods::StoredPicture picture;                // its header until read_pixels(); the header of a video or the first frame
+  ods::StoredPicture picture;                // only the header, until read_pixels() for a picture
   ods::ConvertTarget target;
   ods::SaveOptions save;
   std::vector<ods::TurnKey> turns;

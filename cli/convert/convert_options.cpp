@@ -80,7 +80,7 @@ void add_output_options(Options& options, ConvertOptions& given) {
   options.choice("--eyes", form.eyes, ods::kEyesTable, "which eyes to make; by default the input's");
   options.flag("--mono", given.mono, "make a mono picture of one eye: the left one, or that of --eyes");
   add_layout_option(options, form.layout,
-                    "how both eyes share the new file; by default as its name says (_TB, _LR), else the input's, "
+                    "how both eyes share the new file; by default from its name (_TB, _LR), else the input's, "
                     "side-by-side for --to-projection vr180",
                     "--to-layout");
   options.flag("--sidecar", given.sidecar,

@@ -41,7 +41,7 @@ void add_output_options(Options& options, DenoiseJob& job, bool& alone) {
   options.flag("--each-eye", alone, "denoise each eye alone");
   options.flag("--oidn", job.oidn, "use Intel Open Image Denoise, if it is installed; it needs no statistics");
   add_layout_option(options, job.layout,
-                    "how both eyes share the new file; by default as its name says (_TB), else the input's",
+                    "how both eyes share the new file; by default from its name (_TB), else the input's",
                     "--to-layout");
   add_display_options(options, job.display);
   options.group("Console");

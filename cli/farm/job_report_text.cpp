@@ -39,8 +39,9 @@ std::string row_text(const JobReport& job, const GroupReport& group) {
 
 std::string notes_text(const JobReport& job) {
   if (!job.is_known()) {
-    return fmt::format("{}: only {} knows the state of its tasks; the frames and parts in the folder were counted\n",
-                       job.name, job.scheduler);
+    return fmt::format(
+        "{}: the state of its tasks is available only from {}; the frames and parts in the folder were counted\n",
+        job.name, job.scheduler);
   }
   std::string text;
   for (const GroupReport& group : job.groups) {

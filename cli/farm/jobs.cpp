@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kJobsExamples =
-    "  ods jobs                            all that Slurm knows of\n"
+    "  ods jobs                            all jobs in Slurm\n"
     "  ods jobs scene_360_TB --follow      until it is over\n"
     "  ods jobs renders/scene_360_TB.farm  by its folder, also when Slurm has forgotten it\n"
     "  ods jobs --json";
@@ -67,10 +67,9 @@ std::vector<JobReport> find_jobs(const JobsChoices& wishes) {
     if (wishes.name.empty() || job.name == wishes.name) jobs.push_back(job);
   }
   if (jobs.empty() && !wishes.name.empty()) {
-    throw ods::Error(ods::ErrorKind::kInput,
-                     fmt::format("Slurm knows of no job '{}'; ods jobs FOLDER reads its folder, "
-                                 "NAME.farm beside its output",
-                                 wishes.name));
+    throw ods::Error(ods::ErrorKind::kInput, fmt::format("Slurm has no job '{}'; ods jobs FOLDER reads its folder, "
+                                                         "NAME.farm beside its output",
+                                                         wishes.name));
   }
   return jobs;
 }

@@ -16,19 +16,19 @@
 inline constexpr const char* kRawGroup = "raw";
 
 struct SplitCommand {
-  std::string output;                     // the file, or the pattern of the frames, absolute
-  std::vector<ods::TaskGroup> groups;     // the first is split; its tasks are not counted yet
-  std::vector<ods::PlanPath> paths;       // that the commands name
-  std::vector<std::string> scene_files;   // beside the scene: buffers and pictures
-  size_t memory = 0;                      // bytes that a task takes
-  size_t disk = 0;                        // that all parts take, or all raw frames, at most
-  std::optional<int> threads;             // that the command asks for
-  bool restart = false;                   // existing files are discarded
-  std::string noun;                       // the product of the tasks: "frame", "part", "view"
-  size_t count = 0;                       // the number of products
-  std::vector<int> numbers;               // their numbers
-  std::optional<ods::TaskGroup> raw;      // before the first group, if that is cheaper: renders its frames raw
-  int halo = 0;                           // frames on each side of a task's own that it renders for the denoiser
+  std::string output;                    // the file, or the pattern of the frames, absolute
+  std::vector<ods::TaskGroup> groups;    // the first is split; its tasks are not counted yet
+  std::vector<ods::PlanPath> paths;      // that the commands name
+  std::vector<std::string> scene_files;  // beside the scene: buffers and pictures
+  size_t memory = 0;                     // bytes that a task takes
+  size_t disk = 0;                       // that all parts take, or all raw frames, at most
+  std::optional<int> threads;            // that the command asks for
+  bool restart = false;                  // existing files are discarded
+  std::string noun;                      // the product of the tasks: "frame", "part", "view"
+  size_t count = 0;                      // the number of products
+  std::vector<int> numbers;              // their numbers
+  std::optional<ods::TaskGroup> raw;     // before the first group, if that is cheaper: renders its frames raw
+  int halo = 0;                          // extra frames that a task renders on each side of its range, for the denoiser
   std::function<void()> prepare = [] {};  // writes the files that must exist before the first task starts
 };
 

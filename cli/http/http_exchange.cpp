@@ -153,12 +153,12 @@ bool HttpExchange::opens(const WebStream& stream, const RequestHead& head) {
 std::string HttpExchange::refusal(const RequestHead& head, int& status) const {
   status = 405;
   const bool is_post = head.method == "POST";
-  if (!is_post && head.method != "GET" && head.method != "HEAD") return "this server knows GET and POST";
+  if (!is_post && head.method != "GET" && head.method != "HEAD") return "only GET and POST are supported";
   status = 403;
   const std::string host = head.field("host"), origin = head.field("origin");
-  if (!is_our_name(host)) return "this server does not go by that name";
+  if (!is_our_name(host)) return "unknown host name";
   const char* const scheme = options_.certificate.empty() ? "http" : "https";
-  if (!origin.empty() && origin != fmt::format("{}://{}", scheme, host)) return "this server answers no other site";
+  if (!origin.empty() && origin != fmt::format("{}://{}", scheme, host)) return "requests from other sites are refused";
   status = 404;
   const size_t slash = head.path.find('/', 1);
   if (slash == std::string::npos || !same_secret(head.path.substr(1, slash - 1), options_.secret)) {
@@ -221,7 +221,7 @@ int HttpExchange::receive(WebStream& stream, std::string& bytes, uint64_t length
 
 bool HttpExchange::answer(WebStream& stream, std::string_view head_text, std::string& bytes) {
   const std::optional<RequestHead> head = read_request_head(head_text);
-  if (!head) return refuse(stream, 400, "this server does not understand that request");
+  if (!head) return refuse(stream, 400, "malformed request");
   if (opens(stream, *head)) {
     send_head({.stream = stream, .stays = false, .has_body = false}, 303, kText, 0,
               fmt::format("Location: /{}/\r\n", options_.secret));

@@ -13,7 +13,7 @@
 
 class HttpExchange {
  public:
-  // port: at which it listens.
+  // port: the port on which the server listens.
   HttpExchange(const WebOptions& options, int port, WebHandler handler);
 
   // head: of the request, as received; bytes: received after it; the body is taken from there. Returns false if the

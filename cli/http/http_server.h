@@ -54,7 +54,7 @@ struct WebOptions {
   int port = 0;                       // 0: any that is free
   std::string secret;                 // the first part of every path
   std::string opener{};  // a path that leads to the page, once, and only our own user's programs; empty: none
-  std::vector<std::string> hosts{"127.0.0.1", "localhost"};  // the names that we go by
+  std::vector<std::string> hosts{"127.0.0.1", "localhost"};  // accepted host names
   std::string certificate;                                   // PEM files, for https; empty: http
   std::string key;
   size_t max_body = size_t{64} << 10;  // bytes of a request's body

@@ -33,13 +33,14 @@ class WebStream {
   WebStream(const WebStream&) = delete;
   WebStream& operator=(const WebStream&) = delete;
 
-  // Agrees on keys, where there are some. False, as below: the deadline has passed, or the other side has gone.
+  // Performs the TLS handshake, if any. Returns false, as do the functions below, if the deadline has passed or the
+  // peer has disconnected.
   bool open(WebDeadline until);
   // Reads the available bytes, at least one; returns 0 on failure.
   size_t read(char* to, size_t maximum, WebDeadline until);
   // patience: for the other side to take more of them.
   bool write(std::string_view bytes, std::chrono::seconds patience);
-  // A program of this machine and this user is at the other end.
+  // Returns whether the peer is a program of this user on this machine.
   bool is_our_users() const;
   // Signals the end, and lets the other side read the bytes sent: closing while bytes arrive would discard them.
   void end();

@@ -18,6 +18,6 @@ struct CameraSource {
 
 void add_camera_source(Options& options, CameraSource& source);
 
-// The camera that the options ask for, in the form that the file or the options give it. Sets source.camera to that
+// Returns the camera that the options specify, in the form used by the file or the options. Sets source.camera to that
 // camera. Throws UsageError and ods::Error.
 ods::Sidecar read_camera_source(CameraSource& source);

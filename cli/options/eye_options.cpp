@@ -105,8 +105,8 @@ CameraChanges::Preset parse_camera_preset(const std::string& text) {
   const ods::CameraPreset* preset = ods::find_camera_preset(name);
   if (!preset) {
     const std::vector<std::string> names = ods::names_of(ods::camera_presets());
-    throw UsageError(fmt::format("--camera-preset knows no '{}'{}; it knows {}", name, ods::did_you_mean(name, names),
-                                 fmt::join(names, ", ")));
+    throw UsageError(fmt::format("--camera-preset: there is no preset '{}'{}; choose one of {}", name,
+                                 ods::did_you_mean(name, names), fmt::join(names, ", ")));
   }
   std::map<std::string, std::string> given;
   for (size_t at = colon + 1; at < text.size();) {

@@ -104,7 +104,7 @@ void read_lamp(const std::string& word, ods::LightChoices& wishes) {
   wishes.lamp_position = vec3(numbers[0], numbers[1], numbers[2]);
 }
 
-// Nullopt: the camera sees the environment.
+// Reads the value of --background. Returns nullopt if the camera sees the environment.
 std::optional<ods::Environment> read_background(const std::string& word, const std::string& confined_to) {
   if (word.empty() || word == "env") return std::nullopt;
   const Named named = parse_environment("--background", word);

@@ -36,8 +36,7 @@ ods::ProjectionSetting projection_by_name(const std::string& option, const std::
 // numbers do not fit together.
 void finish_projection(ods::ProjectionSetting& projection, int width, int& height);
 
-// Options for files that show a camera's own fisheyes: --front-and-back and --circle. Add them before the argument that
-// opens the file.
+// Options for files that show a camera's own fisheyes: --front-and-back and --circle.
 void add_lens_options(Options& options, ods::FormatHint& known);
 
 // Sets the format that these options imply: a fisheye, and two halves if the lenses look ahead and back.

@@ -41,7 +41,7 @@ static void add_shape_options(Options& options, SceneSource& source) {
                  "the axis of the file that points up. auto: y, as in glTF, unless things stand on a floor with z up");
 }
 
-// Nullopt: auto.
+// Parses the value of --unit. Returns nullopt for auto.
 static std::optional<float> parse_unit(const std::string& word) {
   if (word == "auto") return std::nullopt;
   if (const auto unit = ods::find_in(ods::kUnitTable, word)) return ods::row_in(ods::kUnitTable, *unit).metres;
@@ -228,7 +228,7 @@ Scene open_scene(const SceneSource& given, ods::Settled* settled, const ods::Loo
 static void check_content(const Scene& scene, const std::string& name) {
   const auto nothing = [&](const char* why) {
     return ods::Error(ods::ErrorKind::kInput,
-                      fmt::format("'{}' has nothing to render: {} (ods info says what there is)", name, why));
+                      fmt::format("'{}' has nothing to render: {} (ods info lists its contents)", name, why));
   };
   if (scene.instances.empty()) throw nothing("no triangles are visible in the scene that is shown");
   if (!is_ever_visible(scene)) throw nothing("everything in it is always hidden");
@@ -237,7 +237,7 @@ static void check_content(const Scene& scene, const std::string& name) {
   }
 }
 
-// Such as files are in whose program had the other of Collada's two senses of transparency.
+// Warns if every surface is transparent, as in files written with the opposite meaning of Collada's transparency.
 static void warn_of_invisible(const Scene& scene) {
   const bool is_invisible = std::ranges::all_of(scene.instances, [&](const ods::Instance& instance) {
     const int material = scene.meshes[static_cast<size_t>(instance.mesh)].material;

@@ -36,7 +36,7 @@ void add_scene_argument(Options& options, SceneSource& source);
 // Adds the scene as an option, for commands that work without one.
 void add_scene_option(Options& options, SceneSource& source, const char* help);
 
-// Has a scene of another program converted, if it is one and that has not happened. Throws UsageError, and as
+// Converts a scene of another program, unless that has been done. Throws UsageError, and as
 // convert_foreign_scene().
 void read_foreign(SceneSource& source);
 
@@ -44,7 +44,7 @@ void read_foreign(SceneSource& source);
 // such folder.
 std::string confining_folder(const SceneSource& source);
 
-// The light that the options ask for; a scene of another program brings its world. Throws as read_foreign() and
+// Returns the light that the options specify; a scene of another program brings its world. Throws as read_foreign() and
 // read_wishes().
 ods::LightChoices wishes_for(SceneSource& source, bool transparent);
 

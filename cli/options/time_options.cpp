@@ -77,7 +77,7 @@ void add_time_options(Options& options, TimeOptions& time) {
                  "noise pattern: the same in every frame, or different in each; by default changing if --turntable, "
                  "--fly-to or the file moves the camera, else fixed");
   options.flag("--skip-existing", time.skip_existing,
-               "do not render files that exist; several processes with this option share the rest");
+               "skip existing files; several processes with this option share the rest");
 }
 
 bool makes_video(const TimeOptions& time) {

@@ -108,7 +108,7 @@ void warn_of_names(const VideoChoices& wishes, const ods::VideoPlan& plan) {
   if (plan.eyes == 2) words += plan.metadata.stereo == ods::VideoStereo::kSideBySide ? "_LR" : "_TB";
   const std::string name = std::filesystem::path(ods::renamed(wishes.output, words)).filename().native();
   if (name == std::filesystem::path(wishes.output).filename().native()) return;
-  note(fmt::format("players that go by the name would recognise {}", name));
+  note(fmt::format("players that rely on the file name would recognise {}", name));
 }
 
 void warn_of_level(const ods::VideoPlan& plan, const ods::EncodeOptions& options) {
@@ -191,7 +191,9 @@ static void warn_of_less(const VideoChoices& wishes, const std::string& path, co
     loss += fmt::format(" chroma {}", ods::chroma_name(stream.chroma));
     cure += fmt::format(" --chroma {}", ods::chroma_name(stream.chroma));
   }
-  if (!loss.empty()) warn(fmt::format("'{}' has{}, the new video less, for players:{} keeps it", path, loss, cure));
+  if (!loss.empty())
+    warn(fmt::format("'{}' has{}; the new video has less, for compatibility with players:{} keeps it", path, loss,
+                     cure));
 }
 
 VideoChoices wishes_like(VideoChoices wishes, const ods::VideoInput& video, const ods::VideoStream& stream) {

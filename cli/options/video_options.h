@@ -41,7 +41,7 @@ void add_packing_options(Options& options, VideoChoices& wishes);
 // metadata. Warns about what cannot be kept.
 VideoChoices wishes_like(VideoChoices wishes, const ods::VideoInput& video, const ods::VideoStream& stream);
 
-// Chosen by a video's name. Throws UsageError.
+// Returns the container that the video's file name selects. Throws UsageError.
 ods::Container container_for(const std::string& path);
 
 // Returns the settings to encode a video of that size. Throws UsageError if the options do not fit together, ods::Error

@@ -17,6 +17,6 @@ ods::OnWaiting note_waiting(const std::string& noun) {
 
 std::function<void(size_t missing)> note_late(const std::string& noun, float seconds) {
   return [noun, seconds](size_t missing) {
-    note(fmt::format("waiting up to {:g} s for {} {}s that are not there yet", seconds, missing, noun));
+    note(fmt::format("waiting up to {:g} s for {} missing {}s", seconds, missing, noun));
   };
 }

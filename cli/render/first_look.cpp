@@ -37,19 +37,25 @@ void check_view(const RenderJob& job, const ods::Scene& scene, ods::vec3 eye) {
   warn(fmt::format("the camera {}; {}, or the scene has another unit (--unit cm)", fault, cure));
 }
 
-// Says once what --caustics straight simplifies.
+// Notes which solid glass --caustics straight simplifies.
 void note_straight_light(const RenderJob& job, const ods::Scene& scene) {
   if (job.render.caustics != ods::Caustics::kStraight) return;
   const std::vector<std::string> solids = ods::smooth_solids(scene);
   if (solids.empty()) return;
   const std::string others = solids.size() == 1 ? "" : fmt::format(" and {} more", solids.size() - 1);
-  note(fmt::format("light passes solid glass ('{}'{}) unbent; --caustics path refracts it", solids.front(), others));
+  note(fmt::format("light passes through solid glass ('{}'{}) without refraction; --caustics path refracts it",
+                   solids.front(), others));
 }
 
 }  // namespace
 
-bool is_looked_at(const RenderJob& job) {
+bool is_shown_to_viewers(const RenderJob& job) {
   return job.time.is_video || job.part || !keeps_light(job.output);
+}
+
+void note_unmeasured_light(const RenderJob& job) {
+  if (job.exposure || keeps_light(job.output)) return;
+  note("exposure 0: with --rig the light is not measured (--exposure STOPS changes it)");
 }
 
 void report_viewpoint(const RenderJob& job, ods::FrameRenderer& renderer, const ods::SequenceFrame& first) {
@@ -61,7 +67,7 @@ void report_viewpoint(const RenderJob& job, ods::FrameRenderer& renderer, const 
 
 void report_look(const RenderJob& job, const ods::SequenceOptions& options, const ods::FirstLook& look) {
   if (options.merge_limit) note(merge_by_depth_text(*options.camera.stereo.merge_map));
-  const bool is_shown = is_looked_at(job);
+  const bool is_shown = is_shown_to_viewers(job);
   switch (look.reason) {
     case ods::ExposureReason::kGiven:
       return;
@@ -71,15 +77,16 @@ void report_look(const RenderJob& job, const ods::SequenceOptions& options, cons
       return;
     case ods::ExposureReason::kDark:
       return warn(
-          "there is nothing to see: no light reaches the camera (--env 1 lights the scene, --position X,Y,Z moves it)");
+          "the picture is black: no light reaches the camera (--env 1 lights the scene, --position X,Y,Z moves it)");
     case ods::ExposureReason::kFrames:
       return note(
-          fmt::format("exposure {:+} stops, as the frames that exist (--restart chooses it again)", look.exposure));
+          fmt::format("exposure {:+} stops, as in the existing frames (--restart chooses a new one)", look.exposure));
     case ods::ExposureReason::kLight: {
-      if (!is_shown) return note(fmt::format("noise is judged at {:+} stops, as the picture will be viewed", look.exposure));
-      const std::string more = job.brighter == 0.0f ? "" : fmt::format(" and --brighter {}", job.brighter);
-      note(fmt::format("exposure {:+} stops, from a first look at the light{} (--exposure {})", look.exposure, more,
-                       look.exposure));
+      if (!is_shown)
+        return note(fmt::format("noise is judged at {:+} stops, as the picture will be viewed", look.exposure));
+      const std::string brighter = job.brighter == 0.0f ? "" : fmt::format(" --brighter {}", job.brighter);
+      note(fmt::format("exposure {:+} stops, from a first look at the light{} (--exposure {}{})", look.exposure,
+                       brighter.empty() ? "" : " and" + brighter, look.chosen, brighter));
     }
   }
 }

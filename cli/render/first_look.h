@@ -8,14 +8,18 @@
 #include "cli/render/render_job.h"
 #include "ods/sequence/looks.h"
 
-// Returns whether the job's file is display-encoded: neither .exr nor .hdr.
-bool is_looked_at(const RenderJob& job);
+// Returns whether viewers see the result through an exposure and a tone curve: a video, a part, or a file other than
+// .exr and .hdr.
+bool is_shown_to_viewers(const RenderJob& job);
 
 // Notes the camera's place in the first frame, and simplifications; warns if nothing is visible from there.
 void report_viewpoint(const RenderJob& job, ods::FrameRenderer& renderer, const ods::SequenceFrame& first);
 
+// Notes that --rig renders at exposure 0, if neither the job nor its file determines the exposure.
+void note_unmeasured_light(const RenderJob& job);
+
 // Notes the merge and the exposure that ods::look_first() has found for the renderer; warns if all is black.
 void report_look(const RenderJob& job, const ods::SequenceOptions& options, const ods::FirstLook& look);
 
-// Says once, before a long rendering, if something in some of `all` strains the viewer's eyes to an error.
+// Warns once, before a long rendering, if anything in the frames strains the viewer's eyes beyond the error limit.
 void warn_of_strain(const RenderJob& job, ods::FrameRenderer& renderer, const std::vector<ods::SequenceFrame>& all);

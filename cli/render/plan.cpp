@@ -27,11 +27,11 @@ bool has_known_light(const RenderJob& job) {
   return ods::find_builtin(job.scene.name) && environment.empty() && lamp.empty() && background.empty() && !unlit;
 }
 
-// Also for a scene-linear file whose noise is judged: it will be looked at, too.
+// Returns nullopt if look_first() must choose, also for a scene-linear file if its noise is judged.
 std::optional<float> exposure_of(const RenderJob& job) {
   if (job.exposure) return job.exposure;
-  const bool needs_look = (is_looked_at(job) || job.render.noise > 0.0f) && !has_known_light(job);
-  return needs_look ? std::nullopt : std::optional(job.brighter);
+  const bool needs_look = (is_shown_to_viewers(job) || job.render.noise > 0.0f) && !has_known_light(job);
+  return needs_look ? std::nullopt : std::optional(0.0f);
 }
 
 void add_environment(ods::Settings& settings, const std::string& option, const std::string& word,
@@ -84,7 +84,7 @@ RenderPlan plan(const RenderJob& job, const TimeOptions& time) {
   if (makes_video(time) || time.time) sequence.shutter = double{time.shutter};
   if (time.grain) sequence.changing_grain = *time.grain == Grain::kChanging;
   sequence.exposure = exposure_of(job);
-  if (!sequence.exposure) sequence.brighter = job.brighter;
+  sequence.brighter = job.brighter;
   sequence.render = job.render;
   sequence.finish = {denoiser_of(job), job.save};
   sequence.draws_on_neighbours = job.time.is_video && sequence.finish.denoiser == ods::Denoiser::kOwn;

@@ -61,7 +61,7 @@ void look_first(const RenderJob& job, ods::FrameRenderer& renderer, const std::v
   report_look(job, options, look);
   warn_of_strain(job, renderer, all);
   ods::SaveOptions& save = options.finish.save;
-  save.exposure = is_looked_at(job) || job.exposure ? look.exposure : job.brighter;
+  save.exposure = look.exposure;
   if (renderer.scene().as_painted && !job.tone) save.tone = ods::ToneCurve::kLinear;
   renderer.set_options(std::move(options));
 }

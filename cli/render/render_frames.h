@@ -19,7 +19,7 @@ void check_outputs(const RenderJob& job);
 // Starts the clock of the scene for a video. Throws UsageError if nothing moves and no length was given.
 TimeOptions video_time(const RenderJob& job, ods::Scene& scene);
 
-// The frames that the job asks for. Loads the scene if their number depends on it. Throws as video_time().
+// Returns the frames that the job requests. Loads the scene if their number depends on it. Throws as video_time().
 std::vector<int> frames_of(const RenderJob& job);
 
 // Notes how many of the chosen frames exist.

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
@@ -25,7 +24,7 @@ constexpr const char* kRenderExamples =
     "  ods render scene.glb -o part_3.exr --part 3/8   for ods merge 'part_#.exr'\n"
     "  ods render scene.glb -o 'views/####.exr' --rig rig.json";
 
-// Nullopt: auto.
+// Parses the value of --exposure. Returns nullopt for auto.
 std::optional<float> parse_exposure(const std::string& word) {
   if (word == "auto") return std::nullopt;
   const std::vector<float> numbers = parse_numbers(word);
@@ -116,7 +115,6 @@ void finish_render_options(Options& options, RenderJob& job) {
     throw UsageError("--only chooses among frames, or among the views of --rig; this is one picture");
   }
   job.given = options.given_words();
-  if (job.exposure) job.exposure = ods::brightened(*job.exposure, std::exchange(job.brighter, 0.0f));
   job.scene.has_places =
       !job.rig.empty() || job.camera.position || job.time.move.pivot || !job.time.move.fly_to.empty();
   job.scene.camera = job.camera.view_point;

@@ -8,10 +8,12 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/waiting.h"
+#include "cli/render/first_look.h"
 #include "cli/render/render_still.h"
 #include "ods/kernel/random.h"
 #include "ods/render/cpu/render.h"
 #include "ods/scene/motion.h"
+#include "ods/stage/exposure.h"
 #include "ods/stitch/rig_mark.h"
 #include "ods/stitch/view_files.h"
 
@@ -24,7 +26,8 @@ void render_views(const RenderJob& job, ProgressLines& lines) {
   ods::check_output(view_path(rig, files, 0), job.save, {ods::kMono}, rig.view);
   ods::mark_folders(rig, files);
   ods::SaveOptions save = job.save;
-  save.exposure = job.exposure.value_or(job.brighter);  // auto: 0, as the stitched picture is still to be judged
+  save.exposure = ods::brightened(job.exposure.value_or(0.0f), job.brighter);
+  note_unmeasured_light(job);
   save.attributes.push_back({ods::kRigMarkAttribute, ods::rig_mark(rig)});
   ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
   TimeOptions time = job.time;

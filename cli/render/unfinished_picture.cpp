@@ -44,7 +44,7 @@ void UnfinishedPicture::keep(const ods::PictureSamples& samples) {
     ods::write_unfinished(path_, about(), samples);
     kept_ = true;
   } catch (const ods::Error& error) {
-    warn(fmt::format("what is rendered so far cannot be kept: {}", error.what()));
+    warn(fmt::format("cannot save the progress: {}", error.what()));
     failed_ = true;
     kept_ = false;
   }

@@ -12,7 +12,7 @@
 
 class UnfinishedPicture {
  public:
-  // options, camera, save: with which the picture is rendered and saved. The job must outlive this object.
+  // options, camera, save: used to render and save the picture. The job must outlive this object.
   UnfinishedPicture(const RenderJob& job, const ods::RenderOptions& options, const ods::StereoCamera& camera,
                     const ods::SaveOptions& save);
 
@@ -26,7 +26,7 @@ class UnfinishedPicture {
   // run had other options; Error(kInput) if the file is damaged.
   ods::PictureSamples begin();
 
-  // Replaces the file. Warns once if it cannot be written, and is then of no further use.
+  // Replaces the file. Warns once if it cannot be written; later calls then do nothing.
   void keep(const ods::PictureSamples& samples);
 
   // Returns whether a file has the samples of the last keep().
@@ -34,7 +34,7 @@ class UnfinishedPicture {
 
   const std::string& path() const { return path_; }
 
-  // The picture is finished.
+  // Removes the file. Call it when the picture is finished.
   void remove() const;
 
  private:

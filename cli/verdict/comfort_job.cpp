@@ -118,7 +118,7 @@ ComfortJob parse_comfort(Options& options) {
       "nothing nearer");
   options.group("Output");
   options.text("--heat", ValueKind::output_file(), job.heat,
-               "save the picture with what strains in yellow, orange, red");
+               "save the picture with straining areas marked yellow, orange and red");
   options.text("--html", ValueKind::output_file(), job.html,
                "save the report as one page with pictures and, for a video, curves");
   options.number("--width", job.width, 64, 8192, "width of the pictures of a scene that are judged");

@@ -59,7 +59,7 @@ EncodeJob parse_encode(Options& options) {
       "the frames' projection, if it is not detected");
   add_input_layout_option(options, job.known.layout, "the frames' layout, if it is not detected");
   options.number("--exposure", job.display.exposure, -30.0f, 30.0f, "exposure in stops, for .hdr and .exr");
-  options.choice("--tone", job.display.tone, ods::kToneCurveTable, "tone curve; ignored as --exposure is");
+  options.choice("--tone", job.display.tone, ods::kToneCurveTable, "tone curve, for .hdr and .exr");
   add_video_options(options, job.video);
   options.custom(
       "--fps", "X|N/M", "30", [&](const std::string& text) { job.video.rate = parse_rate(text); }, "frames per second");

@@ -19,6 +19,7 @@
 #include "cli/render/render_frames.h"
 #include "ods/sequence/identity.h"
 #include "ods/sequence/render_video.h"
+#include "ods/stage/exposure.h"
 
 using Clock = std::chrono::steady_clock;
 
@@ -141,7 +142,8 @@ void stitch_views(const VideoJob& job, ProgressLines& lines) {
   });
   if (!stitch.only.empty()) return lines.clear();
   note_sound_length(options, frames.size());
-  const ods::DisplayTransform display{render.exposure.value_or(render.brighter),
+  note_unmeasured_light(render);
+  const ods::DisplayTransform display{ods::brightened(render.exposure.value_or(0.0f), render.brighter),
                                       render.tone.value_or(ods::DisplayTransform().tone)};
   const ods::VideoPlan plan = ods::encode_frames(journal, frames, display, options, job.keep_frames,
                                                  {report_encoding(job, lines, begin, frames.size()), {}});

@@ -20,7 +20,7 @@ void row(std::string_view name, const std::string& value) {
 }
 
 std::string said(const std::optional<SphericalMetadata>& metadata) {
-  if (!metadata) return "says nothing";
+  if (!metadata) return "none";
   std::string text = metadata_text(*metadata);
   if (metadata->ipd > 0.0) text += fmt::format(", eyes {:g} mm apart", 1000.0 * metadata->ipd);
   return metadata->source.empty() ? text : fmt::format("{} (by {})", text, metadata->source);

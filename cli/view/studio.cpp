@@ -42,7 +42,7 @@ constexpr const char* kQualities[] = {"draft", "preview", "final"};
 
 // The exposure for the light, as ods render chooses it.
 float usual_exposure(const ods::Scene& scene, const ods::StereoCamera& camera) {
-  const ods::Picture look = render_cpu(scene, ods::first_look_camera(camera), ods::first_look({}));
+  const ods::Picture look = render_cpu(scene, ods::metering_camera(camera), ods::metering_options({}));
   return ods::suitable_exposure({&look, 1}).value_or(0.0f);
 }
 

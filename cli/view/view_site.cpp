@@ -19,7 +19,7 @@ using ods::ViewItem, ods::StoredPicture;
 
 namespace {
 
-// Nullopt if it was not requested.
+// Returns a number of the query, or nullopt if it is absent.
 std::optional<float> number_of(const WebRequest& request, const std::string& name, float low, float high) {
   const std::string text = value_of(request, name);
   if (text.empty()) return {};

@@ -12,12 +12,12 @@
 
 namespace ods {
 
-// Runs the stages of run_pipeline() on the slots of a ring of `most` items.
+// Runs the stages of run_pipeline() on the slots of a ring of `maximum` items.
 void run_ring(size_t maximum, const std::function<bool(size_t place)>& make,
               const std::function<void(size_t place)>& work, const std::function<void(size_t place)>& take);
 
 // `make(item)` fills an empty item, one call at a time, and returns false at the end; `work(item)` runs on many items
-// in parallel; `take(item)` receives them one at a time in the order they were made. At most `most` items exist at
+// in parallel; `take(item)` receives them one at a time in the order they were made. At most `maximum` items exist at
 // once. An exception from any stage stops the pipeline and is rethrown here.
 template <typename Item, typename Make, typename Work, typename Take>
 void run_pipeline(size_t maximum, const Make& make, const Work& work, const Take& take) {

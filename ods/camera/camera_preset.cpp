@@ -53,7 +53,7 @@ class Values {
     for (const PresetParameter& parameter : preset_.parameters) {
       if (parameter.name == name) return std::string(parameter.value);
     }
-    throw std::logic_error("a camera preset asks for a parameter that it has not");
+    throw std::logic_error("a camera preset uses an undeclared parameter");
   }
 
   const CameraPreset& preset_;

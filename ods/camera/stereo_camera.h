@@ -51,8 +51,8 @@ constexpr std::string_view merge_name(int mode) {
 constexpr std::optional<int> merge_of(std::string_view name) {
   return find_in(kMergeTable, name);
 }
-bool same_merge(const PoleMergeSetting& a,
-                const PoleMergeSetting& b);  // two settings of kMergeNone are equal whatever their numbers
+// Two settings of kMergeNone are equal whatever their numbers.
+bool same_merge(const PoleMergeSetting& a, const PoleMergeSetting& b);
 
 inline constexpr NameRow<int> kConvergenceTable[] = {{kParallel, "parallel"}, {kToeIn, "toe-in"}, {kShift, "shift"}};
 static_assert(has_each_of(kConvergenceTable, kConvergenceCount));

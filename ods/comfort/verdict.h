@@ -21,12 +21,12 @@ struct StrainedPlace {
   double value = 0.0;
   ComfortLevel level = ComfortLevel::kOk;
   size_t eye = 0;          // eye with the worst point: index in ComfortVerdict::per_eye
-  double azimuth = 0.0;    // direction of the worst point, degrees to the right of the picture's middle
+  double azimuth = 0.0;    // of the worst point in the camera's own frame, degrees to the right, -180..180
   double elevation = 0.0;  // degrees
   double distance = 0.0;   // metres from the circle's centre
   double share = 0.0;      // of the picture, by solid angle: the part of this thing that is not ok
-  double enough = 0.0;     // the distance, in this direction, from which on it is at most a caution
-  float ipd = 0.0f;        // the largest eye distance at which it is at most a caution, at its distance
+  double enough = 0.0;     // metres from the circle's centre: at this distance and beyond it is at most a caution
+  float ipd = 0.0f;        // metres: the largest eye distance at which it is at most a caution; meaningless for kRule
 };
 
 struct EyeComfort {
@@ -51,14 +51,15 @@ struct ComfortVerdict {
   std::vector<EyeComfort> per_eye;
   std::optional<MatchQuality> match;         // set for a picture without depth
   ComfortLevel apart = ComfortLevel::kOk;    // the level of match->apart
-  EnumArray<ComfortLevel, double> share{};   // of the known part of the picture, by solid angle
+  EnumArray<ComfortLevel, double> share{};   // 0..1 of the known part, by solid angle
   EnumArray<ComfortLevel, double> looked{};  // the share weighted by where people look: gaze_density()
   EnumArray<Strain, double> max{};           // largest value of each strain
   std::vector<StrainedPlace> places;         // worst first, at most ten
   double nearest = 0.0;                      // metres; infinite if there is nothing
-  double unknown = 0.0;                      // share of pixels without a depth
-  float largest_ipd = 0.0f;                  // the largest eye distance at which nothing exceeds a caution
-  double head_roll = 0.0;  // degrees: the ears may be this far out of level before kVertical is a warning anywhere
+  double unknown = 0.0;                      // 0..1 of the pixels, not by solid angle: without a depth
+  float largest_ipd = 0.0f;  // metres, at most the camera's: the largest at which nothing exceeds a caution
+  double head_roll = 0.0;    // degrees that the ears may be out of level before kVertical is a warning anywhere. 0: it
+                             // is one with level ears; 90: no limit
 
   // The worst place; nullptr if nothing strains.
   const StrainedPlace* worst() const { return places.empty() ? nullptr : &places[0]; }

@@ -108,13 +108,13 @@ struct VideoStrain {
 struct VideoComfort {
   ComfortLevel level = ComfortLevel::kOk;  // the worst of the moments
   int frames = 0;                          // of the video; 0: unknown
-  double seconds = 0.0;                    // the video's duration
-  double every = 0.0;                      // seconds from one moment to the next
+  double seconds = 0.0;                    // the video's duration; 0: unknown
+  double every = 0.0;                      // seconds from one moment to the next; 1 if the duration is unknown
   double precision = 0.0;                  // minutes of arc
   std::vector<VideoMoment> moments;
   std::vector<VideoStrain> strains;  // worst first, at most ten
-  JudgedPicture worst;               // the picture of the worst moment
-  std::vector<std::string> notes;    // for messages
+  JudgedPicture worst;  // the picture with the worst strain within it; only verdict, camera and light are set
+  std::vector<std::string> notes;  // for messages
 };
 
 struct VideoComfortOptions {

@@ -60,10 +60,8 @@ std::string conversion_fault(const StoredPicture& picture, const ConvertTarget& 
   }
   if (!sees_around(picture, target) || depth_layer(picture)) return correction_fault(picture, target);
   if (from_mono)
-    return "the picture is of one eye in the middle, and has no depth from which two could be made: give it by `depth` "
-           "FILE";
-  return "eyes at other places see around things otherwise, which needs depth: render to .exr, which keeps it, or give "
-         "it by "
+    return "the picture has one eye and no depth from which a second eye could be made: add it with `depth` FILE";
+  return "moving the eyes uncovers what was hidden, which needs depth: render to .exr, which keeps it, or add it with "
          "`depth` FILE";
 }
 

@@ -26,14 +26,13 @@ WeightedPlace Mapping::other_lens(int index, vec2 home, vec2 uv) const {
   if (!source.picture->front_and_back) return {};
   const Ray ray = ray_of(index, home, uv);
   if (ray.direction == vec3(0.0f)) return {};
-  const vec3 direction = turn ? *turn * ray.direction : ray.direction;
   float overlap = 0.0f;
-  const float balance = balance_of_lenses(*source.picture, in_picture(source, direction), overlap);
+  const float balance = balance_of_lenses(*source.picture, in_picture(source, ray.direction), overlap);
   const float seam = std::min(overlap, kWidestSeam);
   if (!(seam > 0.0f)) return {};
   const float share = 0.5f - std::abs(balance) / (2.0f * seam);  // balance changes twice as fast as the angle
   if (!(share > 0.0f)) return {};
-  const Place place = place_of_line(source, balance > 0.0f ? 0 : 1, direction);
+  const Place place = place_of_line(source, balance > 0.0f ? 0 : 1, ray.direction);
   return {place, place.seen ? share : 0.0f};
 }
 
@@ -46,11 +45,10 @@ Place Mapping::find(int index, vec2 home, vec2 uv) const {
     const float phi = camera.projection.center.y + (0.5f - uv.y) * camera.projection.span.y;
     if (abs(phi) > 0.5f * kPi) source_eye = eye_over_pole(source, source_eye, phi > 0.0f);
   }
-  const vec3 direction = turn ? *turn * ray.direction : ray.direction;
-  if (!source.picture->front_and_back) return place_of_line(source, source_eye, direction);
+  if (!source.picture->front_and_back) return place_of_line(source, source_eye, ray.direction);
   float overlap = 0.0f;
-  const bool is_behind = balance_of_lenses(*source.picture, in_picture(source, direction), overlap) > 0.0f;
-  return place_of_line(source, is_behind ? 1 : 0, direction);
+  const bool is_behind = balance_of_lenses(*source.picture, in_picture(source, ray.direction), overlap) > 0.0f;
+  return place_of_line(source, is_behind ? 1 : 0, ray.direction);
 }
 
 bool is_turned(const ConvertTarget& target) {

@@ -23,8 +23,8 @@ struct Mapping {
   Camera camera;  // the target's, with its centre at 0
   Extent size;
   std::vector<int> eyes;
-  std::vector<int> from;          // for each eye of the target, its index in the source
-  std::optional<glm::mat3> turn;  // from the world to the world in the frame of the source's camera
+  std::vector<int> from;          // for each eye of the target, the index in StoredPicture::eyes of its source
+  std::optional<glm::mat3> turn;  // undoes ConvertTarget::turned: rotates rays in the world; not set if there is none
 
   // uv may be outside the cell of `home`, where the target's own filter reaches.
   Place find(int index, vec2 home, vec2 uv) const;
@@ -32,8 +32,10 @@ struct Mapping {
   // For dual-fisheye cameras: the same point in the other lens, and the weight of that lens in the blend (below 0.5).
   // The weight is 0 outside the overlap and for all other pictures.
   WeightedPlace other_lens(int index, vec2 home, vec2 uv) const;
+  // The target's ray in the source's world: relative to the circle's centre, turned.
   Ray ray_of(int index, vec2 home, vec2 uv) const {
-    return camera_ray(camera, eyes[static_cast<size_t>(index)], home, uv, vec2(0.0f));
+    const Ray ray = camera_ray(camera, eyes[static_cast<size_t>(index)], home, uv, vec2(0.0f));
+    return turn ? Ray{*turn * ray.origin, *turn * ray.direction} : ray;
   }
   vec2 uv_of(float x, float y) const {
     return {x / static_cast<float>(size.width), y / static_cast<float>(size.height)};

@@ -60,7 +60,7 @@ def set_up(scene):
 
 
 def mark(folder, work):
-    """Says which rig the views are of. A folder is of one rig: its views stay, and another's would be mixed with them."""
+    """Records the rig that the views belong to. A folder holds the views of one rig only."""
     path = os.path.join(folder, "ods-rig.txt")
     if os.path.exists(path):
         with open(path) as file:
@@ -119,7 +119,7 @@ RigExport rig_to_blender(const SlitRig& rig, const std::string& name) {
        {"  blender -b scene.blend --python-exit-code 1 -P " + name + ".blender.py",
         "  blender -b scene.blend --python-exit-code 1 -P " + name +
             ".blender.py -- 1 100   views 1 to 100, for a farm",
-        "The frame that the scene is at is rendered, as is its world, engine and quality; views that are there stay.",
+        "The frame that the scene is at is rendered, as is its world, engine and quality; existing views are kept.",
         "Noise: each view has a seed of its own, SEED and its number."}},
       result.warnings);
   std::string text = commented("#", lines);

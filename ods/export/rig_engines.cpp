@@ -36,8 +36,8 @@ export function download(name, blob) {
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 }
 
-// Renders the views from first to last; save(name, blob) gets each, as a PNG, and may be asynchronous. Before them it gets
-// ods-rig.txt, which says which rig they are of.
+// Renders the views from first to last; save(name, blob) gets each, as a PNG, and may be asynchronous. Before them it
+// gets ods-rig.txt, which identifies their rig.
 export async function renderViews(THREE, renderer, scene, options = {}) {
   const { save = download, first = 1, last = views.length, near, far } = options;
   renderer.setPixelRatio(1);

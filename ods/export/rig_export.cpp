@@ -95,19 +95,20 @@ std::string mark_literal(const SlitRig& rig) {
 std::vector<std::string> head_lines(const SlitRig& rig, const std::string& name, const ScriptHead& head,
                                     std::vector<std::string>& warnings) {
   if (rig.options.depth != ViewDepth::kNone && !head.has_depth) {
-    warnings.push_back(fmt::format("this writes no depth '{}', and the rig counts on it: ten times its error",
-                                   view_depth_name(rig.options.depth)));
+    warnings.push_back(
+        fmt::format("this export writes no depth '{}', which the rig requires: the error is ten times as large",
+                    view_depth_name(rig.options.depth)));
   }
   std::vector<std::string> lines{
       fmt::format("{}: {} views of {}x{} pixels for {}.json.", head.title, rig.views.size(), rig.view.width,
                   rig.view.height, name),
-      "All are of one moment: nothing in the scene may move from the first view to the last."};
+      "All views show the same moment: nothing in the scene may move from the first view to the last."};
   lines.insert(lines.end(), head.own_lines.begin(), head.own_lines.end());
   lines.emplace_back(
       "Effects on finished pictures (bloom, glare, vignette, automatic exposure) belong on the stitched");
-  lines.push_back(
-      fmt::format("picture. What only spreads light, by {} pixels at most, may be on: a border of so many is cut off",
-                  rig.options.padding));
+  lines.push_back(fmt::format(
+      "picture. Effects that spread light by at most {} pixels are allowed: a border of that width is cropped",
+      rig.options.padding));
   lines.emplace_back("(ods rig --padding).");
   lines.push_back(fmt::format("Then: ods stitch {}.json '{}' -o picture.exr", name, head.views));
   for (const std::string& warning : warnings) lines.push_back("Unsupported: " + warning + ".");

@@ -119,7 +119,7 @@ VrCamera vr_camera(const Sidecar& file, std::vector<std::string>& warnings) {
 }
 
 constexpr const char* kArnoldNote =
-    "Untested: merge angles are measured from the pole, as Arnold's manual has it; never rendered with.\n";
+    "Untested: merge angles are measured from the pole, as in Arnold's manual; never used for rendering.\n";
 
 }  // namespace
 

@@ -36,7 +36,7 @@ vec3 tone_map(vec3 light, float exposure, ToneCurve curve);
 float srgb_encode(float linear);
 float srgb_decode(float encoded);
 
-// A table of the linear light of each code value 0..largest.
+// Returns a table of linear light, indexed by code value 0..largest.
 std::vector<float> linear_from_encoded(int largest);
 
 }  // namespace ods

@@ -45,7 +45,7 @@ static void check_highlights(const Subject& subject, LintReport& report) {
   report.findings.push_back(
       {Fault::kClipped, certainty,
        fmt::format("{:.1f} % of the picture is pure white: no detail is left there", 100.0 * share),
-       "expose less, or keep scene-linear light (.exr, .hdr) and roll highlights off "
+       "reduce the exposure, or keep scene-linear light (.exr, .hdr) and roll highlights off "
        "(ods convert `exposure` -1 `tone` neutral)"});
 }
 

@@ -184,7 +184,8 @@ void check_colors(const Subject& subject, LintReport& report) {
                   stops > 0.0 ? "brighter" : "darker"));
   add(Fault::kEyeGamma,
       certainty_of({std::abs(response.gamma - 1.0), response.gamma_error, response.places}, 0.03, 0.08),
-      fmt::format("the right eye's light goes as the left one's to the power of {:.3f}", response.gamma));
+      fmt::format("the right eye's light is proportional to the left eye's raised to the power {:.3f}",
+                  response.gamma));
 }
 
 }  // namespace ods

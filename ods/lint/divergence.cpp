@@ -55,9 +55,10 @@ void check_divergence(const Subject& subject, double swapped, LintReport& report
   if (certainty < 0.1) return;
   report.findings.push_back(
       {Fault::kEyesDiverge, certainty,
-       fmt::format("a quarter of {} places has parallax outwards by {:.2f} degrees and more, +-{:.2f}: eyes that look "
-                   "at what is far must diverge by that",
-                   angles.size(), yaw, far.error),
+       fmt::format(
+           "at a quarter of {} places the parallax is outward by {:.2f} degrees or more, +-{:.2f}: eyes that look "
+           "at what is far must diverge by that",
+           angles.size(), yaw, far.error),
        "turn the cameras inwards, or turn the picture: " +
            convert_command(subject, fmt::format("`right-yaw` {:.2f}", yaw))});
 }

@@ -90,10 +90,10 @@ inline constexpr FaultRow kFaultTable[] = {
     {Fault::kDeadPole, "dead-pole", "a pole without a picture", Severity::kWarning},
     {Fault::kClipped, "clipped", "highlights are clipped", Severity::kWarning},
     {Fault::kBlack, "black", "the picture is black", Severity::kFault},
-    {Fault::kBanding, "banding", "gradients have become stairs", Severity::kWarning},
+    {Fault::kBanding, "banding", "gradients show banding", Severity::kWarning},
     {Fault::kEyeLate, "eye-late", "one eye is ahead in time", Severity::kFault},
     {Fault::kCutsDiffer, "cuts-differ", "the eyes are cut at different frames", Severity::kFault},
-    {Fault::kDuplicateFrames, "duplicate-frames", "frames are there twice", Severity::kWarning},
+    {Fault::kDuplicateFrames, "duplicate-frames", "frames are duplicated", Severity::kWarning},
 };
 static_assert(has_every_member(kFaultTable));
 inline constexpr auto kFaults = members_of(kFaultTable);

@@ -26,7 +26,8 @@ static std::string_view read_as(const LintReport& report) {
 static void check_gpano(const Subject& subject, LintReport& report) {
   if (subject.is_video || report.eye_count < 2 || names_eye(subject.path) || subject.format.is_photo) return;
   if (read_xmp(subject.path).find("GPano:") == std::string::npos) return;
-  add(report, 1.0, "a stereo file carries GPano, which knows no stereo: viewers wrap both eyes around one sphere",
+  add(report, 1.0,
+      "the stereo file contains GPano metadata, which cannot express stereo: viewers wrap both eyes around one sphere",
       "remove GPano from it (ods inject `remove` FILE)");
 }
 

@@ -209,7 +209,7 @@ std::vector<std::string> picture_warnings(const FileInfo& info, const StereoForm
   if (contradicts_name(path, is)) warnings.push_back(name_warning(path, is));
   if (!is_named(read_name(path)) && format.layout.layout && !agree(is, shape.takes_it_for)) {
     warnings.push_back(
-        fmt::format("players that go by its name or shape do not see that it is {} (a name that ends in "
+        fmt::format("players that rely on the name or shape do not recognise it as {} (a name that ends in "
                     "_360_TB, _180_LR ... is read by most)",
                     is));
   }

@@ -30,7 +30,7 @@ static void check_aspect(const Subject& subject, LintReport& report) {
   // Rounding moves an edge by one pixel, squeezing by another.
   const double off = std::max(0, std::abs(height - natural) - squeeze.height) / static_cast<double>(natural);
   if (off == 0.0 || is_squeezed_sphere(subject, report.file)) return;
-  std::string cure = "crop or pad the picture to that shape, or say which part of the sphere it shows (`range`)";
+  std::string cure = "crop or pad the picture to that shape, or specify which part of the sphere it shows (`range`)";
   if (is_full_lat_long(subject.projection()))
     cure += "; if the whole sphere is there, squeezed, ods convert stretches it";
   if (std::abs(height * 2 - natural) <= 2) cure = "its eyes look squeezed: read it as top-bottom-half, or stretch them";

@@ -57,7 +57,7 @@ struct PictureSamples {
   int blocks_done = 0;         // in the current pass
   std::vector<uint8_t> noisy;  // per block (ods/render/sampling_plan.h): bits 0 and 1 for the classes of its pixels
                                // that are still sampled
-  float judged_at = 0.0f;      // RenderOptions::noise_exposure by which judge_noise() has found that out
+  float judged_at = 0.0f;      // RenderOptions::noise_exposure at the last call of judge_noise()
   std::vector<EyeSamples> eyes;
 };
 

@@ -84,7 +84,7 @@ Rendered FrameRenderer::keep_raw(const SequenceFrame& frame, const Report& repor
 // The picture that keep_raw() has written; nullopt if there is no usable one.
 std::optional<Picture> FrameRenderer::read_raw(const std::string& path, const RenderOptions& options) const {
   if (!is_saved(path)) return std::nullopt;
-  std::string fault = fmt::format("'{}' is of another picture", path);
+  std::string fault = fmt::format("'{}' belongs to another picture", path);
   try {
     PictureSamples samples;
     read_unfinished(path, samples);

@@ -31,7 +31,7 @@ static std::optional<float> exposure_for(FrameRenderer& renderer, const std::vec
   for (const size_t i : sampled_frames(frames, kLooks)) {
     const Shot shot = renderer.set(frames[i]);
     looks.push_back(
-        renderer.renderer().render(first_look_camera(shot.camera()), first_look(renderer.options().render)));
+        renderer.renderer().render(metering_camera(shot.camera()), metering_options(renderer.options().render)));
   }
   return suitable_exposure(looks);
 }
@@ -53,14 +53,15 @@ FirstLook look_first(FrameRenderer& renderer, const std::vector<SequenceFrame>& 
   }
   FirstLook look;
   if (options.exposure) {
-    look.exposure = *options.exposure;
+    look.chosen = *options.exposure;
   } else if (renderer.scene().as_painted) {
     look.reason = ExposureReason::kPainted;
   } else {
     const std::optional<float> stops = exposure_for(renderer, frames);
-    look.exposure = stops ? brightened(*stops, options.brighter) : options.brighter;
+    look.chosen = stops.value_or(0.0f);
     look.reason = stops ? ExposureReason::kLight : ExposureReason::kDark;
   }
+  look.exposure = brightened(look.chosen, options.brighter);
   options.render.noise_exposure = look.exposure;
   renderer.set_options(std::move(options));
   return look;

@@ -26,12 +26,13 @@ enum class ExposureReason {
 };
 
 struct FirstLook {
-  float exposure = 0.0f;  // stops
+  float chosen = 0.0f;    // stops, without SequenceOptions::brighter
+  float exposure = 0.0f;  // stops, with it
   ExposureReason reason = ExposureReason::kGiven;
 };
 
-// Finds the settings that the options leave open, the exposure and the merge, and sets them in the renderer's options:
-// noise_exposure, and the camera's merge map.
+// Finds the exposure and the merge if the options leave them open. Sets noise_exposure and the camera's merge map in
+// the renderer's options.
 FirstLook look_first(FrameRenderer& renderer, const std::vector<SequenceFrame>& frames);
 
 // An estimate of a frame's cost from a small picture of it.

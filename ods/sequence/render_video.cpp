@@ -51,7 +51,7 @@ template <typename Value>
 Value expect(const VideoJournal& journal, const std::optional<Value>& value) {
   if (value) return *value;
   throw Error(ErrorKind::kInput,
-              fmt::format("job.txt in '{}' is damaged; `restart` makes the frames again", journal.folder()));
+              fmt::format("job.txt in '{}' is damaged; `restart` renders the frames again", journal.folder()));
 }
 
 // Options with the settings found when the first of the existing frames were made.
@@ -64,8 +64,8 @@ SequenceOptions as_recorded(SequenceOptions options, const VideoJournal& journal
   return options;
 }
 
-void record(VideoJournal& journal, const SequenceOptions& options) {
-  journal.record(kExposureSetting, fmt::format("{}", options.render.noise_exposure));
+void record(VideoJournal& journal, const SequenceOptions& options, float exposure) {
+  journal.record(kExposureSetting, fmt::format("{}", exposure));
   if (options.merge_limit) journal.record(kMergeSetting, map_text(*options.camera.stereo.merge_map));
 }
 
@@ -104,7 +104,7 @@ std::optional<VideoPlan> render_video(VideoJournal& journal, Scene& scene, Seque
   FrameRenderer renderer(as_recorded(std::move(options), journal), scene);
   FirstLook look = look_first(renderer, all);
   if (is_found) look.reason = ExposureReason::kFrames;
-  record(journal, renderer.options());
+  record(journal, renderer.options(), look.chosen);
   const VideoStart start{renderer, all, choose_frames(all, own), look};
   if (progress.start) progress.start(start);
   const Sink sink = video.raw ? Sink::kRaw : video.only ? Sink::kShared : Sink::kFiles;

@@ -27,7 +27,7 @@ struct SequenceOptions {
   double shutter = 0.0;  // shutter angle, degrees, centred on the frame's time: 360 is the time between two frames
   std::optional<bool> changing_grain;  // each frame has its own noise; nullopt: if camera.move moves
   std::optional<float> exposure;       // stops: for judging noise, and for a video; nullopt: chosen for the light
-  float brighter = 0.0f;               // stops, added for all frames
+  float brighter = 0.0f;               // stops, added to the exposure, given or chosen
   RenderOptions render;  // of a picture; height 0: what suits the camera's projection. `layers` and `statistics`:
                          // whether the files have them. noise_exposure: look_first() sets it
   FinishOptions finish;

@@ -78,7 +78,7 @@ double brightest(const std::vector<Patch>& sorted, double share, bool indoors) {
 
 }  // namespace
 
-RenderOptions first_look(const RenderOptions& options) {
+RenderOptions metering_options(const RenderOptions& options) {
   RenderOptions look;
   look.width = kLookWidth, look.height = kLookHeight;
   look.samples = kLookSamples;
@@ -93,7 +93,7 @@ RenderOptions first_look(const RenderOptions& options) {
   return look;
 }
 
-StereoCamera first_look_camera(const StereoCamera& camera) {
+StereoCamera metering_camera(const StereoCamera& camera) {
   StereoCamera look;
   look.position = camera.position;
   look.yaw = camera.yaw;

@@ -14,8 +14,8 @@ namespace ods {
 
 // The options and the camera of the picture that measures the light: small, one eye between the two, a few samples, all
 // directions around the camera. It has the same bits in every run, independent of the size of the final picture.
-RenderOptions first_look(const RenderOptions& options);
-StereoCamera first_look_camera(const StereoCamera& camera);
+RenderOptions metering_options(const RenderOptions& options);
+StereoCamera metering_camera(const StereoCamera& camera);
 
 // The exposure in stops, rounded to tenths, for one or several such pictures (frames of a video) together. The mean of
 // the logarithm of luminance becomes kExposedMean. The mean is weighted by solid angle, excludes black, and weights the

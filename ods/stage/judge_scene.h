@@ -12,8 +12,10 @@
 
 namespace ods {
 
-// Judges both eyes of a picture this wide, of the scene as the renderer has it. The picture's light shows the distances
-// as grey.
+// Judges both eyes of a picture of this width, in the scene's present state. The picture's radiance encodes distances
+// as grey. The scene must be the renderer's, at the same time. For the verdict of `ods comfort`, place the camera with
+// camera_in() (ods/sequence/scene_camera.h) and merge both poles by kUsualMerge. Throws Error(kInput) as
+// judge_comfort(). Precondition: width > 0.
 JudgedPicture judge_scene(const CpuRenderer& renderer, const Scene& scene, const StereoCamera& camera, int width = 512,
                           const ComfortOptions& options = {});
 

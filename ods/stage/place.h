@@ -54,7 +54,10 @@ using LookAround = std::function<void(const SceneRays& rays, const Survey& surve
 
 // Gives a scene its size in metres and its viewer: guesses the unit, unless it is given, scales the scene by it, and
 // sets Scene::viewing. A scene without visible surfaces is not changed, except by a given unit. An object seen by a
-// camera of the file keeps its size. look: called once at the end.
+// camera of the file keeps its size. look: called once at the end. Throws Error(kInput) as scale_scene().
+//
+// The commands open a file with load_scene(); if lies_on_its_back(), they load it again with SceneOptions::z_up; then
+// they settle it, and place the camera with camera_in() (ods/sequence/scene_camera.h). Built-in scenes are not settled.
 Settled settle(Scene& scene, const SettleOptions& options = {}, const LookAround& look = {});
 
 // A note for a scene of uncertain kind: the alternative, and the option for it.

@@ -37,7 +37,7 @@ class VideoFrame {
 class FramePool {
  public:
   FramePool(Extent size, const Packing& packing);  // as for VideoFrame
-  // A new frame, or an old one with its old pixels. May be called concurrently.
+  // Returns a new frame, or a reused one with undefined pixels. May be called concurrently.
   std::shared_ptr<VideoFrame> take() const;
 
  private:
@@ -63,8 +63,8 @@ void video_lights(std::span<const float> row, float* pixels);
 // The video layout for a picture: kTopBottom or kSideBySide, squeezed or not.
 Layout video_layout(const StoredPicture& picture);
 
-// Precondition: `frame` is packed_size() of the layout and the picture's eyes, which are multiples of the chroma block.
-// Alpha is composited over black.
+// Converts the picture into `frame`. Precondition: the frame has packed_size() of layout and eyes, whose sides are
+// multiples of the chroma block. Alpha is composited over black.
 void fill_frame(const StoredPicture& picture, Layout layout, const DisplayTransform& display, VideoFrame& frame);
 
 }  // namespace ods

@@ -110,7 +110,7 @@ static void set_lat_long(SphericalMetadata& metadata, const std::vector<TextureM
 static void take_mesh(VideoInput& video, const VideoTrack& track) {
   std::vector<std::string>& notes = video.prototype.guesses;
   try {
-    if (track.mesh.empty()) throw MalformedFile("it says mesh, and has none");
+    if (track.mesh.empty()) throw MalformedFile("its projection is a mesh, but the mesh is missing");
     const ProjectionMeshes meshes = parse_mesh_box(track.mesh);
     const MeshedEyes eyes = eyes_of_meshes(meshes, *video.metadata.stereo);
     if (!meshes.fits_checksum)
@@ -120,9 +120,9 @@ static void take_mesh(VideoInput& video, const VideoTrack& track) {
     notes.push_back(fmt::format("it has its camera's lenses as a mesh ({} triangles)", eyes.eyes[0].triangles.size()));
   } catch (const MalformedFile& fault) {
     if (!track.v1 || track.v1->projection != VideoProjection::kEquirect) {
-      throw unusable(video.path, fmt::format("{}; `projection` and `layout` say what it shows", fault.what()));
+      throw unusable(video.path, fmt::format("{}; specify `projection` and `layout`", fault.what()));
     }
-    notes.push_back(fmt::format("{}: taken as its V1 says, {}", fault.what(), metadata_text(*track.v1)));
+    notes.push_back(fmt::format("{}: using its V1 metadata, {}", fault.what(), metadata_text(*track.v1)));
     video.metadata = *track.v1;
     if (!video.metadata.stereo) video.metadata.stereo = VideoStereo::kOneView;
   }
@@ -147,7 +147,7 @@ VideoInput open_video(const std::string& path, const FormatHint& given) {
   FormatHint all;
   all.layout = known.layout ? known.layout : layout_of_video(*video.metadata.stereo, path);
   prototype.layout = *all.layout;
-  prototype.layout_reason = "the video says so";
+  prototype.layout_reason = "according to the video";
   const std::optional<Extent> eye = unpacked_size(prototype.layout, track.size);
   if (!eye) {
     throw unusable(path, fmt::format("{}x{} pixels are not two eyes, {}", track.size.width, track.size.height,

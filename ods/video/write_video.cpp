@@ -64,7 +64,7 @@ class Parts {
     settings.push_back({"header", md5(encoder.header()), ""});
     file_.emplace(path, settings, video.resume.restart);
     if (video.resume.tell && finished() > 0) {
-      video.resume.tell(fmt::format("goes on after {} frames, which '{}' has", finished(), file_->path()));
+      video.resume.tell(fmt::format("resuming after {} frames from '{}'", finished(), file_->path()));
     }
     file_->read([&](std::string_view record) { encoder_.add(picture_of(record)); });
     encoder_.keep([this](const EncodedPicture& picture) { file_->add(record_of(picture)); });

@@ -62,10 +62,11 @@ StoredPicture open_shown(const ViewItem& item);
 std::string preview_jpeg(const ViewItem& item);
 std::string thumbnail_jpeg(const ViewItem& item);
 
-// Return whether an item's linear light is sent unchanged, and its PNG: both eyes, twice as wide. The left half
-// has the high bytes of the half floats of R, G and B, its right half the low bytes. view.json's "light_layout" is the
-// layout of the eyes.
+// Returns whether an item's linear light is sent unchanged, by light_png().
 bool has_light(const ViewItem& item);
+
+// Returns both eyes as a PNG, twice as wide. The left half has the high bytes of the half floats of R, G and B, the
+// right half the low bytes. view.json's "light_layout" is the layout of the eyes.
 std::string light_png(const StoredPicture& picture);
 
 struct EyeOptions {

@@ -117,7 +117,7 @@ TEST_F(Cli, ANamedSizeSetsWidthAndLayout) {
   EXPECT_EQ(run("render furnace -q --width 16 --size lr-minimum-7200 --samples 1 -o " + folder.path("c.exr")), 0)
       << err;
   EXPECT_EQ(run("compare " + folder.path("c.exr") + " " + folder.path("c.exr")), 0) << err;
-  EXPECT_NE(out.find("side-by-side, the file says so"), std::string::npos) << out;
+  EXPECT_NE(out.find("side-by-side, according to the file"), std::string::npos) << out;
 }
 
 TEST_F(Cli, CompareMeasuresAndJudges) {

@@ -90,6 +90,21 @@ TEST(Reproject, NewMerge) {
   EXPECT_LT(result.needless, 0.001);
 }
 
+// The camera was turned while the picture was taken.
+TEST(Reproject, TurnsBackAndMovesTheEyes) {
+  StereoCamera taken;
+  taken.yaw = 40.0f, taken.pitch = -8.0f, taken.roll = 12.0f;
+  MadePicture made = picture_of_world(taken, {512, 256}, kBoth);
+  made.picture.camera.yaw = made.picture.camera.pitch = made.picture.camera.roll = 0.0f;
+  ConvertTarget target = target_of(made, taken.projection, made.picture.size);
+  target.turned = {taken.yaw, taken.pitch, taken.roll};
+  target.camera.ipd = 0.05f;
+  const Result result = convert_and_measure(made, target);
+  EXPECT_GT(result.psnr, 38.0);
+  EXPECT_LT(result.depth_off, 0.004);
+  EXPECT_LT(result.holes, 0.01);
+}
+
 std::shared_ptr<const Image> map_of(int width, std::vector<float> values) {
   auto map = std::make_shared<Image>(width, static_cast<int>(values.size()) / width, 1);
   map->pixels = std::move(values);

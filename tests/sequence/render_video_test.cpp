@@ -131,6 +131,26 @@ TEST(RenderVideo, FramesForTwoExposuresAreNotMixed) {
   EXPECT_NE(film.folder.read("c.mp4"), video);
 }
 
+TEST(RenderVideo, StopsAreAddedToEveryExposure) {
+  JudgedFilm film;
+  film.options.render.width = 16;
+  const auto look = [&](std::optional<float> given, float brighter, bool as_painted = false) {
+    Scene scene = load_scene("axis");
+    scene.as_painted = as_painted;
+    film.options.exposure = given;
+    film.options.brighter = brighter;
+    FrameRenderer renderer(film.options, scene);
+    const FirstLook found = look_first(renderer, make_frames(film.options, {0}, film.folder.path("#.exr")));
+    EXPECT_EQ(renderer.options().render.noise_exposure, found.exposure);
+    return found;
+  };
+  EXPECT_EQ(look(0.5f, 1.5f).exposure, 2.0f);
+  EXPECT_EQ(look({}, 1.5f, true).exposure, 1.5f) << "a scene that is shown as painted";
+  const FirstLook chosen = look({}, 0.0f), brighter = look({}, 1.5f);
+  EXPECT_EQ(brighter.chosen, chosen.exposure);
+  EXPECT_FLOAT_EQ(brighter.exposure, chosen.exposure + 1.5f);
+}
+
 // The camera comes down from the sky: what suits all frames is not what suits the first.
 TEST(RenderVideo, AddedFramesAreMadeWithWhatTheFirstLookHasFound) {
   JudgedFilm film;

@@ -86,9 +86,9 @@ TEST(Exposure, TheLookIsTheSameWhateverTheThreadsAndThePicture) {
   camera.position = vec3(0, 1.6f, 0);
   RenderOptions one, two;
   one.threads = 1, two.threads = 2, two.width = 4096, two.samples = 7, two.seed = 5;
-  const Picture a = render_cpu(scene, first_look_camera(camera), first_look(one));
+  const Picture a = render_cpu(scene, metering_camera(camera), metering_options(one));
   camera.ipd = 0.1f;
-  const Picture b = render_cpu(scene, first_look_camera(camera), first_look(two));
+  const Picture b = render_cpu(scene, metering_camera(camera), metering_options(two));
   EXPECT_EQ(a.eyes[0].radiance.pixels, b.eyes[0].radiance.pixels);
   EXPECT_EQ(exposure_of(a), exposure_of(b));
 }

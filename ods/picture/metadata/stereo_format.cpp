@@ -152,7 +152,7 @@ static bool has_view(const FileInfo& info, const std::string& view) {
 static std::optional<LayoutGuess> declared_layout(const FileInfo& info) {
   const auto said = info.text.find("ods:layout");
   if (said == info.text.end()) return std::nullopt;
-  LayoutGuess guess{layout_of(said->second), FormatSource::kOwnMetadata, "the file says so"};
+  LayoutGuess guess{layout_of(said->second), FormatSource::kOwnMetadata, "according to the file"};
   for (int eye : {kLeft, kRight, kMono}) {
     if (said->second == eye_name(eye)) return guess;
   }
@@ -225,7 +225,7 @@ static auto first_answer(const Answer& answer) -> decltype(answer(FormatSource()
 static std::optional<LayoutGuess> layout_in_descriptor(const FileInfo& info) {
   const auto said = info.text.find(kStereoLayout);
   if (said == info.text.end()) return std::nullopt;
-  return LayoutGuess{layout_of(said->second), FormatSource::kOtherMetadata, "its JPS descriptor says so"};
+  return LayoutGuess{layout_of(said->second), FormatSource::kOtherMetadata, "according to its JPS descriptor"};
 }
 
 static bool is_cross_eyed_by_custom(const std::string& path) {
@@ -250,7 +250,7 @@ static std::optional<LayoutGuess> layout_in(FormatSource source, const Evidence&
     case FormatSource::kSidecar:
       if (!of.sidecar) return std::nullopt;
       return guess(of.sidecar->eyes.size() == 1 ? std::nullopt : std::optional(of.sidecar->layout),
-                   "its sidecar says so");
+                   "according to its sidecar");
     case FormatSource::kOtherMetadata:
       if (has_view(of.info, "right") || has_view(of.info, "left")) return guess(Layout::kMultiview, "it has two views");
       return layout_in_descriptor(of.info);
@@ -268,7 +268,7 @@ static std::optional<LayoutGuess> layout_in(FormatSource source, const Evidence&
       if (of.known.projection) return layout_of_shape(file, of.known.projection);
       return layout_of_shape(file, of.words.projection ? std::optional(of.words.projection->setting) : std::nullopt);
     case FormatSource::kNothing:
-      return guess({}, "nothing says otherwise");
+      return guess({}, "by default");
   }
   return std::nullopt;
 }
@@ -287,13 +287,15 @@ static int find_eye(const FileInfo& info, const std::optional<Sidecar>& sidecar)
 
 // From GPano, which has no eyes.
 static std::optional<StereoCamera> camera_in_xmp(const std::string& path, std::vector<std::string>& warnings) {
-  const std::string xmp = read_xmp(names_eye(path) ? path_for_eye(path, kLeft) : path);
+  const std::string file = names_eye(path) ? path_for_eye(path, kLeft) : path;
+  if (!std::filesystem::exists(file)) return std::nullopt;  // the header did not come from a file of this name
+  const std::string xmp = read_xmp(file);
   const std::optional<StereoCamera> camera = gpano_camera(xmp);
   if (camera && xmp_property(xmp, "GPano:ProjectionType").empty()) {
     warnings.push_back("its GPano gives a crop of the sphere but no projection, as VR180 cameras do: lat-long");
   }
   if (!camera && xmp.find("GPano:ProjectionType") != std::string::npos) {
-    warnings.push_back(fmt::format("its GPano says {}; ods supports only lat-long, whole or a part",
+    warnings.push_back(fmt::format("its GPano projection is {}; ods supports only lat-long, whole or a part",
                                    xmp_property(xmp, "GPano:ProjectionType")));
   }
   return camera;
@@ -369,7 +371,7 @@ static std::optional<ProjectionGuess> projection_in(FormatSource source, const E
         return ProjectionGuess{shape->setting, "an eye has that shape"};
       return std::nullopt;
     case FormatSource::kNothing:
-      return ProjectionGuess{find_projection("lat-long")->setting, "nothing says otherwise"};
+      return ProjectionGuess{find_projection("lat-long")->setting, "by default"};
     default:
       return std::nullopt;
   }
@@ -454,11 +456,12 @@ std::string name_fault(const std::string& path, std::optional<Layout> layout, co
   const bool packed = !layout || is_packing(*layout);
   if (!words.layout_token.empty() && packed && words.layout != layout) {
     const std::string_view is = layout ? layout_name(*layout) : "one eye";
-    return fmt::format("its name ends in {}, but it is {}: programs will believe the name", words.layout_token, is);
+    return fmt::format("its name ends in {}, but it is {}: other programs will rely on the name", words.layout_token,
+                       is);
   }
   if (words.projection != nullptr && words.projection->setting.kind != projection.kind) {
-    return fmt::format("its name ends in {}, but it is {}: programs will believe the name", words.projection_token,
-                       projection_name(projection));
+    return fmt::format("its name ends in {}, but it is {}: other programs will rely on the name",
+                       words.projection_token, projection_name(projection));
   }
   return {};
 }

@@ -102,7 +102,7 @@ Extension find_extension(std::string_view name) {
   const auto* found = std::find_if(std::begin(kExtensions), std::end(kExtensions),
                                    [&](const Extension& each) { return each.name == name; });
   if (found != std::end(kExtensions)) return *found;
-  return {name, kNotRendered, "ods does not know it"};
+  return {name, kNotRendered, "unknown to ods"};
 }
 
 bool is_supported(ExtensionState state) {

@@ -40,7 +40,8 @@ void warn(Scene& scene, const std::string& what) {
 }
 
 void spend(GltfFile& file, size_t count) {
-  if (count > file.budget) fail(file, "asks for far more geometry than a file of its size can hold; it looks damaged");
+  if (count > file.budget)
+    fail(file, "declares far more geometry than a file of its size can hold; it is probably damaged");
   file.budget -= count;
 }
 
@@ -242,7 +243,7 @@ void find_losses(const GltfFile& file, Scene& scene, const AnimatedNodes& animat
   }
   if (const Names plain = find_plain_materials(file); !plain.empty()) {
     scene.losses.push_back(fmt::format(
-        "Blender's export does not know the shader nodes of {}: white or grey, unless you bake their colours "
+        "Blender's exporter does not support the shader nodes of {}: white or grey, unless you bake their colours "
         "to a texture, or set them in a Principled BSDF",
         listed(plain)));
   }

@@ -15,8 +15,8 @@ static float brightest(const PunctualLight& light) {
   return std::max({light.intensity.x, light.intensity.y, light.intensity.z});
 }
 
-// Whether it has a number of watts with at most three digits, times what Blender multiplies it by. By chance, one lamp
-// in some thousands does.
+// Returns whether the power, divided by Blender's factor, is a number of watts with at most three digits. About one
+// lamp in several thousand has such a value by chance. in some thousands does.
 static bool has_round_watts(const PunctualLight& light) {
   const double sphere = light.kind == kLightDirectional ? 1.0 : 4.0 * std::numbers::pi;
   const double watts = double{brightest(light)} * sphere / kLumensPerWatt;

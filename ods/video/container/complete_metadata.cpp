@@ -154,7 +154,7 @@ std::string shape_fault(const SphericalMetadata& metadata, Extent size) {
   const double whole = !eyes.is_halves() ? 2.0 : eyes.how == EyePacking::kStacked ? 1.0 : 4.0;
   const auto has_aspect = [&](double of) { return std::abs(aspect / of - 1.0) < 0.02; };
   if (has_aspect(whole) || (eyes.is_halves() && (has_aspect(2.0) || has_aspect(16.0 / 9.0)))) return {};
-  return fmt::format("it says {}, and {}x{} is not the shape of that", metadata_text(metadata), size.width,
+  return fmt::format("its metadata specifies {}, which does not fit {}x{} pixels", metadata_text(metadata), size.width,
                      size.height);
 }
 
@@ -186,7 +186,7 @@ static std::string word_of(const SphericalMetadata& metadata) {
 }
 
 static MetadataConflict layout_conflict(const SphericalMetadata& said, VideoStereo other, const std::string& reason) {
-  return {fmt::format("it says {}, but {}", stereo_name(*said.stereo), reason),
+  return {fmt::format("its metadata specifies {}, but {}", stereo_name(*said.stereo), reason),
           fmt::format("`layout` {} or `layout` {}", stereo_name(*said.stereo), stereo_name(other))};
 }
 
@@ -201,8 +201,11 @@ static MetadataConflict projection_conflict(const SphericalMetadata& said, const
   const std::string_view name = projection_name(other);
   if (name == "lat-long" || name == "vr180") options.push_back(fmt::format("`projection` {}", name));
   if (options.size() < 2) options.emplace_back("another name for the file");
-  return {fmt::format("it says {}, but {}", metadata_text(eye), reason), fmt::format("{}", fmt::join(options, " or "))};
+  return {fmt::format("its metadata specifies {}, but {}", metadata_text(eye), reason),
+          fmt::format("{}", fmt::join(options, " or "))};
 }
+
+constexpr const char* kSidecarDisagrees = "its sidecar disagrees";
 
 // Contradictions from a sidecar, and from the name.
 static void compare_with_names(const SphericalMetadata& known, const SphericalMetadata& said, const StereoFormat& found,
@@ -212,11 +215,13 @@ static void compare_with_names(const SphericalMetadata& known, const SphericalMe
   const bool is_custom = said.stereo == VideoStereo::kCustom || said.stereo == VideoStereo::kOther;
   if (!known.stereo && !is_custom && (has_sidecar || found.layout.source == FormatSource::kName)) {
     const std::optional<VideoStereo> other = stereo_of(found.layout.layout);
-    if (other && *other != said.stereo) conflicts.push_back(layout_conflict(said, *other, found.layout.reason));
+    if (other && *other != said.stereo)
+      conflicts.push_back(
+          layout_conflict(said, *other, has_sidecar ? std::string(kSidecarDisagrees) : found.layout.reason));
   }
   if (known.projection) return;
   if (found.has_camera && !may_be_called(said, found.camera.projection)) {
-    conflicts.push_back(projection_conflict(said, found.camera.projection, "its sidecar disagrees"));
+    conflicts.push_back(projection_conflict(said, found.camera.projection, kSidecarDisagrees));
   } else if (!found.has_camera && words.projection != nullptr && !may_be_called(said, words.projection->setting)) {
     const std::string reason = fmt::format("its name ends in {}", words.projection_token);
     conflicts.push_back(projection_conflict(said, words.projection->setting, reason));
@@ -272,7 +277,7 @@ static void plan_v1(const VideoTrack& track, const SphericalMetadata& metadata, 
   if (track.v1 && !says(track.v1, metadata)) {
     plan.adds_metadata = true;
     plan.notes.push_back(
-        fmt::format("its V1 says {}: {}", metadata_text(*track.v1), will_be ? "changed" : "taken out"));
+        fmt::format("its V1 metadata, {}, is {}", metadata_text(*track.v1), will_be ? "changed" : "taken out"));
   }
   if (will_be && !track.v1) plan.adds_metadata = true;
   if (!will_be && may_be_new && metadata.projection != VideoProjection::kFlat) {
@@ -292,7 +297,7 @@ static void plan_vexu(const VideoTrack& track, const SphericalMetadata& metadata
     return;
   }
   if (track.vexu && !says(track.vexu, metadata)) {
-    plan.notes.push_back(fmt::format("its vexu says {}: changed", metadata_text(*track.vexu)));
+    plan.notes.push_back(fmt::format("its vexu metadata, {}, is changed", metadata_text(*track.vexu)));
   }
   if (metadata.yaw != 0.0 || metadata.pitch != 0.0 || metadata.roll != 0.0) {
     plan.notes.push_back(

@@ -39,7 +39,7 @@ bool is_told_by_shape(const SphericalMetadata& known, const VideoTrack& track, c
 
 // A contradiction of the video's own metadata.
 struct MetadataConflict {
-  std::string text;     // "it says top-bottom, but its name ends in _LR"
+  std::string text;     // "its metadata specifies top-bottom, but its name ends in _LR"
   std::string options;  // settings that resolve it: "`layout` top-bottom or `layout` side-by-side"
 };
 // Contradictions from the sidecar, the name and the aspect ratio, except those that `known` resolves.

@@ -108,7 +108,7 @@ static void add_triangles(const std::vector<uint32_t>& indices, uint32_t type, T
   const auto add = [&](size_t a, size_t b, size_t c) {
     mesh.triangles.push_back({indices[a], indices[b], indices[c]});
   };
-  if (type > kFan) throw MalformedFile("its mesh has triangles in an order that nobody knows");
+  if (type > kFan) throw MalformedFile("its mesh has an unknown primitive type");
   for (size_t i = 2; i < indices.size(); i++) {
     if (type == kTriangles && i % 3 == 2) add(i - 2, i - 1, i);
     if (type == kStrip) add(i - 2, i - 1, i);
@@ -150,12 +150,12 @@ ProjectionMeshes parse_mesh_box(std::string_view body) {
   ProjectionMeshes meshes;
   const std::string_view summed = body.substr(8), packed = body.substr(12);
   meshes.fits_checksum = libdeflate_crc32(0, summed.data(), summed.size()) == checksum;
-  if (encoding != kRaw && encoding != kDeflate) throw MalformedFile("its mesh is packed in a way that nobody knows");
+  if (encoding != kRaw && encoding != kDeflate) throw MalformedFile("its mesh has an unknown encoding");
   std::string tail;
   for (const Box& box : parse_boxes(encoding == kRaw ? std::string(packed) : inflated(packed), tail)) {
     if (box.type == box_type("mesh") && meshes.eyes.size() < 2) meshes.eyes.push_back(read_mesh(box.body));
   }
-  if (meshes.eyes.empty()) throw MalformedFile("it says mesh, and has none");
+  if (meshes.eyes.empty()) throw MalformedFile("its projection is a mesh, but the mesh is missing");
   return meshes;
 }
 

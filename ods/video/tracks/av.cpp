@@ -65,7 +65,7 @@ static std::string reason_of(int code) {
   constexpr int kLastSystemError = -4095;  // smaller values are FFmpeg's own
   switch (code) {
     case AVERROR_INVALIDDATA:
-      return "it is damaged, or of a format that FFmpeg does not know";
+      return "it is damaged, or in a format that FFmpeg does not support";
     case AVERROR_EOF:
       return "it ends too early";
     case AVERROR_STREAM_NOT_FOUND:

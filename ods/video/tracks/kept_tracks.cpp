@@ -86,7 +86,7 @@ static void decide_sound(const KeepOptions& keep, Container container, Kept& kep
   if (is_held && !turns(keep, kept)) {
     kept.fate = Fate::kCopied;
     const bool may_be_field = layout.nb_channels >= 4 && ambisonic_order(layout.nb_channels) > 0;
-    if (keep.turn && may_be_field) kept.why = "does not turn with the picture: nothing says that it is ambisonic";
+    if (keep.turn && may_be_field) kept.why = "is not rotated with the picture: it is not marked as ambisonic";
     return;
   }
   SoundSource source{keep.path, kept.from->index, true, true, keep.cut};

@@ -198,7 +198,7 @@ TEST_F(KilledConversion, GoesOnAndGivesTheSameBytes) {
     if (!words.empty()) arguments.insert(arguments.end(), {"--codec", "hevc", "--preset", "ultrafast"});
     ASSERT_NO_FATAL_FAILURE(kill_in_the_middle(arguments, to));
     ASSERT_EQ(run("convert " + film + " --to vr180 -o " + path(to) + words), 0) << err;
-    EXPECT_NE(err.find("goes on after "), std::string::npos) << err;
+    EXPECT_NE(err.find("resuming after "), std::string::npos) << err;
     EXPECT_TRUE(folder.read(to) == whole) << to;
     EXPECT_FALSE(std::filesystem::exists(path(to + ".unfinished")));
   }
@@ -247,7 +247,7 @@ TEST_F(KilledConversion, OfFramesGoesOnUnlessAFrameIsAnother) {
   ASSERT_NO_FATAL_FAILURE(kill_in_the_middle(arguments, to));
   const std::string parts = folder.read(to + ".unfinished");
   ASSERT_EQ(run(words), 0) << err;
-  EXPECT_NE(err.find("goes on after "), std::string::npos) << err;
+  EXPECT_NE(err.find("resuming after "), std::string::npos) << err;
   EXPECT_TRUE(folder.read(to) == whole);
   EXPECT_FALSE(std::filesystem::exists(path(to + ".unfinished")));
 
@@ -262,11 +262,11 @@ TEST_F(KilledConversion, OfFramesGoesOnUnlessAFrameIsAnother) {
 TEST_F(ConvertVideoCommand, SaysWhatBitsAndChromaTheNewCodecLacks) {
   const std::string deep = make("deep_360_TB.mp4", 2, "--bits 10 --chroma 444");
   EXPECT_EQ(convert(deep, "a_180_LR.webm", "--to vr180"), 0) << err;
-  EXPECT_NE(err.find("has 10 bits chroma 444, the new video less, for players: --bits 10 --chroma 444"),
+  EXPECT_NE(err.find("has 10 bits chroma 444, the new video has less, for players: --bits 10 --chroma 444"),
             std::string::npos)
       << err;
   EXPECT_EQ(convert(deep, "b_180_LR.webm", "--to vr180 --bits 10 --chroma 444"), 0) << err;
-  EXPECT_EQ(err.find("the new video less"), std::string::npos) << err;
+  EXPECT_EQ(err.find("the new video has less"), std::string::npos) << err;
 }
 
 TEST_F(ConvertVideoCommand, RefusalsSayWhatToDo) {

@@ -42,7 +42,7 @@ TEST_F(SceneOptionsOf, InfoNamesWhatEachExtensionBecame) {
   ASSERT_EQ(run("info " + path), 0) << err;
   EXPECT_TRUE(has(out, "KHR_texture_transform: rendered (")) << out;
   EXPECT_TRUE(has(out, "KHR_xmp_json_ld: no effect (metadata)")) << out;
-  EXPECT_TRUE(has(out, "VENDOR_thing: not rendered (ods does not know it)")) << out;
+  EXPECT_TRUE(has(out, "VENDOR_thing: not rendered (unknown to ods)")) << out;
   const GltfJson list = info(path)["extensions"];
   ASSERT_EQ(list.size(), 3u);
   EXPECT_EQ(list[0]["name"], "KHR_texture_transform");

@@ -113,7 +113,7 @@ TEST_F(RenderViewpoint, ACameraWithNothingToSeeIsSaidBeforeAnHourOfRendering) {
   ASSERT_EQ(run("render " + solid + kTiny + folder.path("a.png") + " --position 0,0,0"), 0) << err;
   EXPECT_NE(err.find("the camera is inside a solid model"), std::string::npos) << err;
   ASSERT_EQ(run("render " + solid + kTiny + folder.path("a.png") + " --env 0"), 0) << err;
-  EXPECT_NE(err.find("there is nothing to see: no light reaches the camera"), std::string::npos) << err;
+  EXPECT_NE(err.find("the picture is black: no light reaches the camera"), std::string::npos) << err;
 }
 
 TEST_F(RenderViewpoint, TheExposureIsSaidAndCanBeRepeated) {
@@ -141,7 +141,8 @@ TEST_F(RenderViewpoint, BrighterIsAStopMoreThanWhatIsChosenOrGiven) {
   ASSERT_NE(chosen, "none") << err;
   ASSERT_EQ(run(render + folder.path("brighter.png") + " --brighter 1.5"), 0) << err;
   EXPECT_NE(err.find("from a first look at the light and --brighter 1.5 ("), std::string::npos) << err;
-  const std::string stops = number_after(err, "--exposure ");
+  EXPECT_NE(err.find("(--exposure " + chosen + " --brighter 1.5)"), std::string::npos) << err;
+  const std::string stops = number_after(err, "exposure ");
   EXPECT_NEAR(std::stof(stops), std::stof(chosen) + 1.5f, 1e-3f);
   for (const std::string& same : {"--exposure " + stops, "--brighter 1.5 --exposure " + chosen}) {
     ASSERT_EQ(run(render + folder.path("same.png") + " " + same), 0) << err;

@@ -235,15 +235,16 @@ TEST_F(InjectCommand, WhatContradictsTheVideoNeedsAWord) {
   };
   const std::string tb = st3d(1) + sv3d("x", kWhole), half = st3d(2) + sv3d("x", kHalf);
   const Contradiction kCases[] = {
-      {"a_360_LR.mp4", 256, 256, tb, "", "it says top-bottom, but its name ends in _LR",
+      {"a_360_LR.mp4", 256, 256, tb, "", "its metadata specifies top-bottom, but its name ends in _LR",
        "--layout top-bottom or --layout side-by-side"},
-      {"a_180_LR.mp4", 256, 256, st3d(2) + sv3d("x", kWhole), "", "it says lat-long, but its name ends in _180",
-       "--projection lat-long or --projection vr180"},
-      {"a_360_LR.mp4", 512, 256, half, "", "it says lat-long 180x180, but its name ends in _360",
+      {"a_180_LR.mp4", 256, 256, st3d(2) + sv3d("x", kWhole), "",
+       "its metadata specifies lat-long, but its name ends in _180", "--projection lat-long or --projection vr180"},
+      {"a_360_LR.mp4", 512, 256, half, "", "its metadata specifies lat-long 180x180, but its name ends in _360",
        "--projection vr180 or --projection lat-long"},
-      {"a_360_TB.mp4", 256, 256, st3d(1), "", "it says flat, but its name ends in _360",
+      {"a_360_TB.mp4", 256, 256, st3d(1), "", "its metadata specifies flat, but its name ends in _360",
        "--projection flat or --projection lat-long"},
-      {"a.mp4", 256, 256, "", v1_box("mono"), "it says mono, lat-long, and 256x256 is not the shape of that",
+      {"a.mp4", 256, 256, "", v1_box("mono"),
+       "its metadata specifies mono, lat-long, which does not fit 256x256 pixels",
        "--layout mono or --layout top-bottom"},
   };
   for (const auto& [name, width, height, entry, track, words, options] : kCases) {
@@ -265,7 +266,7 @@ TEST_F(InjectCommand, WhatContradictsTheVideoNeedsAWord) {
 TEST_F(InjectCommand, EyesSqueezedInto16To9DoNotContradictTheVideo) {
   for (const auto& [width, height] : {std::pair{1920, 1080}, std::pair{3840, 2160}}) {
     EXPECT_TRUE(inject(boxes("", width, height, "", v1_box("top-bottom")), "")) << err;
-    EXPECT_EQ(err.find("is not the shape"), std::string::npos) << err;
+    EXPECT_EQ(err.find("which does not fit"), std::string::npos) << err;
   }
 }
 
@@ -277,9 +278,9 @@ TEST_F(InjectCommand, ASidecarThatContradictsTheVideoNeedsAWord) {
   ods::save_sidecar(sidecar, folder.path("video.camera.json"));
   EXPECT_FALSE(inject(video, ""));
   EXPECT_EQ(code, 3);
-  EXPECT_NE(err.find("it says top-bottom, but its sidecar says so"), std::string::npos) << err;
+  EXPECT_NE(err.find("its metadata specifies top-bottom, but its sidecar disagrees"), std::string::npos) << err;
   EXPECT_TRUE(inject(video, "--yaw 30")) << "which writes no layout anew";
-  EXPECT_NE(err.find("warning: it says top-bottom"), std::string::npos) << err;
+  EXPECT_NE(err.find("warning: its metadata specifies top-bottom"), std::string::npos) << err;
   EXPECT_TRUE(inject(video, "--layout top-bottom")) << err;
 }
 
@@ -322,7 +323,8 @@ TEST_F(InjectCommand, HarmlessContradictionsAreReported) {
   video.name = "a_360_LR.mp4";
   for (const char* option : {"--yaw 30", "--ambisonics"}) {
     EXPECT_TRUE(inject(video, option)) << err;
-    EXPECT_NE(err.find("warning: it says top-bottom, but its name ends in _LR"), std::string::npos) << err;
+    EXPECT_NE(err.find("warning: its metadata specifies top-bottom, but its name ends in _LR"), std::string::npos)
+        << err;
   }
   EXPECT_FALSE(inject(video, "--apple")) << "which says the layout once more";
 }

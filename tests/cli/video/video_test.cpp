@@ -91,7 +91,7 @@ TEST_F(VideoCommand, FramesJudgedAtAnotherExposureAreNotMixedIn) {
   ASSERT_EQ(run(video("--noise 0.05 --env 0.05 --restart")), 0) << err;
   EXPECT_NE(err.find(" stops, from a first look"), std::string::npos) << err;
   ASSERT_EQ(run(video("--noise 0.05 --env 0.05 --frames 1-4")), 0) << err;
-  EXPECT_NE(err.find(" stops, as the frames that exist"), std::string::npos) << err;
+  EXPECT_NE(err.find(" stops, as in the existing frames"), std::string::npos) << err;
 }
 
 // Frames beside a missing one are rendered again, for its sake.

@@ -337,10 +337,12 @@ TEST(Gltf, EveryFactorOfAMaterial) {
 
 TEST(Gltf, AScenesReachIsWarnedOf) {
   GltfBuilder file = make_triangle();
-  file.json["nodes"][0]["translation"] = {0, 0, -2999};
+  file.json["nodes"].push_back(file.json["nodes"][0]);
+  file.json["scenes"][0]["nodes"] = {0, 1};
+  file.json["nodes"][1]["translation"] = {0, 0, -2999};
   EXPECT_TRUE(file.load().warnings.empty());
-  file.json["nodes"][0]["translation"] = {0, 0, -6000};
-  EXPECT_EQ(file.load().warnings.size(), 1u);
+  file.json["nodes"][1]["translation"] = {0, 0, -6000};
+  ASSERT_EQ(file.load().warnings.size(), 1u);
   EXPECT_NE(file.load().warnings.at(0).find("6 km"), std::string::npos);
 }
 

@@ -245,11 +245,11 @@ TEST(MeshBox, WhatMakesNoSenseIsRefusedInWords) {
       {box_body({mesh_body(infinite, {list})}, true), "NaN or infinite"},
       {box_body({mesh_body(square, {})}, false), "no triangle"},
       {box_body({mesh_body(square, {{0, 0, {0, 1}}})}, false), "no triangle"},
-      {box_body({mesh_body(square, {{0, 7, {0, 1, 2}}})}, false), "order that nobody knows"},
+      {box_body({mesh_body(square, {{0, 7, {0, 1, 2}}})}, false), "unknown primitive type"},
       {box_body({mesh_body(square, {{0, 0, {3, 6, 6}}})}, false), "index of nothing"},
       {box_body({many}, false), "200000"},
       {box_body({count}, false), "fewer than it claims"},
-      {made::number(0, 8) + "zip ", "nobody knows"},
+      {made::number(0, 8) + "zip ", "unknown encoding"},
       {made::number(0, 8) + "dfl8" + std::string(20, '\xff'), "cannot be unpacked"},
       {made::number(0, 3), ""},
   };
