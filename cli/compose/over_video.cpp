@@ -32,11 +32,11 @@ Range range_of(const OverJob& job) {
   throw UsageError("--frames of a video that becomes a video must be consecutive, as 30-120, because its sound is");
 }
 
-VideoChoices wishes_for(const OverJob& job, const VideoInput& video, const VideoStream& stream) {
-  VideoChoices wishes = job.video;
-  wishes.output = job.output;
-  wishes.keep.cut.is_cut = job.frames.has_value();
-  return wishes_like(wishes, video, stream);
+VideoChoices choices_for(const OverJob& job, const VideoInput& video, const VideoStream& stream) {
+  VideoChoices choices = job.video;
+  choices.output = job.output;
+  choices.keep.cut.is_cut = job.frames.has_value();
+  return choices_like(choices, video, stream);
 }
 
 ods::VideoPlan plan_like(const VideoInput& video, const VideoStream& stream) {
@@ -106,10 +106,10 @@ void lay_over_video(const OverJob& job, Footage& back, Footage& front, ProgressL
                      front.stream().rate.value(), back.stream().rate.value()));
   }
   const Range range = range_of(job);
-  const VideoChoices wishes = wishes_for(job, video, back.stream());
-  const ods::EncodeOptions options = encode_options(wishes, back.stream().size, job.threads);
+  const VideoChoices choices = choices_for(job, video, back.stream());
+  const ods::EncodeOptions options = encode_options(choices, back.stream().size, job.threads);
   const ods::VideoPlan plan = plan_like(video, back.stream());
-  note_player_limits(wishes, plan, options);
+  note_player_limits(choices, plan, options);
   ods::Progress progress;
   const int last = std::min(range.last, std::max(back.stream().count - 1, range.first));
   const size_t expected = static_cast<size_t>(last - range.first) + 1;

@@ -19,9 +19,9 @@ struct TestcardVideoChoices {
 };
 
 // Adds the options in groups of their own; --progress and related ones go to the current group.
-void add_testcard_video_options(Options& options, TestcardVideoChoices& wishes);
+void add_testcard_video_options(Options& options, TestcardVideoChoices& choices);
 
 // Makes the video of a card for eyes of this layout. Throws UsageError and ods::Error.
 void make_video_of_card(const ods::StereoCamera& camera, ods::Extent eye, const std::vector<int>& eyes,
-                        ods::Layout layout, const std::vector<std::string>& lines, const TestcardVideoChoices& wishes,
+                        ods::Layout layout, const std::vector<std::string>& lines, const TestcardVideoChoices& choices,
                         ProgressLines& progress_lines);

@@ -63,9 +63,12 @@ ods::VideoPlan plan_for(ConvertJob& job) {
 
 // Encoding costs quality and time: changes of metadata alone are for other commands.
 void refuse_copy(const ConvertJob& job, const ods::VideoPlan& plan) {
-  const bool is_turned = job.footage && job.footage->stream().is_turned;
-  const bool has_layers = job.footage && ods::has_layers(job.footage->video().views);
-  const bool is_same = !is_turned && !has_layers && (plan.layout == job.picture.layout || job.picture.eyes.size() == 1);
+  const auto is_rearranged = [](const ods::Footage& footage) {
+    const ods::Views views = footage.video().views;
+    return footage.stream().is_turned || ods::has_layers(views) || ods::are_interleaved(views);
+  };
+  const bool has_layout = plan.layout == job.picture.layout || job.picture.eyes.size() == 1;
+  const bool is_same = has_layout && !(job.footage && is_rearranged(*job.footage));
   if (job.given.span().is_part() || !job.turns.empty() || job.given.video.specifies_encoding() || !is_same ||
       !is_same_picture(job.picture, job.target))
     return;
@@ -75,19 +78,19 @@ void refuse_copy(const ConvertJob& job, const ods::VideoPlan& plan) {
                   job.given.input));
 }
 
-VideoChoices wishes_for(const ConvertJob& job) {
-  VideoChoices wishes = job.given.video;
-  wishes.output = job.given.output;
-  if (!job.footage) return wishes;
+VideoChoices choices_for(const ConvertJob& job) {
+  VideoChoices choices = job.given.video;
+  choices.output = job.given.output;
+  if (!job.footage) return choices;
   const VideoStream& stream = job.footage->stream();
-  wishes.keep.cut.is_cut = job.given.span().is_part();
-  if (job.given.span().to) wishes.keep.cut.length = *job.given.span().to - job.given.span().from;
-  wishes = wishes_like(wishes, job.footage->video(), stream);
-  if (!stream.words.is_hdr()) return wishes;
+  choices.keep.cut.is_cut = job.given.span().is_part();
+  if (job.given.span().to) choices.keep.cut.length = *job.given.span().to - job.given.span().from;
+  choices = choices_like(choices, job.footage->video(), stream);
+  if (!stream.words.is_hdr()) return choices;
   if (job.given.video.bits == 8)
     throw UsageError(fmt::format("'{}' is HDR, which needs 10 bits: leave out --bits 8", job.given.input));
-  wishes.bits = 10;
-  return wishes;
+  choices.bits = 10;
+  return choices;
 }
 
 void check_job(const ConvertJob& job) {
@@ -136,10 +139,10 @@ void convert_to_video(ConvertJob& job, ProgressLines& lines) {
   const ods::VideoPlan plan = plan_for(job);
   refuse_copy(job, plan);
   for (const std::string& each : plan.notes) note(each);
-  const VideoChoices wishes = wishes_for(job);
-  const ods::EncodeOptions options = encode_options(wishes, plan.size, job.given.threads);
+  const VideoChoices choices = choices_for(job);
+  const ods::EncodeOptions options = encode_options(choices, plan.size, job.given.threads);
   ods::check_packing(plan, options.packing);
-  note_player_limits(wishes, plan, options);
+  note_player_limits(choices, plan, options);
   const size_t expected = job.footage ? static_cast<size_t>(job.footage->expected_count()) : job.files.frames.size();
   note_sound_length(options, expected);
   if (options.bitrate && expected > ods::kPartFrames) {

@@ -18,7 +18,7 @@ StereoCamera base_camera(const ods::StoredPicture& header, const ConvertOptions&
   return camera;
 }
 
-std::vector<int> wished_eyes(const ods::StoredPicture& header, const ConvertOptions& options) {
+std::vector<int> requested_eyes(const ods::StoredPicture& header, const ConvertOptions& options) {
   const std::optional<Eyes> given = options.form.given_eyes();
   if (options.mono || given == Eyes::kMonoEye) return {ods::kMono};
   if (given) return ods::eye_list(*given);
@@ -35,10 +35,10 @@ void take_named_projection(const ods::ProjectionSetting& own, const ConvertOptio
 
 // A mono picture is one of the existing eyes, wherever the eyes are to move.
 bool moves_one_eye(const ods::StoredPicture& header, const ods::ConvertTarget& target, bool merges_by_depth) {
-  StereoCamera wished = target.camera;
+  StereoCamera requested = target.camera;
   const StereoCamera& own = header.camera;
-  wished.yaw = own.yaw, wished.pitch = own.pitch, wished.roll = own.roll;
-  return target.eyes[0] == ods::kMono && (merges_by_depth || !ods::same_eyes(wished, own));
+  requested.yaw = own.yaw, requested.pitch = own.pitch, requested.roll = own.roll;
+  return target.eyes[0] == ods::kMono && (merges_by_depth || !ods::same_eyes(requested, own));
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ ConversionPlan plan_conversion(const ods::StoredPicture& header, const ConvertOp
   turn(stereo, by.yaw.value_or(0.0f), by.pitch.value_or(0.0f), by.roll.value_or(0.0f));
   target.holes = options.holes;
   target.right = options.right;
-  target.eyes = wished_eyes(header, options);
+  target.eyes = requested_eyes(header, options);
   if (options.form.given_eyes() == Eyes::kRightEye) target.mono_from = ods::kRight;
   if (moves_one_eye(header, target, by.changes.merge_limit.has_value())) {
     plan.notes.emplace_back("--ipd, --merge, --head-tilt-map and --eye-to-neck have no effect on one eye");

@@ -41,16 +41,16 @@ bool is_folder_of_job(const std::string& name) {
 }
 
 // Throws ods::Error(kInput) if there is no job of that name.
-std::vector<JobReport> find_jobs(const JobsChoices& wishes) {
-  const bool by_folder = !wishes.name.empty() && is_folder_of_job(wishes.name);
+std::vector<JobReport> find_jobs(const JobsChoices& choices) {
+  const bool by_folder = !choices.name.empty() && is_folder_of_job(choices.name);
   const auto [tasks, fault] = read_queue();
   if (!fault.empty() && !by_folder) {
     throw ods::Error(ods::ErrorKind::kInput,
                      fmt::format("there is no Slurm here: {}; ods jobs FOLDER reads a job's folder", fault));
   }
   if (by_folder) {
-    const JobReport job = report_job(ods::absolute_folder(wishes.name), tasks);
-    if (wishes.follow && !job.is_known()) {
+    const JobReport job = report_job(ods::absolute_folder(choices.name), tasks);
+    if (choices.follow && !job.is_known()) {
       throw UsageError(fmt::format("--follow asks Slurm, and '{}' was written for {}", job.name, job.scheduler));
     }
     return {job};
@@ -64,46 +64,46 @@ std::vector<JobReport> find_jobs(const JobsChoices& wishes) {
       continue;
     }
     const JobReport job = report_job(folder, tasks);
-    if (wishes.name.empty() || job.name == wishes.name) jobs.push_back(job);
+    if (choices.name.empty() || job.name == choices.name) jobs.push_back(job);
   }
-  if (jobs.empty() && !wishes.name.empty()) {
+  if (jobs.empty() && !choices.name.empty()) {
     throw ods::Error(ods::ErrorKind::kInput, fmt::format("Slurm has no job '{}'; ods jobs FOLDER reads its folder, "
                                                          "NAME.farm beside its output",
-                                                         wishes.name));
+                                                         choices.name));
   }
   return jobs;
 }
 
 JobsChoices parse_jobs(Options& options) {
-  JobsChoices wishes;
+  JobsChoices choices;
   options.describe("Shows how much is done, running, waiting and failed of the jobs that ods submit sent to Slurm.",
                    kJobsExamples);
-  options.optional_argument("NAME", wishes.name, "a job, or its folder; by default all");
-  options.flag("--follow", wishes.follow,
+  options.optional_argument("NAME", choices.name, "a job, or its folder; by default all");
+  options.flag("--follow", choices.follow,
                "show it again every five seconds until the job has ended; exit code 1 if it is not complete, 5 if it "
                "judged its input and found a fault");
-  options.flag("--json", wishes.json, "print it as JSON");
+  options.flag("--json", choices.json, "print it as JSON");
   options.group("Console");
   add_console_options(options);
   options.parse();
-  return wishes;
+  return choices;
 }
 
-ExitCode show_jobs(const JobsChoices& wishes) {
-  if (wishes.follow) end_on_interrupts();
+ExitCode show_jobs(const JobsChoices& choices) {
+  if (choices.follow) end_on_interrupts();
   std::vector<JobReport> found;
   std::string before;
   while (true) {
-    found = find_jobs(wishes);
-    const std::string text = wishes.json ? report_json(found) : found.empty() ? "no jobs\n" : report_text(found);
+    found = find_jobs(choices);
+    const std::string text = choices.json ? report_json(found) : found.empty() ? "no jobs\n" : report_text(found);
     if (text != before) put_out(text);
     std::fflush(stdout);
     before = text;
     const bool over = std::ranges::all_of(found, [](const JobReport& job) { return job.is_over(); });
-    if (!wishes.follow || over) break;
+    if (!choices.follow || over) break;
     std::this_thread::sleep_for(std::chrono::seconds(5));
   }
-  if (!wishes.follow) return kExitOk;
+  if (!choices.follow) return kExitOk;
   for (const JobReport& job : found) {
     if (!job.is_done())
       throw ods::Error(ods::ErrorKind::kCancelled, fmt::format("'{}' has ended, but it is not complete", job.name));

@@ -26,10 +26,10 @@ namespace {
 constexpr float kSubmitLimit = 600;  // seconds for all of a job's sbatch
 
 // The limits of this cluster.
-void ask_slurm(const SubmitJob& job, const ods::FarmPlan& plan, ods::SchedulerChoices& wishes) {
+void ask_slurm(const SubmitJob& job, const ods::FarmPlan& plan, ods::SchedulerChoices& choices) {
   const auto config = run_program({.words = {"scontrol", "show", "config"}, .limit = kSlurmLimit});
   const std::string text = config ? config->out : "";
-  wishes.largest_array = std::max(2, ods::slurm_setting(text, "MaxArraySize").value_or(1001));
+  choices.largest_array = std::max(2, ods::slurm_setting(text, "MaxArraySize").value_or(1001));
   const int maximum = ods::slurm_setting(text, "MaxJobCount").value_or(10000), tasks = plan.groups.front().tasks;
   if (tasks < maximum || job.dry) return;
   throw UsageError(fmt::format("{} tasks are more than this cluster's MaxJobCount of {}: make them larger, --chunk {}",
@@ -86,7 +86,7 @@ void submit(const SubmitJob& job) {
   ods::FarmPlan plan = make_plan(job, split);
   ods::check_quotable(plan);
   ods::check_writable(plan.folder + "/plan.json");
-  scheduler.write(plan, job.wishes);  // throws for settings that it does not support
+  scheduler.write(plan, job.choices);  // throws for settings that it does not support
   if (is_slurm && !job.dry) check_idle(plan);
   if (!job.dry && !split.restart && is_finished(plan, split)) {
     return note(fmt::format("'{}' is finished: there is nothing to do; remove it to make it again", split.output));
@@ -96,9 +96,9 @@ void submit(const SubmitJob& job) {
     split.prepare();
   }
   count_tasks(job, split, plan);
-  ods::SchedulerChoices wishes = job.wishes;
-  if (is_slurm) ask_slurm(job, plan, wishes);
-  std::vector<ods::FarmFile> files = scheduler.write(plan, wishes);
+  ods::SchedulerChoices choices = job.choices;
+  if (is_slurm) ask_slurm(job, plan, choices);
+  std::vector<ods::FarmFile> files = scheduler.write(plan, choices);
   files.insert(files.begin(), {"plan.json", ods::write_plan(plan)});
   report_job(plan, split);
   if (job.dry) return print(files, plan);

@@ -55,10 +55,10 @@ void add_options(Options& options, SubmitJob& job) {
   options.flag("--copy-scene", job.copies,
                "copy the scene and all other input into the folder, for machines that cannot read the originals");
   options.group("Schedulers");
-  options.texts("--sbatch", "OPTION", job.wishes.extras, "slurm: an option of sbatch, '--partition=render'");
-  options.text("--image", "NAME", job.wishes.image, "kubernetes: image of the containers");
-  options.text("--volume", "CLAIM", job.wishes.volume, "kubernetes: claim of the volume that has the files");
-  options.text("--mount", ValueKind::input_folder(), job.wishes.mount,
+  options.texts("--sbatch", "OPTION", job.choices.extras, "slurm: an option of sbatch, '--partition=render'");
+  options.text("--image", "NAME", job.choices.image, "kubernetes: image of the containers");
+  options.text("--volume", "CLAIM", job.choices.volume, "kubernetes: claim of the volume that has the files");
+  options.text("--mount", ValueKind::input_folder(), job.choices.mount,
                "kubernetes: where that volume is mounted; by default the current folder's path");
   options.group("Console");
   add_console_options(options);
@@ -80,16 +80,16 @@ SubmitJob parse_submit(Options& options) {
   if (!job.to) {
     throw UsageError(fmt::format("no scheduler: add --to {}", fmt::join(ods::names_of(ods::kSchedulerTable), "|")));
   }
-  for (const std::string& extra : job.wishes.extras) {
+  for (const std::string& extra : job.choices.extras) {
     check_line("--sbatch", extra);
     if (!extra.starts_with("-"))
       throw UsageError(fmt::format("--sbatch is an option, such as --time=2:00:00, not '{}'", extra));
   }
-  check_line("--image", job.wishes.image);
-  check_line("--volume", job.wishes.volume);
+  check_line("--image", job.choices.image);
+  check_line("--volume", job.choices.volume);
   if (!job.command.empty() && job.command.front() == "ods") job.command.erase(job.command.begin());
   if (job.program.empty()) job.program = job.to == ods::Scheduler::kSlurm ? own_program() : "ods";
-  job.wishes.mount = ods::absolute_folder(job.wishes.mount.empty() ? "." : job.wishes.mount);
+  job.choices.mount = ods::absolute_folder(job.choices.mount.empty() ? "." : job.choices.mount);
   return job;
 }
 

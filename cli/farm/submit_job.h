@@ -18,7 +18,7 @@ struct SubmitJob {
   std::optional<float> memory;  // GB
   bool raw_first = false;
   bool dry = false, copies = false;
-  ods::SchedulerChoices wishes;
+  ods::SchedulerChoices choices;
   std::vector<std::string> command;
 };
 

@@ -90,18 +90,18 @@ ods::Environment given_environment(const std::string& option, const Named& named
   return environment;
 }
 
-void read_lamp(const std::string& word, ods::LightChoices& wishes) {
+void read_lamp(const std::string& word, ods::LightChoices& choices) {
   if (word.empty() || word == "auto") return;
   if (word == "none") {
-    wishes.lamp = ods::LampChoice::kNone;
+    choices.lamp = ods::LampChoice::kNone;
     return;
   }
   const std::vector<float> numbers = parse_numbers(word);
   const bool legal =
       numbers.size() == 3 && std::ranges::all_of(numbers, [](float number) { return std::abs(number) <= 1e6f; });
   if (!legal) throw UsageError(fmt::format("--lamp is auto, none or a place X,Y,Z, not '{}'", word));
-  wishes.lamp = ods::LampChoice::kPlaced;
-  wishes.lamp_position = vec3(numbers[0], numbers[1], numbers[2]);
+  choices.lamp = ods::LampChoice::kPlaced;
+  choices.lamp_position = vec3(numbers[0], numbers[1], numbers[2]);
 }
 
 // Reads the value of --background. Returns nullopt if the camera sees the environment.
@@ -139,35 +139,35 @@ std::string environment_file(const std::string& option, const std::string& word)
   return word.empty() || word == "env" ? "" : parse_environment(option, word).file;
 }
 
-ods::LightChoices read_wishes(const LightOptions& light, bool transparent, const std::string& confined_to) {
-  ods::LightChoices wishes;
-  read_lamp(light.lamp, wishes);
-  wishes.unlit = light.unlit;
-  wishes.ground = !transparent;
-  if (light.environment.empty()) return wishes;
+ods::LightChoices read_choices(const LightOptions& light, bool transparent, const std::string& confined_to) {
+  ods::LightChoices choices;
+  read_lamp(light.lamp, choices);
+  choices.unlit = light.unlit;
+  choices.ground = !transparent;
+  if (light.environment.empty()) return choices;
   const Named named = parse_environment("--env", light.environment);
-  wishes.surround = named.surround;
-  wishes.sky = named.sky;
-  if (named.surround == Surround::kGiven) wishes.given = given_environment("--env", named, confined_to);
-  return wishes;
+  choices.surround = named.surround;
+  choices.sky = named.sky;
+  if (named.surround == Surround::kGiven) choices.given = given_environment("--env", named, confined_to);
+  return choices;
 }
 
-void light_scene(ods::Scene& scene, const LightOptions& light, ods::LightChoices wishes, bool is_ours,
+void light_scene(ods::Scene& scene, const LightOptions& light, ods::LightChoices choices, bool is_ours,
                  const std::string& confined_to, PlannedLight planned) {
-  wishes.yaw = ods::default_view(scene).yaw;
+  choices.yaw = ods::default_view(scene).yaw;
   const std::optional<ods::Environment> background = read_background(light.background, confined_to);
   auto& [survey, plan] = planned;
-  if (is_ours && wishes.lamp == ods::LampChoice::kPlaced) {
+  if (is_ours && choices.lamp == ods::LampChoice::kPlaced) {
     const ods::SceneRays rays(scene);
     survey = ods::survey(rays);
-    plan = ods::plan_light(rays, survey, wishes);
+    plan = ods::plan_light(rays, survey, choices);
   } else if (is_ours) {
-    plan.as_painted = wishes.unlit;
-    plan.sky = wishes.sky;
-    if (wishes.surround != Surround::kAuto) plan.surround = wishes.surround;
+    plan.as_painted = choices.unlit;
+    plan.sky = choices.sky;
+    if (choices.surround != Surround::kAuto) plan.surround = choices.surround;
   }
   if (!plan.note.empty()) note(plan.note);
   if (!plan.advice.empty()) note(plan.advice);
-  ods::apply_light(scene, survey, plan, wishes);
+  ods::apply_light(scene, survey, plan, choices);
   if (!light.background.empty()) scene.background = background;
 }

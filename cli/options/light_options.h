@@ -27,7 +27,7 @@ std::string environment_file(const std::string& option, const std::string& word)
 
 // Reads the options. transparent: the picture has no background, and so no ground. confined_to: confining_folder().
 // Throws UsageError, and Error(kInput) for files.
-ods::LightChoices read_wishes(const LightOptions& light, bool transparent, const std::string& confined_to);
+ods::LightChoices read_choices(const LightOptions& light, bool transparent, const std::string& confined_to);
 
 struct PlannedLight {
   ods::Survey survey;
@@ -35,6 +35,6 @@ struct PlannedLight {
 };
 
 // Supplies the light that the options specify, and the light that the scene lacks, with a note. Built-in scenes have
-// their own light (is_ours). planned: for other scenes, made with these wishes. Throws as read_wishes() does.
-void light_scene(ods::Scene& scene, const LightOptions& light, ods::LightChoices wishes, bool is_ours,
+// their own light (is_ours). planned: for other scenes, made with these choices. Throws as read_choices() does.
+void light_scene(ods::Scene& scene, const LightOptions& light, ods::LightChoices choices, bool is_ours,
                  const std::string& confined_to, PlannedLight planned);

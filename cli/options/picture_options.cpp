@@ -86,15 +86,15 @@ ods::FrameNames video_names(const std::string& output) {
 }
 
 void save_as_it_was(const ods::StoredPicture& picture, const ods::ProjectionSetting& projection,
-                    const std::string& output, std::optional<Layout> wished, const DisplayOptions& display,
+                    const std::string& output, std::optional<Layout> requested, const DisplayOptions& display,
                     ods::SaveOptions& save) {
   const Layout own = picture.layout;
   const bool unfit = own == Layout::kSeparate || (own == Layout::kMultiview && !ods::keeps_layers(output));
   const std::optional<Layout> named = ods::read_name(output).layout;
   const bool is_named = named && ods::arrangement_of(*named).is_halves();
-  save.layout = wished.value_or(is_named ? *named
-                                : unfit  ? ods::default_layout(projection)
-                                         : ods::layout_of_converted(own, picture.camera.projection, projection));
+  save.layout = requested.value_or(is_named ? *named
+                                   : unfit  ? ods::default_layout(projection)
+                                            : ods::layout_of_converted(own, picture.camera.projection, projection));
   save.exposure = display.exposure.value_or(save.exposure);
   save.tone = display.tone.value_or(picture.is_float ? save.tone : ods::ToneCurve::kLinear);
   if (ods::keeps_layers(output)) {

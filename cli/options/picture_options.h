@@ -59,7 +59,7 @@ ods::FrameNames video_names(const std::string& output);
 // the file's name (x_360_TB.png), else in the other picture's (layout_of_converted()) if such a file can have it; a
 // display-encoded picture keeps its values, a Cryptomatte its names.
 void save_as_it_was(const ods::StoredPicture& picture, const ods::ProjectionSetting& projection,
-                    const std::string& output, std::optional<ods::Layout> wished, const DisplayOptions& display,
+                    const std::string& output, std::optional<ods::Layout> requested, const DisplayOptions& display,
                     ods::SaveOptions& save);
 
 // Notes the guesses about a picture.

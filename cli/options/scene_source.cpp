@@ -259,26 +259,26 @@ static void note_sheet_glass(const Scene& scene) {
                   others == 0 ? " is" : fmt::format(" and {} other material{} are", others, others == 1 ? "" : "s")));
 }
 
-ods::LightChoices wishes_for(SceneSource& source, bool transparent) {
+ods::LightChoices choices_for(SceneSource& source, bool transparent) {
   read_foreign(source);
   if (source.foreign && source.light.environment.empty()) {
     source.light.environment = source.foreign->environment;
     if (source.light.background.empty()) source.light.background = source.foreign->background;
   }
-  return read_wishes(source.light, transparent, confining_folder(source));
+  return read_choices(source.light, transparent, confining_folder(source));
 }
 
 Scene open_lit_scene(const SceneSource& given, bool transparent) {
   SceneSource source = given;
-  const ods::LightChoices wishes = wishes_for(source, transparent);
+  const ods::LightChoices choices = choices_for(source, transparent);
   const std::string confined_to = confining_folder(source);
   PlannedLight planned;
   Scene scene = open_scene(source, nullptr, [&](const ods::SceneRays& rays, const ods::Survey& survey) {
-    planned = {survey, ods::plan_light(rays, survey, wishes)};
+    planned = {survey, ods::plan_light(rays, survey, choices)};
   });
   check_content(scene, source.name);
   warn_of_invisible(scene);
   note_sheet_glass(scene);
-  light_scene(scene, source.light, wishes, ods::find_builtin(source.name) != nullptr, confined_to, std::move(planned));
+  light_scene(scene, source.light, choices, ods::find_builtin(source.name) != nullptr, confined_to, std::move(planned));
   return scene;
 }

@@ -45,8 +45,8 @@ void read_foreign(SceneSource& source);
 std::string confining_folder(const SceneSource& source);
 
 // Returns the light that the options specify; a scene of another program brings its world. Throws as read_foreign() and
-// read_wishes().
-ods::LightChoices wishes_for(SceneSource& source, bool transparent);
+// read_choices().
+ods::LightChoices choices_for(SceneSource& source, bool transparent);
 
 // Reads the scene, turns the named objects into catchers, makes glass solid if asked to, and notes what the renderer
 // does not support. A file's scene is measured: it gets its size in metres and a place for the viewer

@@ -27,36 +27,36 @@ std::string encoder_list() {
   return fmt::format("{}", fmt::join(ods::names_of(ods::known_encoders()), ", "));
 }
 
-void parse_encoder(const std::string& name, VideoChoices& wishes) {
+void parse_encoder(const std::string& name, VideoChoices& choices) {
   for (const ods::EncoderFacts& facts : ods::known_encoders()) {
     if (facts.name != name) continue;
-    wishes.encoder = name;
+    choices.encoder = name;
     return;
   }
   throw UsageError(fmt::format("--encoder is one of {}, not '{}'", encoder_list(), name));
 }
 
 // The target's packing, with the options applied.
-ods::Packing packing_for(const VideoChoices& wishes, Container container, Extent size) {
-  ods::Packing packing = ods::packing_for(wishes.target_or_usual(), size, wishes.rate.value());
+ods::Packing packing_for(const VideoChoices& choices, Container container, Extent size) {
+  ods::Packing packing = ods::packing_for(choices.target_or_usual(), size, choices.rate.value());
   const auto change = [&](VideoCodec codec) {
     if (packing.codec == codec) return;
     packing.codec = codec;
     packing.quality.reset();
     if (codec == VideoCodec::kProRes) packing.bits = 10, packing.chroma = Chroma::k422;
   };
-  if (wishes.codec) {
-    change(*wishes.codec);
-  } else if (!wishes.encoder.empty()) {
+  if (choices.codec) {
+    change(*choices.codec);
+  } else if (!choices.encoder.empty()) {
     for (const ods::EncoderFacts& facts : ods::known_encoders()) {
-      if (facts.name == wishes.encoder) change(facts.codec);
+      if (facts.name == choices.encoder) change(facts.codec);
     }
-  } else if (container == Container::kWebm && wishes.target_or_usual() != ods::VideoTarget::kMaster) {
+  } else if (container == Container::kWebm && choices.target_or_usual() != ods::VideoTarget::kMaster) {
     change(VideoCodec::kVp9);
   }
-  packing.bits = wishes.bits.value_or(packing.bits);
-  packing.chroma = wishes.chroma.value_or(packing.chroma);
-  if (wishes.crf) packing.quality = wishes.crf;
+  packing.bits = choices.bits.value_or(packing.bits);
+  packing.chroma = choices.chroma.value_or(packing.chroma);
+  if (choices.crf) packing.quality = choices.crf;
   return packing;
 }
 
@@ -95,19 +95,19 @@ void check_quality(const ods::EncodeOptions& options) {
 
 // Warns about a video that does not exist yet, as ods probe would see it, and notes the name by which players would
 // recognise it.
-void warn_of_names(const VideoChoices& wishes, const ods::VideoPlan& plan) {
+void warn_of_names(const VideoChoices& choices, const ods::VideoPlan& plan) {
   ods::VideoFile video;
   ods::VideoTrack track;
   track.size = plan.size;
   track.v2 = track.v1 = plan.metadata;
-  for (const std::string& warning : ods::video_warnings(video, track, wishes.output)) warn(warning);
-  const bool has_words = plan.eyes == 1 || !ods::read_name(wishes.output).layout_token.empty();
-  if (has_words && !ods::name_misleads(video, track, wishes.output)) return;
+  for (const std::string& warning : ods::video_warnings(video, track, choices.output)) warn(warning);
+  const bool has_words = plan.eyes == 1 || !ods::read_name(choices.output).layout_token.empty();
+  if (has_words && !ods::name_misleads(video, track, choices.output)) return;
   std::string words = plan.metadata.is_partial() ? "_180" : "_360";
   if (!plan.metadata.projection || plan.metadata.projection == ods::VideoProjection::kFlat) words = "";
   if (plan.eyes == 2) words += plan.metadata.stereo == ods::VideoStereo::kSideBySide ? "_LR" : "_TB";
-  const std::string name = std::filesystem::path(ods::renamed(wishes.output, words)).filename().native();
-  if (name == std::filesystem::path(wishes.output).filename().native()) return;
+  const std::string name = std::filesystem::path(ods::renamed(choices.output, words)).filename().native();
+  if (name == std::filesystem::path(choices.output).filename().native()) return;
   note(fmt::format("players that rely on the file name would recognise {}", name));
 }
 
@@ -156,38 +156,38 @@ ods::FrameRate parse_rate(const std::string& text) {
   return rate;
 }
 
-void add_video_options(Options& options, VideoChoices& wishes) {
+void add_video_options(Options& options, VideoChoices& choices) {
   options.group("Video");
-  options.text("-o,--output", ValueKind::output_file(), wishes.output, ".mp4 .mov .mkv .webm");
-  add_packing_options(options, wishes);
+  options.text("-o,--output", ValueKind::output_file(), choices.output, ".mp4 .mov .mkv .webm");
+  add_packing_options(options, choices);
 }
 
-void add_packing_options(Options& options, VideoChoices& wishes) {
-  options.choice("--target", wishes.target, ods::kVideoTargetTable,
+void add_packing_options(Options& options, VideoChoices& choices) {
+  options.choice("--target", choices.target, ods::kVideoTargetTable,
                  "preset for a destination; the options below override it",
                  std::string(ods::name_in(ods::kVideoTargetTable, ods::VideoTarget::kVrPlayers)));
-  options.choice("--codec", wishes.codec, ods::kVideoCodecTable, "video codec; by default the target's");
+  options.choice("--codec", choices.codec, ods::kVideoCodecTable, "video codec; by default the target's");
   options.custom(
-      "--encoder", "NAME", "", [&](const std::string& name) { parse_encoder(name, wishes); },
+      "--encoder", "NAME", "", [&](const std::string& name) { parse_encoder(name, choices); },
       "encoder for the codec: " + encoder_list());
-  options.text("--preset", "NAME", wishes.preset, "the encoder's own preset name, e.g. slow");
-  options.number("--crf", wishes.crf, 0, 63,
+  options.text("--preset", "NAME", choices.preset, "the encoder's own preset name, e.g. slow");
+  options.number("--crf", choices.crf, 0, 63,
                  "quality, lower is better; by default 18 for h264, 20 for hevc, 28 for av1, 24 for vp9");
-  options.number("--bitrate", wishes.bitrate, 0.01f, 10000.0f, "bit rate in Mbit/s, instead of --crf");
-  options.number("--bits", wishes.bits, 8, 10, "bits per channel: 8 or 10");
-  options.choice("--chroma", wishes.chroma, ods::kChromaTable, "chroma subsampling");
-  options.text("--audio", ValueKind::input_file(), wishes.sound,
+  options.number("--bitrate", choices.bitrate, 0.01f, 10000.0f, "bit rate in Mbit/s, instead of --crf");
+  options.number("--bits", choices.bits, 8, 10, "bits per channel: 8 or 10");
+  options.choice("--chroma", choices.chroma, ods::kChromaTable, "chroma subsampling");
+  options.text("--audio", ValueKind::input_file(), choices.sound,
                "sound file: mono, stereo, or first-order ambisonics with four channels (AmbiX)");
-  add_apple_option(options, wishes.for_apple);
+  add_apple_option(options, choices.for_apple);
 }
 
 // A codec that cannot be written, or not into this container, is replaced by a codec for players.
-static void warn_of_less(const VideoChoices& wishes, const std::string& path, const ods::VideoStream& stream) {
+static void warn_of_less(const VideoChoices& choices, const std::string& path, const ods::VideoStream& stream) {
   std::string loss, cure;
-  if (stream.bits > 8 && !wishes.bits && !stream.words.is_hdr()) {
+  if (stream.bits > 8 && !choices.bits && !stream.words.is_hdr()) {
     loss += fmt::format(" {} bits", stream.bits), cure += " --bits 10";
   }
-  if (stream.chroma != ods::Chroma::k420 && !wishes.chroma) {
+  if (stream.chroma != ods::Chroma::k420 && !choices.chroma) {
     loss += fmt::format(" chroma {}", ods::chroma_name(stream.chroma));
     cure += fmt::format(" --chroma {}", ods::chroma_name(stream.chroma));
   }
@@ -196,42 +196,42 @@ static void warn_of_less(const VideoChoices& wishes, const std::string& path, co
                      cure));
 }
 
-VideoChoices wishes_like(VideoChoices wishes, const ods::VideoInput& video, const ods::VideoStream& stream) {
-  wishes.rate = stream.rate;
-  const auto own = ods::packing_like(stream, container_for(wishes.output));
-  const bool follows_input = !wishes.target && !wishes.codec && wishes.encoder.empty();
+VideoChoices choices_like(VideoChoices choices, const ods::VideoInput& video, const ods::VideoStream& stream) {
+  choices.rate = stream.rate;
+  const auto own = ods::packing_like(stream, container_for(choices.output));
+  const bool follows_input = !choices.target && !choices.codec && choices.encoder.empty();
   if (own && follows_input) {
-    wishes.codec = own->codec;
-    wishes.bits = wishes.bits.value_or(own->bits);
-    wishes.chroma = wishes.chroma.value_or(own->chroma);
+    choices.codec = own->codec;
+    choices.bits = choices.bits.value_or(own->bits);
+    choices.chroma = choices.chroma.value_or(own->chroma);
   } else if (follows_input) {
-    warn_of_less(wishes, video.path, stream);
+    warn_of_less(choices, video.path, stream);
   }
-  wishes.keep.path = video.path;
-  wishes.keep.track = video.track;
-  wishes.keep.has_sound = wishes.sound.empty();
-  wishes.keep.tell = [path = video.path](const std::string& words) { warn(fmt::format("'{}': {}", path, words)); };
-  return wishes;
+  choices.keep.path = video.path;
+  choices.keep.track = video.track;
+  choices.keep.has_sound = choices.sound.empty();
+  choices.keep.tell = [path = video.path](const std::string& words) { warn(fmt::format("'{}': {}", path, words)); };
+  return choices;
 }
 
-ods::EncodeOptions encode_options(const VideoChoices& wishes, Extent size, int threads) {
-  const Container container = container_for(wishes.output);
-  check_apple(wishes.for_apple, container);
+ods::EncodeOptions encode_options(const VideoChoices& choices, Extent size, int threads) {
+  const Container container = container_for(choices.output);
+  check_apple(choices.for_apple, container);
   setenv("SVT_LOG", "0", 0);  // SVT-AV1 would print its own messages
   ods::EncodeOptions options;
-  options.packing = packing_for(wishes, container, size);
-  options.encoder = wishes.encoder;
-  options.preset = wishes.preset;
-  if (wishes.bitrate) options.bitrate = static_cast<double>(*wishes.bitrate);
-  options.rate = wishes.rate;
+  options.packing = packing_for(choices, container, size);
+  options.encoder = choices.encoder;
+  options.preset = choices.preset;
+  if (choices.bitrate) options.bitrate = static_cast<double>(*choices.bitrate);
+  options.rate = choices.rate;
   options.threads = threads;
-  options.sound = wishes.sound;
-  options.keep = wishes.keep;
-  options.for_apple = wishes.for_apple;
+  options.sound = choices.sound;
+  options.keep = choices.keep;
+  options.for_apple = choices.for_apple;
   check_container(container, options.packing.codec);
   check_quality(options);
   ods::check_encoder(container, options);
-  ods::check_writable(wishes.output);
+  ods::check_writable(choices.output);
   return options;
 }
 
@@ -247,10 +247,10 @@ ods::VideoPlan expect_video(Layout layout, size_t eyes, ods::Extent eye, const o
   return plan;
 }
 
-void note_player_limits(const VideoChoices& wishes, const ods::VideoPlan& plan, const ods::EncodeOptions& options) {
+void note_player_limits(const VideoChoices& choices, const ods::VideoPlan& plan, const ods::EncodeOptions& options) {
   warn_of_level(plan, options);
   warn_of_hardware(options.packing);
-  warn_of_names(wishes, plan);
+  warn_of_names(choices, plan);
 }
 
 void note_sound_length(const ods::EncodeOptions& options, size_t frames) {

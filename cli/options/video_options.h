@@ -33,27 +33,27 @@ struct VideoChoices {
 ods::FrameRate parse_rate(const std::string& text);
 
 // Adds -o and the packing options, in their own groups, without the rate.
-void add_video_options(Options& options, VideoChoices& wishes);
+void add_video_options(Options& options, VideoChoices& choices);
 // Adds the packing options alone, to the group that is open.
-void add_packing_options(Options& options, VideoChoices& wishes);
+void add_packing_options(Options& options, VideoChoices& choices);
 
 // Copies what the options leave open from the video that is converted: codec, bit depth, chroma, rate, audio and
 // metadata. Warns about what cannot be kept.
-VideoChoices wishes_like(VideoChoices wishes, const ods::VideoInput& video, const ods::VideoStream& stream);
+VideoChoices choices_like(VideoChoices choices, const ods::VideoInput& video, const ods::VideoStream& stream);
 
 // Returns the container that the video's file name selects. Throws UsageError.
 ods::Container container_for(const std::string& path);
 
 // Returns the settings to encode a video of that size. Throws UsageError if the options do not fit together, ods::Error
 // if this machine cannot encode it. Checks that the file can be written, but writes nothing.
-ods::EncodeOptions encode_options(const VideoChoices& wishes, ods::Extent size, int threads);
+ods::EncodeOptions encode_options(const VideoChoices& choices, ods::Extent size, int threads);
 
 // Describes the video made from eyes of this size; warns about properties that players do not expect. Throws UsageError
 // for a layout that videos cannot have.
 ods::VideoPlan expect_video(ods::Layout layout, size_t eyes, ods::Extent eye, const ods::ProjectionSetting& projection);
 
 // Notes what users should know before the video is made: levels, names, and its sound for this number of frames.
-void note_player_limits(const VideoChoices& wishes, const ods::VideoPlan& plan, const ods::EncodeOptions& options);
+void note_player_limits(const VideoChoices& choices, const ods::VideoPlan& plan, const ods::EncodeOptions& options);
 void note_sound_length(const ods::EncodeOptions& options, size_t frames);
 
 // "h264 by libx264, 8 bits, 420, level 5.2, 4096x4096, 100 frames at 30 a second".

@@ -46,11 +46,11 @@ void show_info(const InfoJob& job) {
   read_foreign(source);
   console.quiet = true;  // notes on the scene would repeat the result
   const CameraOptions& camera = job.camera;
-  const ods::LightChoices wishes = wishes_for(source, false);
+  const ods::LightChoices choices = choices_for(source, false);
   SceneFindings found;
   const ods::Scene scene =
       open_scene(source, &found.settled, [&](const ods::SceneRays& rays, const ods::Survey& survey) {
-        if (survey.kind == ods::SceneKind::kClosedRoom) found.advice = plan_light(rays, survey, wishes).advice;
+        if (survey.kind == ods::SceneKind::kClosedRoom) found.advice = plan_light(rays, survey, choices).advice;
       });
   found.viewing = scene.viewing;
   const vec3 position = place_camera(camera, scene).position;
@@ -59,7 +59,7 @@ void show_info(const InfoJob& job) {
     const ods::JudgedPicture judged = ods::judge_scene(ods::CpuRenderer(scene), scene, place_camera(camera, scene));
     found.strain = ods::strain_line(judged.verdict, ods::ComfortLevel::kWarning);
   }
-  info.has_environment |= wishes.given.radiance != vec3(0.0f);
+  info.has_environment |= choices.given.radiance != vec3(0.0f);
   found.advice = with_options(found.advice), found.settled.unit_reason = with_options(found.settled.unit_reason);
   for (std::string& loss : info.losses) loss = with_options(loss);
   for (std::string& warning : info.warnings) warning = with_options(warning);

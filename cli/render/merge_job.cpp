@@ -169,17 +169,17 @@ ods::Indirect indirect_of(const ods::SampledPicture& picture) {
 // The inputs of the picture's files, besides its samples.
 void finish_options(MergeJob& job, std::optional<ods::Layout> layout) {
   RenderJob& render = job.render;
-  const ods::RenderOptions wished = render.render;
-  if (wished.statistics && !ods::keeps_layers(render.output)) throw UsageError("--statistics needs an .exr");
+  const ods::RenderOptions requested = render.render;
+  if (requested.statistics && !ods::keeps_layers(render.output)) throw UsageError("--statistics needs an .exr");
   if (render.denoise == ods::Denoiser::kOidn) ods::check_oidn();
   render.render = job.picture.options;
   render.render.indirect = indirect_of(job.picture);
   render.render.layers = ods::keeps_layers(render.output) && job.picture.options.layers;
-  render.render.statistics = wished.statistics;
-  render.render.threads = wished.threads;
+  render.render.statistics = requested.statistics;
+  render.render.threads = requested.threads;
   render.save.layout = layout.value_or(job.layout);
   if (job.picture.options.statistics) return;
-  if (wished.statistics || render.denoise == ods::Denoiser::kOwn) {
+  if (requested.statistics || render.denoise == ods::Denoiser::kOwn) {
     throw UsageError("the samples have no statistics: neither --statistics nor --denoise own is possible");
   }
   if (!render.denoise) render.denoise = ods::Denoiser::kNone;

@@ -62,10 +62,10 @@ LintJob parse_lint(Options& options) {
   options.flag("--json", job.json, "print JSON");
   add_progress_options(options, job.progress);
   options.parse();
-  const ods::ProjectionSetting wished = changed({}, projection);
-  const std::string fault = ods::projection_fault(wished);
+  const ods::ProjectionSetting requested = changed({}, projection);
+  const std::string fault = ods::projection_fault(requested);
   if (!fault.empty()) throw UsageError(fault);
-  if (projection.named || projection.face || projection.range) job.lint.projection = wished;
+  if (projection.named || projection.face || projection.range) job.lint.projection = requested;
   if (lenses.front_and_back) throw UsageError("--front-and-back is one eye, and lint judges two: convert it");
   lenses.projection = job.lint.projection;
   finish_lens_options(lenses);

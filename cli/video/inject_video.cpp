@@ -44,8 +44,8 @@ void set_angles(const InjectJob& job, SphericalMetadata& metadata) {
   if (is_given && metadata.projection == VideoProjection::kFlat) {
     throw UsageError(fmt::format("'{}' is flat, so it cannot have --yaw, --pitch or --roll", job.file));
   }
-  const auto set = [](const std::optional<float>& wish, double& angle) {
-    if (wish) angle = static_cast<double>(*wish);
+  const auto set = [](const std::optional<float>& choice, double& angle) {
+    if (choice) angle = static_cast<double>(*choice);
   };
   set(job.yaw, metadata.yaw), set(job.pitch, metadata.pitch), set(job.roll, metadata.roll);
 }
@@ -80,8 +80,8 @@ void settle_conflicts(const InjectJob& job, const SphericalMetadata& known, cons
 
 // Returns the metadata that the video gets; metadata that were not requested stay. Prints what the format cannot
 // express.
-SphericalMetadata wished_metadata(const InjectJob& job, const ods::MediaFile& media,
-                                  std::vector<std::string>& guesses) {
+SphericalMetadata requested_metadata(const InjectJob& job, const ods::MediaFile& media,
+                                     std::vector<std::string>& guesses) {
   const ods::VideoTrack& track = media.track;
   const ods::Container container = media.video->container;
   SphericalMetadata known;
@@ -116,7 +116,7 @@ SphericalMetadata wished_metadata(const InjectJob& job, const ods::MediaFile& me
 }
 
 // The settings that make it unnecessary to look at the frames.
-ods::FormatHint told_format(const InjectJob& job) {
+ods::FormatHint known_format(const InjectJob& job) {
   ods::FormatHint known;
   known.one_eye = job.is_mono || job.remove;
   known.layout = job.layout;
@@ -125,7 +125,7 @@ ods::FormatHint told_format(const InjectJob& job) {
 }
 
 // The sound's new metadata; nothing if it stays as it is.
-std::optional<ods::Ambisonics> wished_sound(const InjectJob& job, const ods::VideoFile& video) {
+std::optional<ods::Ambisonics> requested_sound(const InjectJob& job, const ods::VideoFile& video) {
   if (!job.ambisonics) return std::nullopt;
   if (!has_boxes(video.container))
     throw UsageError("--ambisonics is for mp4 and mov; in mkv and webm Opus describes its own channels");
@@ -143,13 +143,13 @@ std::optional<ods::Ambisonics> wished_sound(const InjectJob& job, const ods::Vid
 }  // namespace
 
 void inject_video(const InjectJob& job, ProgressLines& lines) {
-  const ods::MediaFile media = ods::open_media(job.file, {.known = told_format(job), .track = job.track});
+  const ods::MediaFile media = ods::open_media(job.file, {.known = known_format(job), .track = job.track});
   const ods::VideoFile& video = *media.video;
   check_apple(job.for_apple, video.container);
-  const std::optional<ods::Ambisonics> sound = wished_sound(job, video);
+  const std::optional<ods::Ambisonics> sound = requested_sound(job, video);
   std::optional<SphericalMetadata> metadata;
   std::vector<std::string> guesses;
-  if (!job.remove) metadata = wished_metadata(job, media, guesses);
+  if (!job.remove) metadata = requested_metadata(job, media, guesses);
   const auto start = std::chrono::steady_clock::now();
   const auto progress = [&](double done) {
     const double kSoon = 1.0;  // seconds: shorter jobs do not show progress

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods inject, and the advice of ods probe, make of a file that was identified by its pixels: a square video may be
-// anything, and must not become a sphere by its shape alone.
+// The format of a file without metadata, by its pixels, for ods inject and the advice of ods probe: a square video may
+// be anything, and must not become a sphere by its shape alone.
 #pragma once
 #include <optional>
 #include <string>

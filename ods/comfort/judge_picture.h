@@ -17,7 +17,7 @@ struct JudgePictureOptions {
   ComfortOptions comfort;
   FormatHint format;
   bool wants_light = false;    // for JudgedPicture::light
-  std::string scratch_folder;  // as OpenOptions::scratch_folder; empty: everything stays in memory
+  std::string scratch_folder;  // as MediaOptions::scratch_folder
 };
 
 struct JudgedPicture {

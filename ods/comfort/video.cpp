@@ -247,8 +247,8 @@ VideoComfort VideoJudge::run(const Progress& progress) {
   result_.frames = decoder_.stream().count;
   const double fps = video_.fps > 0.0 ? video_.fps : 25.0;
   result_.seconds = result_.frames / fps;
-  const int wished = std::clamp(static_cast<int>(std::ceil(result_.seconds)), kMinMoments, options_.max_moments);
-  const int count = result_.frames > 0 ? std::min(wished, result_.frames) : wished;
+  const int requested = std::clamp(static_cast<int>(std::ceil(result_.seconds)), kMinMoments, options_.max_moments);
+  const int count = result_.frames > 0 ? std::min(requested, result_.frames) : requested;
   result_.every = result_.seconds > 0.0 ? result_.seconds / count : 1.0;
   for (int i = 0; i < count; i++) {
     if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "interrupted");

@@ -191,7 +191,7 @@ def still(settings):
 
 
 def mark(folder):
-    """Says which rig the views are of. A folder is of one rig: its views stay, and another's would be mixed with them."""
+    """Records the rig that the views belong to. A folder holds the views of one rig only."""
     path = os.path.join(folder, "ods-rig.txt")
     if not os.path.exists(path):
         with open(path, "w") as file:

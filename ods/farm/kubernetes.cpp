@@ -39,7 +39,7 @@ std::string resources(const FarmPlan& plan, const TaskGroup& group) {
 
 // An exit code of 2 is a command line that is wrong on every machine, 5 a verdict, which is the same on all; an evicted
 // pod is not a failure of its task.
-std::string job_of(const FarmPlan& plan, const TaskGroup& group, const SchedulerChoices& wishes) {
+std::string job_of(const FarmPlan& plan, const TaskGroup& group, const SchedulerChoices& choices) {
   std::vector<std::string> words = {"exec", plan.program};
   words.insert(words.end(), group.command.begin(), group.command.end());
   words.insert(words.end(), {"--threads", fmt::format("{}", plan.cpus)});
@@ -79,16 +79,16 @@ spec:
           persistentVolumeClaim: {{claimName: {}}}
 )",
                      object_name(plan.name, group.name), group.tasks, std::min(group.tasks, 100),
-                     json_text(wishes.image), argument(line), resources(plan, group), json_text(wishes.mount),
-                     json_text(wishes.volume));
+                     json_text(choices.image), argument(line), resources(plan, group), json_text(choices.mount),
+                     json_text(choices.volume));
 }
 
-void check_mount(const FarmPlan& plan, const SchedulerChoices& wishes) {
+void check_mount(const FarmPlan& plan, const SchedulerChoices& choices) {
   for (const PlanPath& path : plan.paths) {
-    if (path.path == wishes.mount || path.path.starts_with(wishes.mount + "/") || wishes.mount == "/") continue;
+    if (path.path == choices.mount || path.path.starts_with(choices.mount + "/") || choices.mount == "/") continue;
     throw Error(ErrorKind::kUsage, fmt::format("'{}' is outside '{}', where the pods see the volume: --mount DIR names "
                                                "a folder that has all files, --copy-scene copies the scene",
-                                               path.path, wishes.mount));
+                                               path.path, choices.mount));
   }
 }
 
@@ -138,8 +138,8 @@ run() {  # JOB FILE
 
 }  // namespace
 
-std::vector<FarmFile> write_kubernetes(const FarmPlan& plan, const SchedulerChoices& wishes) {
-  check_mount(plan, wishes);
+std::vector<FarmFile> write_kubernetes(const FarmPlan& plan, const SchedulerChoices& choices) {
+  check_mount(plan, choices);
   if (plan.cpus == 0) {
     throw Error(ErrorKind::kUsage,
                 "Kubernetes cannot request a whole machine: --cpus N sets how many of its processors");
@@ -148,7 +148,7 @@ std::vector<FarmFile> write_kubernetes(const FarmPlan& plan, const SchedulerChoi
   std::string submit = kKubernetesSubmit;
   for (const TaskGroup& group : plan.groups) {
     const std::string file = group.name + ".yaml";
-    files.push_back({file, job_of(plan, group, wishes)});
+    files.push_back({file, job_of(plan, group, choices)});
     submit += fmt::format("run {} {}\n", object_name(plan.name, group.name), file);
   }
   files.push_back({"submit.sh", submit});

@@ -36,18 +36,18 @@ struct FarmFile {
 };
 
 // Throw Error(kUsage) for arguments that the scheduler's language cannot express. Precondition: check_quotable().
-std::vector<FarmFile> write_slurm(const FarmPlan& plan, const SchedulerChoices& wishes);
-std::vector<FarmFile> write_openjd(const FarmPlan& plan, const SchedulerChoices& wishes);
-std::vector<FarmFile> write_opencue(const FarmPlan& plan, const SchedulerChoices& wishes);
-std::vector<FarmFile> write_flamenco(const FarmPlan& plan, const SchedulerChoices& wishes);
-std::vector<FarmFile> write_kubernetes(const FarmPlan& plan, const SchedulerChoices& wishes);
+std::vector<FarmFile> write_slurm(const FarmPlan& plan, const SchedulerChoices& choices);
+std::vector<FarmFile> write_openjd(const FarmPlan& plan, const SchedulerChoices& choices);
+std::vector<FarmFile> write_opencue(const FarmPlan& plan, const SchedulerChoices& choices);
+std::vector<FarmFile> write_flamenco(const FarmPlan& plan, const SchedulerChoices& choices);
+std::vector<FarmFile> write_kubernetes(const FarmPlan& plan, const SchedulerChoices& choices);
 
 enum class Scheduler { kSlurm, kOpenJd, kOpenCue, kFlamenco, kKubernetes };
 
 struct SchedulerRow {
   Scheduler member;
   std::string_view name;
-  std::vector<FarmFile> (*write)(const FarmPlan& plan, const SchedulerChoices& wishes);
+  std::vector<FarmFile> (*write)(const FarmPlan& plan, const SchedulerChoices& choices);
   std::string_view next;  // the next step for people, in the plan's folder
 };
 

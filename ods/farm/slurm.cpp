@@ -35,13 +35,13 @@ std::vector<Array> arrays_of(const TaskGroup& group, int largest_array) {
   return arrays;
 }
 
-std::string directives(const FarmPlan& plan, const Array& array, const SchedulerChoices& wishes) {
+std::string directives(const FarmPlan& plan, const Array& array, const SchedulerChoices& choices) {
   std::string text = fmt::format("#SBATCH --job-name={}.{}\n", plan.name, array.group.name);
   if (!array.group.option.empty()) text += fmt::format("#SBATCH --array=1-{}\n", array.tasks);
   text += "#SBATCH --output=/dev/null\n#SBATCH --requeue\n#SBATCH --signal=B:USR1@60\n#SBATCH --ntasks=1\n";
   text += plan.cpus > 0 ? fmt::format("#SBATCH --cpus-per-task={}\n", plan.cpus) : "#SBATCH --exclusive\n";
   text += fmt::format("#SBATCH --mem={}M\n", (memory_of(plan, array.group) + (1 << 20) - 1) >> 20);
-  for (const std::string& extra : wishes.extras) text += fmt::format("#SBATCH {}\n", extra);
+  for (const std::string& extra : choices.extras) text += fmt::format("#SBATCH {}\n", extra);
   return text;
 }
 
@@ -134,21 +134,21 @@ end "$code"
 )sh";
 
 // Returns whether no option of sbatch restricts the nodes of the tasks.
-bool runs_anywhere(const SchedulerChoices& wishes) {
+bool runs_anywhere(const SchedulerChoices& choices) {
   constexpr std::array<std::string_view, 9> kOthers = {"--partition", "-p", "--time",    "-t",    "--qos",
                                                        "-q",          "-A", "--account", "--nice"};
-  return std::ranges::all_of(wishes.extras, [&](const std::string& extra) {
+  return std::ranges::all_of(choices.extras, [&](const std::string& extra) {
     const std::string name = extra.starts_with("--") ? extra.substr(0, extra.find_first_of("= ")) : extra.substr(0, 2);
     return std::ranges::find(kOthers, name) != kOthers.end();
   });
 }
 
-std::string script_of(const FarmPlan& plan, const Array& array, const SchedulerChoices& wishes) {
+std::string script_of(const FarmPlan& plan, const Array& array, const SchedulerChoices& choices) {
   const std::string task =
       array.group.option.empty() ? "1" : fmt::format("$((SLURM_ARRAY_TASK_ID + {}))", array.before);
-  return fmt::format(kSlurmScript, directives(plan, array, wishes), shell_word(plan.folder), task, array.group.name,
+  return fmt::format(kSlurmScript, directives(plan, array, choices), shell_word(plan.folder), task, array.group.name,
                      array.group.tasks, command_line(plan, array.group), unfinished_file(array.group),
-                     runs_anywhere(wishes) ? "anywhere" : "where told");
+                     runs_anywhere(choices) ? "anywhere" : "where told");
 }
 
 constexpr const char* kSlurmSubmit = R"sh(#!/bin/sh
@@ -170,13 +170,13 @@ send() {{  # SCRIPT COMMENT
 
 }  // namespace
 
-std::vector<FarmFile> write_slurm(const FarmPlan& plan, const SchedulerChoices& wishes) {
+std::vector<FarmFile> write_slurm(const FarmPlan& plan, const SchedulerChoices& choices) {
   std::vector<FarmFile> files;
   std::string submit = fmt::format(kSlurmSubmit, shell_word(plan.folder));
   for (const TaskGroup& group : plan.groups) {
     if (&group != &plan.groups.front()) submit += "next\n";
-    for (const Array& array : arrays_of(group, wishes.largest_array)) {
-      files.push_back({array.script(), script_of(plan, array, wishes)});
+    for (const Array& array : arrays_of(group, choices.largest_array)) {
+      files.push_back({array.script(), script_of(plan, array, choices)});
       submit += fmt::format("send {} {}\n", array.script(), slurm_comment(group.name, array.before));
     }
   }

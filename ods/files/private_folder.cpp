@@ -104,6 +104,12 @@ void make_own_folder(const std::string& path) {
   if (!is_closed) fail("its mode cannot be changed");
 }
 
+std::string temporary_folder_if_any() {
+  std::error_code error;
+  const fs::path folder = fs::temp_directory_path(error);
+  return error ? "" : folder.native();
+}
+
 std::string temporary_folder() {
   std::error_code error;
   const fs::path folder = fs::temp_directory_path(error);

@@ -10,6 +10,8 @@ namespace ods {
 
 // The folder for temporary files, $TMPDIR or /tmp, which all users share. Throws Error(kOutput) if it is not a folder.
 std::string temporary_folder();
+// Returns temporary_folder(), or an empty string if there is none.
+std::string temporary_folder_if_any();
 
 // The destructor removes the folder with everything in it, and so does a signal handler that calls
 // remove_unfinished_files(). The next PrivateFolder with that prefix removes the folder of a killed process.

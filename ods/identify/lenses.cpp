@@ -241,13 +241,13 @@ static std::string lens_text(const FisheyeLens& lens) {
   return fmt::format("{:.1f},{:.1f},{:.1f}", lens.center.x, lens.center.y, lens.radius);
 }
 
-static std::optional<ProjectionSetting> told_projection(const FormatHint& known, const std::string& path) {
+static std::optional<ProjectionSetting> known_projection(const FormatHint& known, const std::string& path) {
   if (known.projection) return known.projection;
   const NamedProjection* named = read_name(path).projection;
   return named ? std::optional(named->setting) : std::nullopt;
 }
 
-static std::optional<Layout> told_layout(const FormatHint& known, const std::string& path) {
+static std::optional<Layout> known_layout(const FormatHint& known, const std::string& path) {
   return known.layout ? known.layout : read_name(path).layout;
 }
 
@@ -275,8 +275,8 @@ static bool is_right_first(const Halves& halves, const std::vector<FisheyeLens>&
 }
 
 bool wants_lenses(const FormatHint& known, const std::string& path, bool is_open) {
-  const std::optional<ProjectionSetting> told = told_projection(known, path);
-  const std::optional<Layout> layout = told_layout(known, path);
+  const std::optional<ProjectionSetting> told = known_projection(known, path);
+  const std::optional<Layout> layout = known_layout(known, path);
   const bool is_done = !known.lenses.empty() || known.camera || known.one_eye || names_eye(path);
   if (is_done || (layout && !arrangement_of(*layout).is_halves())) return false;
   return told ? is_fisheye(told->kind) : known.front_and_back || is_open;
@@ -284,8 +284,8 @@ bool wants_lenses(const FormatHint& known, const std::string& path, bool is_open
 
 FormatHint with_lenses(const StoredPicture& whole, const std::string& path, const FormatHint& known,
                        std::vector<std::string>& notes) {
-  const std::optional<ProjectionSetting> told = told_projection(known, path);
-  std::optional<Layout> layout = told_layout(known, path);
+  const std::optional<ProjectionSetting> told = known_projection(known, path);
+  std::optional<Layout> layout = known_layout(known, path);
   if (whole.size.width < 64 || whole.size.height < 64) return known;
   const bool is_wide = whole.size.width > whole.size.height;
   if (!layout) layout = is_wide ? Layout::kSideBySide : Layout::kTopBottom;
@@ -299,7 +299,7 @@ FormatHint with_lenses(const StoredPicture& whole, const std::string& path, cons
   std::optional<SeenLenses> seen = find_lenses(first, second, told ? told->fov : 180.0f);
   if (!seen) return known;
   const bool right_first =
-      !seen->front_and_back && !told_layout(known, path) && is_right_first({first, second}, seen->lenses);
+      !seen->front_and_back && !known_layout(known, path) && is_right_first({first, second}, seen->lenses);
   if (known.front_and_back && !seen->front_and_back) return known;  // circles that touch the halves' edges
   for (FisheyeLens& lens : seen->lenses) lens.center *= static_cast<float>(by), lens.radius *= static_cast<float>(by);
   if (!are_apart(seen->lenses, *layout, *eye)) return known;

@@ -30,7 +30,7 @@ class SomeFrames {
     video_.prototype.eyes.resize(1);
   }
 
-  // Of the eyes, as the stream says; known after next().
+  // The packing of the eyes in the stream; known after next().
   std::optional<VideoStereo> packing() const { return packing_; }
 
   std::optional<StoredPicture> next() {
@@ -130,7 +130,7 @@ static void look_at_picture(MediaFile& media, bool left_first) {
 static void open_picture_media(MediaFile& media, const MediaOptions& options) {
   OpenOptions open;
   open.color_only = options.color_only;
-  open.scratch_folder = options.scratch_folder.empty() ? temporary_folder() : options.scratch_folder;
+  open.scratch_folder = options.scratch_folder.empty() ? temporary_folder_if_any() : options.scratch_folder;
   media.reader = PictureReader::without_format(media.path, open);
   const auto find = [&] { return find_format(media.reader->info(), media.path, media.hint); };
   media.format = find();
@@ -176,7 +176,7 @@ static void take_packing(MediaFile& media, VideoStereo packing) {
   const std::optional<Layout> layout = layout_with(arrangement_of(packing));
   if (!layout || *layout == Layout::kSeparate) return;
   media.hint.layout = layout;
-  media.notes.push_back(fmt::format("{}: the frame packing of its stream says so", stereo_name(packing)));
+  media.notes.push_back(fmt::format("{}, according to the frame packing of its stream", stereo_name(packing)));
 }
 
 static void look_at_frames(MediaFile& media) {

@@ -20,7 +20,7 @@ struct MediaOptions {
   std::optional<int> track{};    // of a video; if not set, the one with the largest picture
   bool left_first = false;       // the pixels do not decide the order of a picture's eyes: it is as players assume
   bool color_only = false;       // as in OpenOptions, for a picture
-  std::string scratch_folder{};  // as in OpenOptions; if empty, temporary_folder()
+  std::string scratch_folder{};  // as in OpenOptions; if empty, temporary_folder_if_any()
 };
 
 struct MediaFile {
@@ -29,18 +29,18 @@ struct MediaFile {
   std::optional<Identity> identity;  // result of the pixels, if they had to be examined
   std::vector<std::string> notes;    // for users: what the pixels decided, and what is doubtful
 
-  // Of a picture, else not set. It may hold the decoded pixels.
+  // Set for a picture. It may hold the decoded pixels.
   std::optional<PictureReader> reader;
   StereoFormat format;  // as find_format() returns it for `hint`
 
-  // Of a video, else not set.
+  // Set for a video.
   std::optional<VideoFile> video;
   VideoTrack track;
 };
 
 // Opens a picture, a pair (%V), frames (their first one stands for all) or a video. The pixels are examined only if
 // options, metadata, sidecar and name leave the layout or the projection open, and decoded once: reader_of() has them.
-// What they show is used if it is likely and the aspect ratio suggests nothing, or if it is sure or rules out what the
+// Their result is used if it is likely and the aspect ratio suggests nothing, or if it is sure or rules out what the
 // aspect ratio suggests; for a video only if it is sure. Throws Error(kInput) like find_format(), read_video_file() and
 // choose_track(), and for a file that cannot be read; a misfit of format and size is found by the next step.
 MediaFile open_media(const std::string& path, const MediaOptions& options = {});

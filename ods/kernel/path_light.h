@@ -35,7 +35,7 @@ struct CachePlace {
   float cell;  // size of the larger cell, metres; 0 if nothing is stored here
 };
 
-// What must survive between the steps of a path: devices that trace many paths at once keep one for each.
+// The state of a path that survives between its steps: devices that trace many paths at once keep one for each.
 struct PathState {
   Ray ray;
   vec3 throughput;
@@ -84,7 +84,7 @@ struct PathState {
   vec3 albedo;
 };
 
-// What one shade() makes and uses, and leaves for the device to read before the next.
+// The results of one shade(), which the device reads before the next.
 struct PathStep {
   int chosen_wave;  // at a surface that splits colours, the colour that the path keeps if it is refracted; else -1
   Bsdf other;       // the first surface's, for the other eye, if both see it

@@ -224,7 +224,7 @@ bool is_sheet(const Scene& scene, const Mesh& mesh) {
   return sheets > 0.5 * all;
 }
 
-// The share of light that crosses a material as thick as its file says.
+// The share of light that crosses a material with the thickness in its file.
 static vec3 tint_of(const Material& material) {
   const float depth = material.attenuation_distance > 0.0f ? material.thickness / material.attenuation_distance : 0.0f;
   return glm::pow(material.attenuation_color, vec3(depth));

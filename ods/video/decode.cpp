@@ -443,8 +443,7 @@ std::optional<DecodedFrame> VideoDecoder::next() {
     result.alpha_stride = static_cast<size_t>(frame->linesize[3]);
   }
   result.memory = frame;
-  const bool is_interleaved = state.views == Views::kRows || state.views == Views::kColumns;
-  return is_interleaved ? take_apart(result, state.stream.size, state.views) : result;
+  return are_interleaved(state.views) ? take_apart(result, state.stream.size, state.views) : result;
 }
 
 void VideoDecoder::skip_to(double seconds) {

@@ -45,7 +45,7 @@ struct DecodedFrame {
   const std::byte* alpha = nullptr;  // if VideoStream has alpha: same bit depth, full range
   size_t alpha_stride = 0;
   std::shared_ptr<const void> memory;
-  std::optional<VideoStereo> packing;  // of the eyes, as the stream's frame packing (SEI) says; not set if it has none
+  std::optional<VideoStereo> packing;  // of the eyes, by the frame packing (SEI) of the stream; not set if it has none
 };
 
 // The layers to decode of a stream with the eyes as layers (MV-HEVC): only the first layer, as for any other stream, or
@@ -54,6 +54,10 @@ struct DecodedFrame {
 enum class Views { kFirst, kLeftAndRight, kRightAndLeft, kRows, kColumns };
 constexpr bool has_layers(Views views) {
   return views == Views::kLeftAndRight || views == Views::kRightAndLeft;
+}
+// Returns whether the decoder takes apart the rows or columns of such frames.
+constexpr bool are_interleaved(Views views) {
+  return views == Views::kRows || views == Views::kColumns;
 }
 
 // Returns whether this machine's libavcodec can decode both: FFmpeg 7.1 or later.

@@ -56,7 +56,7 @@ static const EncoderFacts& choose_encoder(const EncodeOptions& options) {
   throw Error(ErrorKind::kUsage,
               fmt::format("this machine cannot encode {} {}{}: it has {}", video_codec_name(packing.codec),
                           chroma_name(packing.chroma), wanted.empty() ? "" : ", which needs " + wanted,
-                          others.empty() ? "no encoder that ods knows" : others));
+                          others.empty() ? "no encoder that ods supports" : others));
 }
 
 static AVPixelFormat pixel_format(const Packing& packing) {

@@ -105,15 +105,15 @@ static void check_sizes(const FrameFiles& files) {
   }
 }
 
-static Layout wished_layout(Layout own, std::optional<Layout> wish) {
-  if (!wish || *wish == own) return own;
+static Layout requested_layout(Layout own, std::optional<Layout> choice) {
+  if (!choice || *choice == own) return own;
   const Extent squeeze = squeeze_of(own, 2);
   if (squeeze.width * squeeze.height > 1) {
     throw Error(ErrorKind::kUsage,
                 fmt::format("the frames are {} and cannot become {}; unsqueeze them with ods convert", layout_name(own),
-                            layout_name(*wish)));
+                            layout_name(*choice)));
   }
-  return *wish;
+  return *choice;
 }
 
 VideoPlan plan_eyes(Extent eye, size_t count, Layout layout, const ProjectionSetting& projection) {
@@ -138,7 +138,7 @@ VideoPlan plan_video(const FrameFiles& files, const FormatHint& known, std::opti
   options.format = known;
   options.color_only = true;
   const StoredPicture first = open_picture(files.path(0), options);
-  const Layout own = wished_layout(video_layout(first), layout);
+  const Layout own = requested_layout(video_layout(first), layout);
   VideoPlan plan = plan_eyes(first.size, first.eyes.size(), own, first.camera.projection);
   if (first.has_ipd && first.eyes.size() == 2) plan.metadata.ipd = static_cast<double>(first.camera.ipd);
   plan.known.layout = first.layout;

@@ -75,7 +75,7 @@ std::string read_subtitles(const std::string& video) {
   const size_t at = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
   if (text.compare(at, 6, "WEBVTT") != 0) {
     throw cannot_read(name,
-                      "it is no WebVTT, which begins with WEBVTT: ffmpeg -i subtitles.srt subtitles.vtt makes it");
+                      "it is not WebVTT, which begins with WEBVTT: ffmpeg -i subtitles.srt subtitles.vtt makes it");
   }
   return text;
 }

@@ -43,13 +43,13 @@ TEST_F(Schedulers, KubernetesIsAnIndexedJobThatStopsOnWrongCommands) {
     EXPECT_EQ(said(), expected(group, 7, {"--threads", "3"}));
   }
   plan.paths = {{"/disk", false, true}};  // of frames in the mounted folder itself
-  EXPECT_NO_THROW(write_kubernetes(plan, wishes));
+  EXPECT_NO_THROW(write_kubernetes(plan, choices));
   for (const char* path : {"/", "/disks", "/dis", "/elsewhere/disk"}) {
     plan.paths = {{path, false, true}};
-    EXPECT_THROW(write_kubernetes(plan, wishes), Error) << path;
+    EXPECT_THROW(write_kubernetes(plan, choices), Error) << path;
   }
   plan.paths.clear(), plan.cpus = 0;
-  EXPECT_THROW(write_kubernetes(plan, wishes), Error) << "a whole machine cannot be asked for";
+  EXPECT_THROW(write_kubernetes(plan, choices), Error) << "a whole machine cannot be asked for";
 }
 
 // Its classes are made from the published OpenAPI schema.

@@ -64,8 +64,8 @@ TEST_F(Schedulers, FlamencoGetsNoNameWithAVariable) {
 TEST_F(Schedulers, ManyTasksAreFewFiles) {
   plan.groups[0].tasks = 100'000;
   for (const SchedulerRow& row : kSchedulerTable) {
-    wishes.mount = "/disk", plan.cpus = 4;
-    const std::vector<FarmFile> files = row.write(plan, wishes);
+    choices.mount = "/disk", plan.cpus = 4;
+    const std::vector<FarmFile> files = row.write(plan, choices);
     EXPECT_TRUE(files.size() <= 5 || row.member == Scheduler::kSlurm) << row.name;
     EXPECT_EQ(files.size() == 102, row.member == Scheduler::kSlurm) << row.name;
     for (const FarmFile& file : files) EXPECT_LT(file.text.size(), 20'000u) << row.name;

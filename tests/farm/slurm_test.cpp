@@ -11,8 +11,8 @@ namespace ods {
 namespace {
 
 TEST_F(Schedulers, SlurmRunsEveryTaskOnce) {
-  wishes.largest_array = 6;
-  wishes.extras = {"--partition=render", "--time=2:00:00"};
+  choices.largest_array = 6;
+  choices.extras = {"--partition=render", "--time=2:00:00"};
   plan.cpus = 4;
   const std::vector<FarmFile> files = write(Scheduler::kSlurm);
   ASSERT_EQ(files.size(), 5u);  // 12 tasks in arrays of five
@@ -93,7 +93,7 @@ TEST_F(SlurmStarts, WhatMayGetBetterIsTriedElsewhere) {
     EXPECT_EQ(run("frames-1.sbatch"), starts);
     EXPECT_EQ(folder.read("film's.farm/ended/frames.2"), fmt::format("{}\n", code));
   }
-  wishes.extras = {"--time=1:00:00", "-C", "fast"};  // who names nodes has them
+  choices.extras = {"--time=1:00:00", "-C", "fast"};  // who names nodes has them
   write(Scheduler::kSlurm);
   EXPECT_EQ(run("frames-1.sbatch"), "one one one 139");
   program("scontrol", "exit 1\n");
@@ -162,7 +162,7 @@ TEST_F(SlurmStarts, AfterAKillItGetsMoreMemory) {
 }
 
 TEST_F(Schedulers, SlurmSendsGroupsInOrderAndCancelsWhatIsAlone) {
-  wishes.largest_array = 9;
+  choices.largest_array = 9;
   write(Scheduler::kSlurm);
   folder.write("sbatch", "#!/bin/sh\nn=$(cat " + folder.path("n") + ")\n[ $n != \"$FAIL\" ] || exit 1\nn=$((n + 1))\n" +
                              "echo $n >" + folder.path("n") + "\nprintf '%s\\n' \"$@\" >>" + folder.path("log") +

@@ -42,8 +42,8 @@ class Schedulers : public ::testing::Test {
   }
 
   std::vector<FarmFile> write(Scheduler scheduler) {
-    wishes.mount = "/disk";
-    std::vector<FarmFile> files = row_in(kSchedulerTable, scheduler).write(plan, wishes);
+    choices.mount = "/disk";
+    std::vector<FarmFile> files = row_in(kSchedulerTable, scheduler).write(plan, choices);
     for (const FarmFile& file : files) folder.write("film's.farm/" + file.name, file.text);
     return files;
   }
@@ -78,7 +78,7 @@ class Schedulers : public ::testing::Test {
 
   TemporaryFolder folder;
   FarmPlan plan;
-  SchedulerChoices wishes;
+  SchedulerChoices choices;
 };
 
 }  // namespace ods

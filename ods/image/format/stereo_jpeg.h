@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a JPEG records of two eyes: the second picture of an MPO, and the descriptor of a JPS (or a PNS, whose JPEG form
+// The metadata of a JPEG about two eyes: the second picture of an MPO, and the descriptor of a JPS (or a PNS, whose JPEG form
 // it is). Sources: CIPA DC-007, "Multi-Picture Format"; VRex, "JPS file format".
 #pragma once
 #include <string>

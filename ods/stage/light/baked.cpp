@@ -44,7 +44,7 @@ bool has_word_bake(const std::string& name) {
   return false;
 }
 
-bool name_says_baked(const Scene& scene, size_t material) {
+bool has_baked_name(const Scene& scene, size_t material) {
   if (material >= scene.material_names.size() || scene.materials[material].base_color_slot.texture < 0) return false;
   const std::string name = small_letters(scene.material_names[material]);
   return name.find("baked") != std::string::npos || name.find("lightmap") != std::string::npos || has_word_bake(name);
@@ -129,7 +129,7 @@ Paint paint_of(const Scene& scene, bool is_place) {
     total += areas[i];
     if (material.unlit != 0) unlit += areas[i];
     if (glows_as_painted(material)) glowing += areas[i];
-    if (name_says_baked(scene, index)) named += areas[i];
+    if (has_baked_name(scene, index)) named += areas[i];
     if (has_only_color(material)) plain += areas[i];
   }
   if (!(total > 0.0)) return Paint::kLit;

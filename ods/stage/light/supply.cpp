@@ -107,8 +107,8 @@ std::string place_text(vec3 p) {
   return fmt::format("{:g},{:g},{:g}", rounded(p.x), rounded(p.y), rounded(p.z));
 }
 
-std::string note_for(const Survey& survey, const LightPlan& plan, const LightChoices& wishes) {
-  if (wishes.unlit) return "";
+std::string note_for(const Survey& survey, const LightPlan& plan, const LightChoices& choices) {
+  if (choices.unlit) return "";
   if (plan.paint == Paint::kUnlit) return "the scene is shown as it is painted: " + paint_reason(plan.paint);
   if (plan.as_painted) {
     return fmt::format(
@@ -117,12 +117,12 @@ std::string note_for(const Survey& survey, const LightPlan& plan, const LightCho
         "lights it instead)",
         paint_reason(plan.paint));
   }
-  if (plan.lamp && wishes.lamp == LampChoice::kAuto) {
+  if (plan.lamp && choices.lamp == LampChoice::kAuto) {
     return fmt::format(
         "a closed room without light: a lamp hangs at {} (`lamp` X,Y,Z moves it, `lamp` none removes it)",
         place_text(plan.lamp->position));
   }
-  if (!plan.surround || wishes.surround != Surround::kAuto) return "";
+  if (!plan.surround || choices.surround != Surround::kAuto) return "";
   if (plan.surround == Surround::kStudio) {
     const bool floats = survey.kind == SceneKind::kOpenPlace;
     return fmt::format(
@@ -226,44 +226,44 @@ SkyOptions best_sun(const SceneRays& rays, vec3 eye) {
   return best;
 }
 
-LightPlan plan_light(const SceneRays& rays, const Survey& survey, const LightChoices& wishes) {
+LightPlan plan_light(const SceneRays& rays, const Survey& survey, const LightChoices& choices) {
   const bool closed = survey.kind == SceneKind::kClosedRoom;
-  const bool chosen = wishes.surround != Surround::kAuto;
+  const bool chosen = choices.surround != Surround::kAuto;
   LightPlan plan;
   if (closed) plan.windows = window_share(rays, survey.stand->eye);
-  judge_light(rays, survey, !chosen && wishes.lamp != LampChoice::kPlaced, plan);
-  plan.as_painted = wishes.unlit || plan.paint != Paint::kLit;
-  if (chosen) plan.surround = wishes.surround;
+  judge_light(rays, survey, !chosen && choices.lamp != LampChoice::kPlaced, plan);
+  plan.as_painted = choices.unlit || plan.paint != Paint::kLit;
+  if (chosen) plan.surround = choices.surround;
   if (!chosen && !plan.has_light) plan.surround = missing_surround(survey, plan);
   const auto clearance = [&](vec3 from, vec3 direction) { return rays.distance(from, direction); };
   const bool dark = closed && !plan.has_light && !plan.as_painted && plan.windows < kWindows;
-  if (wishes.lamp == LampChoice::kPlaced) {
-    plan.lamp = lamp_at(wishes.lamp_position, clearance);
-  } else if (wishes.lamp == LampChoice::kAuto && dark) {
+  if (choices.lamp == LampChoice::kPlaced) {
+    plan.lamp = lamp_at(choices.lamp_position, clearance);
+  } else if (choices.lamp == LampChoice::kAuto && dark) {
     plan.lamp = place_lamp(survey.stand->eye, clearance);
     if (!plan.lamp && !chosen) plan.surround = Surround::kSky;
   }
-  plan.sky = wishes.sky;
+  plan.sky = choices.sky;
   const bool sun_is_free = plan.surround == Surround::kSky && !chosen && survey.stand;
   if (sun_is_free) plan.sky = best_sun(rays, survey.stand->eye);
   const bool made = plan.surround == Surround::kStudio || plan.surround == Surround::kSky;
-  plan.ground = wishes.ground && made && survey.kind == SceneKind::kObject && !plan.as_painted;
-  plan.note = note_for(survey, plan, wishes);
+  plan.ground = choices.ground && made && survey.kind == SceneKind::kObject && !plan.as_painted;
+  plan.note = note_for(survey, plan, choices);
   if (!chosen) plan.advice = advice_for(rays, survey, plan);
   return plan;
 }
 
-void apply_light(Scene& scene, const Survey& survey, const LightPlan& plan, const LightChoices& wishes) {
+void apply_light(Scene& scene, const Survey& survey, const LightPlan& plan, const LightChoices& choices) {
   if (plan.as_painted) show_paint(scene);
   scene.as_painted = plan.as_painted;
   const size_t before = scene.instances.size();
   if (plan.surround == Surround::kStudio) {
-    scene.environment = make_studio(wishes.yaw);
+    scene.environment = make_studio(choices.yaw);
     const bool floats = survey.stand && !survey.stand->floor;  // without a floor below or a wall behind
     scene.background = floats ? Environment{} : make_studio_walls();
   }
   if (plan.surround == Surround::kSky) scene.environment = make_sky(plan.sky);
-  if (plan.surround == Surround::kGiven) scene.environment = wishes.given;
+  if (plan.surround == Surround::kGiven) scene.environment = choices.given;
   if (plan.ground) {
     const vec3 size = survey.core.high - survey.core.low, middle = 0.5f * (survey.core.low + survey.core.high);
     const float largest = std::max({size.x, size.y, size.z});

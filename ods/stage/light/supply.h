@@ -54,10 +54,10 @@ struct LightPlan {
 inline constexpr float kWindows = 0.003f;
 
 // Decides which light to add. Deterministic.
-LightPlan plan_light(const SceneRays& rays, const Survey& survey, const LightChoices& wishes = {});
+LightPlan plan_light(const SceneRays& rays, const Survey& survey, const LightChoices& choices = {});
 
 // Adds the light: changes the scene's environment, background, materials and instances, and sets Scene::supplied.
-void apply_light(Scene& scene, const Survey& survey, const LightPlan& plan, const LightChoices& wishes = {});
+void apply_light(Scene& scene, const Survey& survey, const LightPlan& plan, const LightChoices& choices = {});
 
 // The sun that lights most of the surfaces visible from a point, among several directions at elevations of 35 to 65
 // degrees: low ones are preferred, and among equals the default.

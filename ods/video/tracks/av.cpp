@@ -92,7 +92,7 @@ static std::string reason_of(int code) {
 static std::string words_for(int code) {
   const std::lock_guard<std::mutex> lock(complaint_mutex);
   const std::string said = std::exchange(complaint, "");
-  return said.empty() ? reason_of(code) : fmt::format("{} (FFmpeg says: {})", reason_of(code), one_line(said));
+  return said.empty() ? reason_of(code) : fmt::format("{} (FFmpeg: {})", reason_of(code), one_line(said));
 }
 
 int checked(int code, ErrorKind kind, const std::string& what) {

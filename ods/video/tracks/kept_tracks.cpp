@@ -98,7 +98,7 @@ static void decide_sound(const KeepOptions& keep, Container container, Kept& kep
   try {
     kept.sound = pack_sound(source, container);
     kept.fate = Fate::kSound;
-    kept.why = fmt::format("is encoded anew: {}", reason);
+    kept.why = fmt::format("is encoded again: {}", reason);
   } catch (const Error& error) {
     kept.fate = is_held ? Fate::kCopied : Fate::kLost;
     kept.why = fmt::format("{}: {}", is_held ? "does not turn with the picture" : "is lost", error.what());

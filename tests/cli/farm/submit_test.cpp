@@ -362,7 +362,7 @@ TEST_F(SubmitCommand, TheSceneIsCopiedWithWhatLiesBesideIt) {
   run_all(plan("a"));
 }
 
-TEST_F(SubmitCommand, BadWishesAreOneLineAndLeaveNothing) {
+TEST_F(SubmitCommand, BadOptionsAreOneLineAndLeaveNothing) {
   struct Fault {
     std::string words;
     int code;

@@ -83,12 +83,12 @@ TEST_F(InjectPicture, WhatIsNotAskedForStays) {
       const std::string xmp = ods::read_xmp(to);
       const std::optional<StereoCamera> now = ods::gpano_camera(xmp);
       ASSERT_TRUE(now);
-      StereoCamera wished = *said;
-      ask(wished);
-      EXPECT_NEAR(std::remainder(now->yaw - wished.yaw, 360.0f), 0.0f, 1e-3f);
-      EXPECT_NEAR(now->pitch, wished.pitch, 1e-3f);
-      EXPECT_NEAR(now->roll, wished.roll, 1e-3f);
-      EXPECT_EQ(now->projection, wished.projection);
+      StereoCamera requested = *said;
+      ask(requested);
+      EXPECT_NEAR(std::remainder(now->yaw - requested.yaw, 360.0f), 0.0f, 1e-3f);
+      EXPECT_NEAR(now->pitch, requested.pitch, 1e-3f);
+      EXPECT_NEAR(now->roll, requested.roll, 1e-3f);
+      EXPECT_EQ(now->projection, requested.projection);
       if (form.title != "exiftool") continue;
       EXPECT_NE(xmp.find("Somebody"), std::string::npos) << "others' words stay";
     }

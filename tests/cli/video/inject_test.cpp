@@ -139,8 +139,8 @@ TEST_F(InjectCommand, WhatIsNotAskedForStays) {
     for (const auto& [words, ask] : kInjectOptions) {
       SCOPED_TRACE(each.title + " (" + each.name + "): inject " + words);
       const std::optional<ods::VideoFile> after = inject(each, words);
-      SphericalMetadata wished = said;
-      ask(wished);
+      SphericalMetadata requested = said;
+      ask(requested);
       const std::string option = words;
       const bool is_flat_turn = said.projection == VideoProjection::kFlat && option.starts_with("--yaw") |
                                                                                  option.starts_with("--pitch") |
@@ -152,10 +152,10 @@ TEST_F(InjectCommand, WhatIsNotAskedForStays) {
       if (!after || cannot) continue;
       done++;
       const ods::VideoTrack &old = largest(before), &now = largest(*after);
-      if (!now.vexu) wished.ipd = 0.0;  // it has no other place
-      expect_metadata(old, now, wished);
-      EXPECT_EQ(now.vexu.has_value(), (old.vexu && ods::fits_vexu(wished)) || option == "--apple");
-      const bool is_reformed = !same_stereo(wished, said) || !same_sphere(wished, said);
+      if (!now.vexu) requested.ipd = 0.0;  // it has no other place
+      expect_metadata(old, now, requested);
+      EXPECT_EQ(now.vexu.has_value(), (old.vexu && ods::fits_vexu(requested)) || option == "--apple");
+      const bool is_reformed = !same_stereo(requested, said) || !same_sphere(requested, said);
       EXPECT_TRUE(now.v1 || !old.v1 || is_reformed);
       const std::string bytes = folder.read(each.name);
       for (const std::string& kept : each.kept) EXPECT_TRUE(is_reformed || bytes.find(kept) != std::string::npos);

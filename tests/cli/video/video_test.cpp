@@ -329,7 +329,7 @@ TEST_F(VideoCommand, AKilledVideoResumes) {
   EXPECT_EQ(files(), 2u);
 }
 
-TEST_F(VideoCommand, ImpossibleWishesFailBeforeAnythingIsRendered) {
+TEST_F(VideoCommand, ImpossibleOptionsFailBeforeAnythingIsRendered) {
   const std::tuple<std::string, int, const char*> kCases[] = {
       {words("a.avi"), 2, "ends in .mp4"},
       {words("a.mp4", "--codec prores"), 2, "not prores, which goes into mov, mkv"},

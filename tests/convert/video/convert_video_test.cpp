@@ -98,26 +98,26 @@ std::shared_ptr<VideoFrame> by_pictures(const StoredPicture& picture, const Conv
   return frame;
 }
 
-struct Wish {
+struct Choice {
   const char* name;
   ConvertTarget target;
   Layout layout;
 };
 
-std::vector<Wish> wishes(const StoredPicture& prototype) {
+std::vector<Choice> choices(const StoredPicture& prototype) {
   const auto to = [&](const char* projection, Extent eye) {
     ConvertTarget target = same_format(prototype);
     if (*projection != '\0') target.camera.projection = find_projection(projection)->setting;
     target.eye = eye;
     return target;
   };
-  std::vector<Wish> all = {{"turned", to("", {128, 64}), Layout::kTopBottom},
-                           {"vr180", to("vr180", {80, 80}), Layout::kSideBySide},
-                           {"cubes", to("cube-3x2", {96, 64}), Layout::kTopBottom},
-                           {"fisheye", to("fisheye", {64, 64}), Layout::kSideBySide},
-                           {"small", to("", {40, 20}), Layout::kTopBottom},
-                           {"left", to("vr180", {48, 48}), Layout::kTopBottom},
-                           {"window", to("perspective", {64, 48}), Layout::kTopBottom}};
+  std::vector<Choice> all = {{"turned", to("", {128, 64}), Layout::kTopBottom},
+                             {"vr180", to("vr180", {80, 80}), Layout::kSideBySide},
+                             {"cubes", to("cube-3x2", {96, 64}), Layout::kTopBottom},
+                             {"fisheye", to("fisheye", {64, 64}), Layout::kSideBySide},
+                             {"small", to("", {40, 20}), Layout::kTopBottom},
+                             {"left", to("vr180", {48, 48}), Layout::kTopBottom},
+                             {"window", to("perspective", {64, 48}), Layout::kTopBottom}};
   turn(all[0].target.camera, 33.3f, 0.0f, 0.0f);
   all[5].target.eyes = {kLeft};
   all[6].target.eyes = {kMono};
@@ -131,13 +131,13 @@ TEST_F(ConvertVideo, FramesAreBitForBitThoseOfPictures) {
   const std::optional<StoredPicture> picture = pictures.picture(0);
   const std::optional<DecodedFrame> decoded = frames.next();
   ASSERT_TRUE(picture && decoded);
-  for (const Wish& wish : wishes(*picture)) {
-    SCOPED_TRACE(wish.name);
-    ASSERT_EQ(conversion_fault(*picture, wish.target), "");
+  for (const Choice& choice : choices(*picture)) {
+    SCOPED_TRACE(choice.name);
+    ASSERT_EQ(conversion_fault(*picture, choice.target), "");
     for (const Packing& packing : {kPacking, Packing{VideoCodec::kHevc, 10, Chroma::k444, {}}}) {
-      const FrameFormat format{wish.layout, packing, {}};
-      const auto expected = by_pictures(*picture, wish.target, format);
-      const FrameConverter converter(frames.video(), frames.stream(), wish.target, format, false);
+      const FrameFormat format{choice.layout, packing, {}};
+      const auto expected = by_pictures(*picture, choice.target, format);
+      const FrameConverter converter(frames.video(), frames.stream(), choice.target, format, false);
       const auto made = converter.convert(*decoded, {0.0f, 0.0f, 0.0f});
       ASSERT_EQ(made->extent().width, expected->extent().width);
       EXPECT_TRUE(bytes_of(made->planes(), made->extent()) == bytes_of(expected->planes(), expected->extent()));

@@ -68,15 +68,15 @@ TEST(RetagPicture, OnlyWhatIsAskedForChangesInGpano) {
     for (const Attribute& each : gpano_properties(read_xmp(path))) all[each.name] = std::get<std::string>(each.value);
     return all;
   };
-  std::map<std::string, std::string> wished = properties();
-  EXPECT_EQ(wished.at("GPano:StitchingSoftware"), "Hugin & <friends>");
+  std::map<std::string, std::string> requested = properties();
+  EXPECT_EQ(requested.at("GPano:StitchingSoftware"), "Hugin & <friends>");
   const std::string before = folder.read("a.jpg");
   std::vector<std::string> guesses;
   tag_picture(path, path, complete_tag({}, path, guesses));
   EXPECT_TRUE(folder.read("a.jpg") == before) << "it says all that already";
   turn(path, 30.0f);
-  wished["GPano:PoseHeadingDegrees"] = "30";
-  EXPECT_EQ(properties(), wished);
+  requested["GPano:PoseHeadingDegrees"] = "30";
+  EXPECT_EQ(properties(), requested);
 }
 
 TEST(RetagPicture, OnlyWhatIsAskedForChangesInAnExr) {
@@ -100,10 +100,10 @@ TEST(RetagPicture, OnlyWhatIsAskedForChangesInAnExr) {
     to.commit();
     turn(path, 30.0f);
     const std::vector<ExrAttribute> after = read_exr_header(FileInput(path)).attributes;
-    std::string names, wished;
+    std::string names, requested;
     for (const ExrAttribute& each : after) names += each.name + " ";
-    for (const ExrAttribute& each : header.attributes) wished += each.name + " ";
-    ASSERT_EQ(names, wished);
+    for (const ExrAttribute& each : header.attributes) requested += each.name + " ";
+    ASSERT_EQ(names, requested);
     for (size_t i = 0; i < after.size(); i++) {
       EXPECT_EQ(after[i].name, header.attributes[i].name);
       EXPECT_EQ(after[i].value == header.attributes[i].value, after[i].name != "ods:yaw") << after[i].name;

@@ -13,20 +13,20 @@
 namespace ods {
 namespace {
 
-LightPlan plan_for(const Scene& scene, const LightChoices& wishes = {}) {
+LightPlan plan_for(const Scene& scene, const LightChoices& choices = {}) {
   const SceneRays rays(scene);
-  return plan_light(rays, survey(rays), wishes);
+  return plan_light(rays, survey(rays), choices);
 }
 
-LightPlan supplied(Scene& scene, const LightChoices& wishes = {}) {
+LightPlan supplied(Scene& scene, const LightChoices& choices = {}) {
   LightPlan plan;
   Survey found;
   {
     const SceneRays rays(scene);
     found = survey(rays);
-    plan = plan_light(rays, found, wishes);
+    plan = plan_light(rays, found, choices);
   }
-  apply_light(scene, found, plan, wishes);
+  apply_light(scene, found, plan, choices);
   return plan;
 }
 
@@ -183,14 +183,14 @@ TEST(Supply, TheUserIsObeyed) {
 }
 
 TEST(Supply, UnlitShowsAllAsItIsPainted) {
-  LightChoices wishes;
-  wishes.unlit = true;
+  LightChoices choices;
+  choices.unlit = true;
   Scene room = make_simple_room(), chair = make_chair();
-  const LightPlan plan = supplied(room, wishes);
+  const LightPlan plan = supplied(room, choices);
   EXPECT_FALSE(plan.lamp);
   EXPECT_EQ(plan.note, "");
   for (const Material& material : room.materials) EXPECT_EQ(material.unlit, 1);
-  EXPECT_FALSE(supplied(chair, wishes).ground);
+  EXPECT_FALSE(supplied(chair, choices).ground);
 }
 
 TEST(Supply, WhatIsPaintedWithItsLightIsShownAsItIs) {
@@ -246,9 +246,9 @@ TEST(Supply, NothingBehindAWindowIsSaid) {
   EXPECT_FALSE(plan.surround);
   EXPECT_NE(plan.advice.find("`env` sky"), std::string::npos) << plan.advice;
   EXPECT_EQ(plan_for(make_walled_room(true)).advice, "") << "it gets a sky";
-  LightChoices wishes;
-  wishes.surround = Surround::kSky;
-  EXPECT_EQ(plan_for(room, wishes).advice, "") << "the user chose one";
+  LightChoices choices;
+  choices.surround = Surround::kSky;
+  EXPECT_EQ(plan_for(room, choices).advice, "") << "the user chose one";
 }
 
 TEST(Supply, AGlowingPaneIsNamed) {
