@@ -116,7 +116,7 @@ SphericalMetadata requested_metadata(const InjectJob& job, const ods::MediaFile&
 }
 
 // The settings that make it unnecessary to look at the frames.
-ods::FormatHint known_format(const InjectJob& job) {
+ods::FormatHint format_hint_of(const InjectJob& job) {
   ods::FormatHint known;
   known.one_eye = job.is_mono || job.remove;
   known.layout = job.layout;
@@ -143,7 +143,7 @@ std::optional<ods::Ambisonics> requested_sound(const InjectJob& job, const ods::
 }  // namespace
 
 void inject_video(const InjectJob& job, ProgressLines& lines) {
-  const ods::MediaFile media = ods::open_media(job.file, {.known = known_format(job), .track = job.track});
+  const ods::MediaFile media = ods::open_media(job.file, {.known = format_hint_of(job), .track = job.track});
   const ods::VideoFile& video = *media.video;
   check_apple(job.for_apple, video.container);
   const std::optional<ods::Ambisonics> sound = requested_sound(job, video);

@@ -10,6 +10,7 @@
 #include "ods/files/atomic_file.h"
 #include "ods/picture/anaglyph.h"
 #include "ods/picture/save.h"
+#include "tests/support/gltf_builder.h"
 #include "tests/support/saved_pictures.h"
 #include "tests/support/temporary_folder.h"
 
@@ -94,7 +95,13 @@ TEST(LoadEyes, AnaglyphsHoldWhatTheirFormulaSays) {
   }
 }
 
-LayoutGuess guess(int width, int height, const std::string& path) {
+// The guess for a file of this name, without metadata, that has this size.
+LayoutGuess guess(int width, int height, const std::string& name) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path(name);
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path());
+  const Binary png = small_png();
+  folder.write(name, std::string(png.begin(), png.end()));
   FileInfo info;
   info.width = width;
   info.height = height;
@@ -115,7 +122,7 @@ TEST(GuessLayout, TheNameGoesBeforeTheShape) {
   EXPECT_EQ(guess(64, 32, "a_column-interleaved.png").layout, Layout::kColumnInterleaved);
   EXPECT_EQ(guess(64, 32, "a_LR.png").reason, "its name ends in _LR");
   for (const char* name :
-       {"a.png", "tb.png", "a_tbx.png", "tb_scene.png", "a_anaglyph.png", "a_checkerboard.png", "_.png", ""}) {
+       {"a.png", "tb.png", "a_tbx.png", "tb_scene.png", "a_anaglyph.png", "a_checkerboard.png", "_.png", ".png"}) {
     EXPECT_EQ(guess(64, 32, name).layout, std::nullopt) << name;
   }
 }

@@ -287,9 +287,7 @@ static int find_eye(const FileInfo& info, const std::optional<Sidecar>& sidecar)
 
 // From GPano, which has no eyes.
 static std::optional<StereoCamera> camera_in_xmp(const std::string& path, std::vector<std::string>& warnings) {
-  const std::string file = names_eye(path) ? path_for_eye(path, kLeft) : path;
-  if (!std::filesystem::exists(file)) return std::nullopt;  // the header did not come from a file of this name
-  const std::string xmp = read_xmp(file);
+  const std::string xmp = read_xmp(names_eye(path) ? path_for_eye(path, kLeft) : path);
   const std::optional<StereoCamera> camera = gpano_camera(xmp);
   if (camera && xmp_property(xmp, "GPano:ProjectionType").empty()) {
     warnings.push_back("its GPano gives a crop of the sphere but no projection, as VR180 cameras do: lat-long");

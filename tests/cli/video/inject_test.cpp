@@ -194,7 +194,7 @@ TEST_F(InjectCommand, ATrackThatIsNotMeantStays) {
 TEST_F(InjectCommand, VexuKeepsWhatIsNoneOfOurBusiness) {
   const Tagged video = boxes("", 512, 256, st3d(2) + sv3d("x", kHalf) + vexu(3, "hequ", "side"));
   ASSERT_TRUE(inject(video, "--layout cross-eyed")) << err;
-  EXPECT_NE(err.find("its vexu says side-by-side"), std::string::npos) << err;
+  EXPECT_NE(err.find("its vexu metadata, side-by-side"), std::string::npos) << err;
   const std::string bytes = folder.read("video.mp4");
   EXPECT_NE(bytes.find(box("hero", std::string("\0\0\0\0\2", 5))), std::string::npos);
   EXPECT_NE(bytes.find("dadj"), std::string::npos);
@@ -332,7 +332,7 @@ TEST_F(InjectCommand, HarmlessContradictionsAreReported) {
 TEST_F(InjectCommand, WhatAPlaceCannotHoldIsReported) {
   const Tagged video = boxes("", 256, 256, st3d(1) + sv3d("x", kWhole) + vexu(3, "equi", "over"), v1_box("top-bottom"));
   ASSERT_TRUE(inject(video, "--projection cubemap"));
-  EXPECT_NE(err.find("its V1 says top-bottom, lat-long: taken out"), std::string::npos) << err;
+  EXPECT_NE(err.find("its V1 metadata, top-bottom, lat-long, is taken out"), std::string::npos) << err;
   EXPECT_NE(err.find("vexu cannot express top-bottom, cubemap and is taken out"), std::string::npos) << err;
   ASSERT_TRUE(inject(video, "--yaw 10.5"));
   EXPECT_NE(err.find("V1 holds whole degrees"), std::string::npos) << err;
