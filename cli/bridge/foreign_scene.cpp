@@ -18,6 +18,7 @@
 #include "ods/base/text.h"
 #include "ods/files/claim.h"
 #include "ods/files/private_folder.h"
+#include "ods/files/read_file.h"
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -51,10 +52,8 @@ const ForeignFormat* format_of(const std::string& path) {
 
 // The magic bytes of a gzip or zstd stream, or of Blender.
 void check_blend(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  char start[8] = {};
-  file.read(start, 7);
-  const std::string_view words(start, 7);
+  const std::vector<unsigned char> start = ods::read_start(path, 7);
+  const std::string_view words(reinterpret_cast<const char*>(start.data()), start.size());
   const bool known = words == "BLENDER" || words.starts_with("\x1f\x8b") || words.starts_with("\x28\xb5\x2f\xfd");
   if (!known) fail(path, "is not a Blender file, or is damaged");
 }

@@ -9,6 +9,7 @@
 #include "cli/options/projection_options.h"
 #include "cli/options/time_options.h"
 #include "ods/files/atomic_file.h"
+#include "ods/picture/photo_metadata.h"
 
 using ods::StereoCamera, ods::FootageKind;
 
@@ -121,6 +122,10 @@ ConvertJob open_conversion(const ConvertOptions& given) {
   if (ods::container_of_path(given.output)) return job;  // convert_to_video() judges the output
   note_misleading_name(given.output, job.save, job.target.eyes.size(), job.target.camera.projection);
   ods::check_output(given.output, job.save, job.target.eyes, job.target.eye, &job.target.camera.projection);
+  if (job.kind == FootageKind::kPicture && !ods::names_eye(given.input)) {
+    const std::string lost = ods::keep_photo_metadata(given.input, given.output, job.save);
+    if (!lost.empty()) note(lost);
+  }
   return job;
 }
 

@@ -50,9 +50,10 @@ std::string last_line(const std::string& path) {
 // The files "GROUP.NUMBER" that tasks have left; each has an exit code.
 std::map<std::string, KnownTasks> ended_tasks(const std::string& folder) {
   std::map<std::string, KnownTasks> ended;
-  std::error_code error;
+  std::error_code error, ignored;
   fs::directory_iterator entries(folder + "/ended", error);
   for (; !error && entries != fs::directory_iterator(); entries.increment(error)) {
+    if (!entries->is_regular_file(ignored)) continue;  // a pipe would block
     const std::string name = entries->path().filename().native();
     const size_t dot = name.rfind('.');
     int number = 0, code = 1;
@@ -69,9 +70,10 @@ std::map<std::string, KnownTasks> ended_tasks(const std::string& folder) {
 
 // The files "GROUP.NUMBER" have a line per start, "JOB MADE NODE".
 void add_starts(GroupReport& report, const std::string& folder) {
-  std::error_code error;
+  std::error_code error, ignored;
   fs::directory_iterator entries(folder + "/starts", error);
   for (; !error && entries != fs::directory_iterator(); entries.increment(error)) {
+    if (!entries->is_regular_file(ignored)) continue;
     const std::string name = entries->path().filename().native();
     if (!name.starts_with(report.name + ".")) continue;
     std::ifstream file(entries->path());

@@ -87,6 +87,7 @@ struct FileHeader {
   int height = 0;
   std::vector<Channel> channels;      // alpha of integers is unassociated
   std::vector<Attribute> attributes;  // GPano:* becomes XMP; except in EXR, only text and GPano
+  std::string exif;                   // JPEG and PNG: read_exif() (ods/image/exif.h)
   int quality = 95;                   // for JPEG (4:4:4) and WebP, 1 to 100
   bool writes_srgb = false;           // PNG: writes an sRGB chunk
   bool is_environment = false;        // EXR: marks it as a whole lat-long

@@ -8,11 +8,15 @@
 #include <cassert>
 #include <cmath>
 #include <filesystem>
+#include <functional>
+#include <iterator>
 #include <limits>
 
 #include "ods/base/error.h"
 #include "ods/files/atomic_file.h"
+#include "ods/image/exif.h"
 #include "ods/image/format/image_limits.h"
+#include "ods/image/format/xmp.h"
 #include "ods/image/image_file.h"
 #include "ods/picture/anaglyph.h"
 #include "ods/picture/metadata/metadata.h"
@@ -293,11 +297,12 @@ static FileHeader make_header(const File& file, const StereoCamera* camera) {
   header.has_checksum = file.options.has_checksum;
   if (carries_gpano(format) && count == 1 && camera != nullptr && fits_gpano(camera->projection)) {
     add_gpano(header.attributes, *camera, size);
+    std::ranges::copy_if(file.options.attributes, std::back_inserter(header.attributes), is_gpano);
   }
-
   if (format == FileFormat::kExr || format == FileFormat::kPng) {
-    header.attributes.insert(header.attributes.end(), file.options.attributes.begin(), file.options.attributes.end());
+    std::ranges::copy_if(file.options.attributes, std::back_inserter(header.attributes), std::not_fn(is_gpano));
   }
+  if (!file.options.exif.empty()) header.exif = exif_for(file.options.exif, size);
   if (format == FileFormat::kExr) {
     add_exr(header.attributes, camera, file.layout, eyes);
     header.is_environment = count == 1 && camera != nullptr && is_full_lat_long(camera->projection);

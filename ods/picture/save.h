@@ -43,7 +43,8 @@ struct SaveOptions {
   int jpeg_quality = 95;              // jpg and webp, 1..100
   bool rows_alone = false;            // exr: compresses each row separately, not 16 together
   bool has_checksum = false;          // exr: a checksum of its header (ods/image/format/exr_header.h)
-  std::vector<Attribute> attributes;  // extra attributes for exr and png headers
+  std::vector<Attribute> attributes;  // extra attributes for exr and png headers; GPano:* wherever there is GPano
+  std::string exif;                   // jpg and png: of the picture that this one was made of (ods/image/exif.h)
   bool sidecar = false;               // also write picture.camera.json; an existing one is rewritten anyway
 };
 

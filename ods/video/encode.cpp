@@ -177,17 +177,13 @@ static int x265_pool(const EncodeOptions& options) {
 }
 
 // The output must not depend on the number of threads. x264's output depends on its thread count, so that is fixed;
-// x265's on the number of frames in flight, and with a bit rate it differs from run to run if there are several.
+// x265's on the number of frames in flight, and on a busy machine it differs from run to run if there are several.
 // libvpx's and libaom's differ between one thread and several. SVT-AV1's and ProRes's do not depend on it.
 static void set_threads(AVCodecContext& context, const EncoderFacts& facts, const EncodeOptions& options) {
   const int x264_threads = is_large(context) ? 6 : 12;
   context.thread_count = options.threads;
   if (facts.name == "libx264") context.thread_count = x264_threads;
-  if (facts.name == "libx265") {
-    constexpr int kFrames = 3, kBlock = 64;  // size of its largest block; a frame trails the previous one by some rows
-    const int rows = (context.height + kBlock - 1) / kBlock;
-    context.thread_count = options.bitrate ? 1 : std::clamp((rows + 1) / 2, 1, kFrames);
-  }
+  if (facts.name == "libx265") context.thread_count = 1;
   if (facts.name == "libaom-av1" || facts.name == "libvpx-vp9") {
     context.thread_count = std::clamp(processors_for(options), 2, 64);
   }

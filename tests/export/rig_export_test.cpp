@@ -93,9 +93,9 @@ TEST(RigExport, EveryTargetHasANameAndTexts) {
       EXPECT_FALSE(has(script.text, "nan") || has(script.text, "inf,"));
       if (target == RigTarget::kCsv) continue;
       EXPECT_TRUE(has(script.text, "32 views of ")) << script.ending;
-      EXPECT_TRUE(has(script.text, "of one moment")) << script.ending;
+      EXPECT_TRUE(has(script.text, "show the same moment")) << script.ending;
       EXPECT_TRUE(has(script.text, "Then: ods stitch rig.json 'views/")) << script.ending;
-      EXPECT_TRUE(has(script.text, "by 4 pixels")) << script.ending;
+      EXPECT_TRUE(has(script.text, "at most 4 pixels")) << script.ending;
     }
   }
 }

@@ -127,15 +127,32 @@ std::string view_of(const Imf::Header& header) {
   return header.hasView() ? header.view() : "";
 }
 
-// The parts of both eyes if they have the same windows as the first one; otherwise only the first.
+Imath::Box2i around(const Imath::Box2i& a, const Imath::Box2i& b) {
+  Imath::Box2i both = a;
+  both.extendBy(b);
+  return both;
+}
+
+double area_of(const Imath::Box2i& window) {
+  return (double{window.max.x} - window.min.x + 1.0) * (double{window.max.y} - window.min.y + 1.0);
+}
+
+// Returns whether two data windows are crops of one picture: both together are not much larger than they.
+bool are_crops(const Imath::Box2i& a, const Imath::Box2i& b) {
+  constexpr double kMaxGrowth = 4.0;
+  return area_of(around(a, b)) <= kMaxGrowth * std::max(area_of(a), area_of(b));
+}
+
+// The parts of both eyes if they show the same display window; otherwise only the first. Compositing programs crop the
+// data window of each eye.
 std::vector<int> parts_of(const Imf::MultiPartInputFile& file) {
   std::vector<int> parts;
   bool has_left = false, has_right = false;
   for (int i = 0; i < file.parts(); i++) {
     const Imf::Header& header = file.header(i);
     const std::string view = view_of(header);
-    const bool fits =
-        header.dataWindow() == file.header(0).dataWindow() && header.displayWindow() == file.header(0).displayWindow();
+    const bool fits = header.displayWindow() == file.header(0).displayWindow() &&
+                      are_crops(header.dataWindow(), file.header(0).dataWindow());
     if (is_deep(header) || !fits || (view != "left" && view != "right")) continue;
     parts.push_back(i);
     (view == "left" ? has_left : has_right) = true;
@@ -190,6 +207,7 @@ class ExrDecoder final : public Decoder {
   Imath::Box2i window_;
   std::vector<ExrChannel> channels_;
   bool has_views_ = false;         // views are in separate parts
+  bool has_crops_ = false;         // of different data windows; window_ is around them
   std::unique_ptr<ExrRows> rows_;  // the channels from first_ on; nullptr if ExrRows cannot read the file
   std::optional<size_t> first_;
 };
@@ -217,6 +235,7 @@ int ExrDecoder::add_parts() {
     if (std::ranges::any_of(more, [&](const ExrChannel& each) { return names.contains(each.name); })) continue;
     for (const ExrChannel& each : more) names.insert(each.name);
     channels_.insert(channels_.end(), more.begin(), more.end());
+    if (part != 0) has_crops_ |= header.dataWindow() != window_, window_ = around(window_, header.dataWindow());
     count++;
   }
   sort_channels(channels_);
@@ -257,6 +276,7 @@ bool ExrDecoder::read_fast(int begin, int end, size_t first, size_t count, std::
 void ExrDecoder::read_any(int begin, int end, size_t first, size_t count, std::byte* to) {
   const size_t pixel = bytes_of_pixel(first, count), row = pixel * static_cast<size_t>(info.width);
   std::map<int, Imf::FrameBuffer> buffers;
+  if (has_crops_) std::fill_n(to, row * static_cast<size_t>(end - begin), std::byte{});
   char* at = reinterpret_cast<char*>(to) - static_cast<ptrdiff_t>(pixel) * window_.min.x -
              static_cast<ptrdiff_t>(row) * (window_.min.y + begin);  // the position of pixel 0, 0
   for (size_t c = first; c < first + count; c++) {
@@ -269,7 +289,10 @@ void ExrDecoder::read_any(int begin, int end, size_t first, size_t count, std::b
         for (const auto& [number, buffer] : buffers) {
           Imf::InputPart& part = parts_.try_emplace(number, *file_, number).first->second;
           part.setFrameBuffer(buffer);
-          part.readPixels(window_.min.y + begin, window_.min.y + end - 1);
+          const Imath::Box2i& own = part.header().dataWindow();
+          const int top = std::max(window_.min.y + begin, own.min.y);
+          const int bottom = std::min(window_.min.y + end - 1, own.max.y);
+          if (top <= bottom) part.readPixels(top, bottom);
         }
       },
       [&](const std::string& words) { return cannot_read(name_, words); });

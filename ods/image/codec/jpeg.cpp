@@ -15,6 +15,7 @@
 #include "ods/base/text.h"
 #include "ods/image/codec/decoder.h"
 #include "ods/image/codec/encoder.h"
+#include "ods/image/exif.h"
 #include "ods/image/format/jpeg_segments.h"
 #include "ods/image/format/xmp.h"
 
@@ -240,12 +241,13 @@ class JpegEncoder final : public Encoder {
   size_t row_size_;
 };
 
-// XMP with GPano comes before the pixels, then text as comments.
+// Exif and XMP with GPano come before the pixels, then text as comments.
 JpegEncoder::JpegEncoder(ByteSink& sink, const FileHeader& header) : sink_(sink), output_(sink) {
   const size_t channels = header.channels.size();
   row_size_ = channels * static_cast<size_t>(header.width);
   const std::string packet = gpano_xmp(header.attributes);
   const std::string xmp = packet.empty() ? "" : std::string(kJpegXmp) + packet;
+  const std::string exif = header.exif.empty() ? "" : std::string(kExifPrefix) + header.exif;
   const auto write_segment = [&](int marker, const std::string& data) {
     jpeg_write_marker(&jpeg_, marker, reinterpret_cast<const JOCTET*>(data.data()), static_cast<unsigned>(data.size()));
   };
@@ -261,6 +263,7 @@ JpegEncoder::JpegEncoder(ByteSink& sink, const FileHeader& header) : sink_(sink)
     jpeg_set_quality(&jpeg_, header.quality, TRUE);
     jpeg_.comp_info[0].h_samp_factor = jpeg_.comp_info[0].v_samp_factor = 1;  // 4:4:4
     jpeg_start_compress(&jpeg_, TRUE);
+    if (!exif.empty() && exif.size() <= kLongestJpegSegment) write_segment(kJpegApp1, exif);
     if (!xmp.empty()) write_segment(kJpegApp1, xmp);
     for (const Attribute& attribute : header.attributes) {
       const std::string* text = std::get_if<std::string>(&attribute.value);

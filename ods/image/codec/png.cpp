@@ -243,6 +243,7 @@ PngEncoder::PngEncoder(ByteSink& sink, const FileHeader& header) : sink_(sink) {
   row_size_ = bytes_of_pixel(header) * static_cast<size_t>(header.width);
   const std::string xmp = gpano_xmp(header.attributes);
   const std::vector<png_text> texts = texts_of(header, xmp);
+  std::string exif = header.exif;  // libpng copies it, but does not promise to leave it unchanged
   const bool good = succeeds(png, [&] {
     png_set_write_fn(png, &sink, write_bytes, flush_nothing);
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
@@ -251,6 +252,9 @@ PngEncoder::PngEncoder(ByteSink& sink, const FileHeader& header) : sink_(sink) {
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (header.writes_srgb) png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_text(png, info, texts.data(), static_cast<int>(texts.size()));
+    if (!exif.empty()) {
+      png_set_eXIf_1(png, info, static_cast<png_uint_32>(exif.size()), reinterpret_cast<png_bytep>(exif.data()));
+    }
     png_set_compression_level(png, 4);  // 2.5 times as fast as 6, and 3 % larger
     png_write_info(png, info);
     png_set_swap(png);

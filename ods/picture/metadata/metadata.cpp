@@ -217,9 +217,9 @@ void add_gpano(std::vector<Attribute>& attributes, const StereoCamera& camera, E
   attributes.push_back({"GPano:FullPanoHeightPixels", pixels(180.0f * per_degree_y)});
   attributes.push_back({"GPano:CroppedAreaLeftPixels", pixels((longitude.x + 180.0f) * per_degree_x)});
   attributes.push_back({"GPano:CroppedAreaTopPixels", pixels((90.0f - latitude.y) * per_degree_y)});
-  attributes.push_back({"GPano:PoseHeadingDegrees", heading < 0.0f ? heading + 360.0f : heading});
-  attributes.push_back({"GPano:PosePitchDegrees", pitch});
-  attributes.push_back({"GPano:PoseRollDegrees", std::remainder(roll, 360.0f)});
+  attributes.push_back({"GPano:PoseHeadingDegrees", heading < 0.0f ? heading + 360.0f : heading + 0.0f});
+  attributes.push_back({"GPano:PosePitchDegrees", pitch + 0.0f});
+  attributes.push_back({"GPano:PoseRollDegrees", std::remainder(roll, 360.0f) + 0.0f});
   attributes.push_back({"GPano:StitchingSoftware", std::string("Omnistereo " ODS_VERSION)});
 }
 

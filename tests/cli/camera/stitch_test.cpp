@@ -67,7 +67,7 @@ TEST_F(StitchCommand, ScriptsStandBesideTheRig) {
   EXPECT_TRUE(out.ends_with("\n" + rig + "\n" + base + ".povray.inc\n" + base + ".povray.ini\n" + base + ".csv\n"))
       << out;
   EXPECT_EQ(folder.names().size(), 4u);
-  EXPECT_NE(err.find("--for povray: this writes no depth"), std::string::npos) << err;
+  EXPECT_NE(err.find("--for povray: this export writes no depth"), std::string::npos) << err;
   EXPECT_EQ(run("rig --slits 12 --width 64 --for csv"), 2);
   EXPECT_NE(err.find("-o rig.json"), std::string::npos) << err;
   EXPECT_EQ(plan("--for blender,max"), 2);

@@ -262,8 +262,10 @@ TEST_F(KilledConversion, OfFramesGoesOnUnlessAFrameIsAnother) {
 TEST_F(ConvertVideoCommand, SaysWhatBitsAndChromaTheNewCodecLacks) {
   const std::string deep = make("deep_360_TB.mp4", 2, "--bits 10 --chroma 444");
   EXPECT_EQ(convert(deep, "a_180_LR.webm", "--to vr180"), 0) << err;
-  EXPECT_NE(err.find("has 10 bits chroma 444, the new video has less, for players: --bits 10 --chroma 444"),
-            std::string::npos)
+  EXPECT_NE(
+      err.find(
+          "has 10 bits chroma 444; the new video has less, for compatibility with players: --bits 10 --chroma 444"),
+      std::string::npos)
       << err;
   EXPECT_EQ(convert(deep, "b_180_LR.webm", "--to vr180 --bits 10 --chroma 444"), 0) << err;
   EXPECT_EQ(err.find("the new video has less"), std::string::npos) << err;
@@ -278,7 +280,7 @@ TEST_F(ConvertVideoCommand, RefusalsSayWhatToDo) {
   };
   const Case cases[] = {
       {video, "same_360_TB.mp4", "", "ods inject"},
-      {video, "a.mp4", "--fps 25", "--fps is for frames"},
+      {video, "a.mp4", "--fps 25", "--fps needs frames"},
       {video, "a.mp4", "--frames 1-2", "--trim"},
       {video, "a.mp4", "--to-layout anaglyph", "a video's layout is"},
       {video, "a.mp4", "--mono --exposure 1", "scene-linear"},

@@ -144,8 +144,7 @@ TEST_F(VideoOptions, WhatChangesAFrameIsRefusedByName) {
     const std::map<std::string, std::string> kSaidAs = {{"--merge", "--merge-top"},
                                                         {"--camera-preset", "--ipd"},
                                                         {"--face", "--projection"},
-                                                        {"--quality", "--noise"},
-                                                        {"--brighter", "--exposure"}};
+                                                        {"--quality", "--noise"}};
     const auto other = kSaidAs.find(option);
     const std::string said = other == kSaidAs.end() ? option : other->second;
     EXPECT_NE(err.find(said + " was "), std::string::npos) << option << ": " << err;

@@ -316,7 +316,7 @@ TEST_F(VideoCommand, AKilledVideoResumes) {
   ASSERT_EQ(run(words("whole.mp4", "-q " + more)), 0) << err;
   std::istringstream stream(words("killed.mp4", more + " --progress json"));
   const std::vector<std::string> job{std::istream_iterator<std::string>(stream), {}};
-  for (const char* line : {"players that go", "to render: ", "\"progress\":0.2", "\"progress\":0.7"}) {
+  for (const char* line : {"players that rely", "to render: ", "\"progress\":0.2", "\"progress\":0.7"}) {
     Ods command(job);
     command.limit_unread();  // 0.3 of the job report more than that: it cannot end before it is killed
     command.wait_for(line);

@@ -105,6 +105,54 @@ TEST(ExrDecoder, ReadsThePartsOfBothViews) {
   expect_bands(*decoder);
 }
 
+// Compositing programs crop the data window of each eye.
+TEST(ExrDecoder, ReadsBothViewsIfTheirDataWindowsDiffer) {
+  const TemporaryFolder folder;
+  std::vector<ExrForm> parts(2);
+  parts[0].left = 3, parts[0].top = 5, parts[0].width = 40, parts[0].height = 50;
+  parts[1].left = 10, parts[1].top = 0, parts[1].width = 43, parts[1].height = 60, parts[1].tile = 16;
+  const char* const views[] = {"left", "right"};
+  std::vector<Bytes> pixels;
+  for (size_t i = 0; i < parts.size(); i++) {
+    parts[i].channels = {"Y"};
+    parts[i].types = {Imf::FLOAT};
+    parts[i].prepare = [view = views[i]](Imf::Header& header) {
+      header.setView(view);
+      header.displayWindow() = Imath::Box2i({0, 0}, {kWidth - 1, kHeight - 1});
+    };
+    pixels.emplace_back(bytes_of_pixels(parts[i]));
+    for (size_t k = 0; k < pixels[i].size() / 4; k++) {
+      const float value = 0.5f + static_cast<float>(k + 7 * i);
+      std::memcpy(&pixels[i][4 * k], &value, 4);
+    }
+  }
+  write_exr(folder.path("a.exr"), parts, pixels);
+  const auto decoder = open_exr(picture_on_disk(folder.path("a.exr")));
+  EXPECT_EQ(decoder->info.unread_parts, 0);
+  EXPECT_EQ(decoder->info.channels, (std::vector<std::string>{"left.Y", "right.Y"}));
+  ASSERT_EQ(std::pair(decoder->info.width, decoder->info.height), std::pair(int{kWidth}, int{kHeight}));
+  const Bytes both = read_all(*decoder);
+  for (int y = 0; y < kHeight; y++) {
+    for (int x = 0; x < kWidth; x++) {
+      for (size_t i = 0; i < 2; i++) {
+        const ExrForm& part = parts[i];
+        const int column = x - part.left, row = y - part.top;
+        const bool is_in = column >= 0 && row >= 0 && column < part.width && row < part.height;
+        const float expected =
+            is_in ? 0.5f + static_cast<float>(row * part.width + column) + static_cast<float>(7 * i) : 0.0f;
+        float value = -1.0f;
+        std::memcpy(&value, &both[(static_cast<size_t>(y * kWidth + x) * 2 + i) * 4], 4);
+        ASSERT_EQ(value, expected) << x << " " << y << " " << views[i];
+      }
+    }
+  }
+  expect_bands(*decoder);
+  // A window far away is not a crop of the same picture.
+  parts[1].left = 100000;
+  write_exr(folder.path("b.exr"), parts, pixels);
+  EXPECT_EQ(open_exr(picture_on_disk(folder.path("b.exr")))->info.unread_parts, 1);
+}
+
 // A compositor writes only the box that its element fills, or more than the picture.
 TEST(ExrDecoder, ReadsThePictureOfWhichTheDataWindowIsAPartOrMore) {
   const TemporaryFolder folder;

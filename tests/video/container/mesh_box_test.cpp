@@ -239,7 +239,7 @@ TEST(MeshBox, WhatMakesNoSenseIsRefusedInWords) {
   count.replace(0, 4, "\x7f\xff\xff\xff");
   many.replace(4 + 4 * static_cast<size_t>(static_cast<unsigned char>(good[3])), 4, made::number(1000000, 4));
   const std::pair<std::string, const char*> cases[] = {
-      {box_body({}, false), "has none"},
+      {box_body({}, false), "the mesh is missing"},
       {box_body({""}, false), "cut short"},
       {box_body({mesh_body(nan, {list})}, false), "NaN or infinite"},
       {box_body({mesh_body(infinite, {list})}, true), "NaN or infinite"},

@@ -227,7 +227,7 @@ TEST_F(KeptTracksTest, AmbisonicsTurnWithTheView) {
     EXPECT_EQ(read_video_file(made).sound.at(0).ambisonics.has_value(), name == "mp4");
   }
   keep(folder.path("plain.mp4"), "new.mp4", turned);
-  EXPECT_NE(told.find("does not turn with the picture"), std::string::npos) << told;
+  EXPECT_NE(told.find("is not rotated with the picture"), std::string::npos) << told;
 }
 
 }  // namespace

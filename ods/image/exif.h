@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The metadata that cameras write into a picture: date, place, author. Source: JEITA CP-3451, "Exif 2.3".
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "ods/base/extent.h"
+#include "ods/files/file_input.h"
+
+namespace ods {
+
+inline constexpr std::string_view kExifPrefix{"Exif\0\0", 6};  // of the segment of a JPEG
+
+// Returns the Exif of a JPEG, PNG or WebP without its prefix: a TIFF directory. Empty if there is none, or if it exceeds
+// 16 MB. Throws Error(kInput) for a damaged file.
+std::string read_exif(const FileInput& file);
+
+// Returns the tag Orientation, 1 if there is none. Throws MalformedFile.
+uint64_t exif_orientation(std::string_view exif);
+
+// Returns the Exif for new pixels of this size: upright, without the thumbnail of the old ones. Empty if it is malformed.
+std::string exif_for(std::string exif, Extent size);
+
+}  // namespace ods
