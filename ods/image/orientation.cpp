@@ -12,11 +12,11 @@
 
 namespace ods {
 
-constexpr uint16_t kOrientation = 274;
+constexpr uint16_t kTiffOrientation = 274;
 
 static uint64_t stated(const FileInput& file) {
   if (format_of_file(file) == FileFormat::kTiff)
-    return tiff_number(file, read_tiff_directory(file), kOrientation).value_or(1);
+    return tiff_number(file, read_tiff_directory(file), kTiffOrientation).value_or(1);
   const std::string exif = read_exif(file);
   return exif.empty() ? 1 : exif_orientation(exif);
 }

@@ -161,6 +161,7 @@ constexpr std::tuple kSaveFields = {
     Field{&SaveOptions::rows_alone, "", kNothing, "the same pixels"},
     Field{&SaveOptions::has_checksum, "", kNothing, "the same pixels"},
     Field{&SaveOptions::attributes, "", kNothing, "the same pixels"},
+    Field{&SaveOptions::exif, "", kNothing, "the same pixels"},
     Field{&SaveOptions::sidecar, "", kNothing, "a file of its own"},
 };
 
@@ -191,7 +192,7 @@ void add(Settings& settings, std::string_view name, const std::string& value) {
   settings.push_back({std::string(name), one_line(value), ""});
 }
 
-// The fields of one structure that change as much as `least`.
+// Adds the fields of one structure whose effect is at least `minimum`.
 template <typename Struct, typename... Members>
 void add_fields(Settings& settings, const std::tuple<Field<Struct, Members>...>& fields, const Struct& of,
                 const SequenceOptions& all, Changes minimum) {

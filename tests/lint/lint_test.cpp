@@ -466,7 +466,8 @@ TEST_F(Lint, IsSilentAboutTestCardsOfEverySize) {
 // Saving a picture takes them out.
 TEST_F(Lint, LooksPastPixelsThatAreNoNumbers) {
   const Pair& pair = plain_pair(Studio("axis"));
-  FileHeader header{FileFormat::kExr, kWidth, kWidth, {}, {}};
+  FileHeader header;
+  header.format = FileFormat::kExr, header.width = header.height = kWidth;
   for (const char* name : {"R", "G", "B"}) header.channels.push_back({name, SampleType::kFloat});
   AtomicFile file(folder.path("holes.exr"));
   write_image(file, header, [&](int y, std::span<float> row) {

@@ -45,9 +45,10 @@ std::string phone_exif(bool is_little) {
 }
 
 Picture small_picture() {
-  Picture picture;
-  picture.eyes.push_back({kMono, Image(64, 32, 3)});
-  return picture;
+  EyeImage eye;
+  eye.eye = kMono;
+  eye.radiance = Image(64, 32, 3);
+  return {{eye}};
 }
 
 TEST(PhotoMetadata, ExifBelongsToTheNewPixels) {

@@ -134,7 +134,8 @@ Imath::Box2i around(const Imath::Box2i& a, const Imath::Box2i& b) {
 }
 
 double area_of(const Imath::Box2i& window) {
-  return (double{window.max.x} - window.min.x + 1.0) * (double{window.max.y} - window.min.y + 1.0);
+  const auto side = [](int from, int to) { return static_cast<double>(to) - static_cast<double>(from) + 1.0; };
+  return side(window.min.x, window.max.x) * side(window.min.y, window.max.y);
 }
 
 // Returns whether two data windows are crops of one picture: both together are not much larger than they.

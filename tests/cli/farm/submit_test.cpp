@@ -444,7 +444,7 @@ TEST_F(SubmitCommand, FramesThatAreLateAreWaitedFor) {
   EXPECT_EQ(last.at(last.size() - 2), "--wait");
   last.back() = "3600";
   Ods whole(last);
-  whole.wait_for("waiting up to 3600 s for 1 frames that are not there yet");
+  whole.wait_for("waiting up to 3600 s for 1 missing frames");
   run_task(groups[0], 2);
   EXPECT_EQ(whole.finish(), 0) << whole.err;
   EXPECT_NE(whole.err.find("2 of 2 frames exist already"), std::string::npos) << whole.err;
