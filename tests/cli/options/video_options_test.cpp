@@ -141,10 +141,8 @@ TEST_F(VideoOptions, WhatChangesTheVideoAloneMayChange) {
 TEST_F(VideoOptions, WhatChangesAFrameIsRefusedByName) {
   for (const auto& [option, value] : kOfFrames) {
     EXPECT_EQ(run(job + " " + option + " " + value), 2) << option << err;
-    const std::map<std::string, std::string> kSaidAs = {{"--merge", "--merge-top"},
-                                                        {"--camera-preset", "--ipd"},
-                                                        {"--face", "--projection"},
-                                                        {"--quality", "--noise"}};
+    const std::map<std::string, std::string> kSaidAs = {
+        {"--merge", "--merge-top"}, {"--camera-preset", "--ipd"}, {"--face", "--projection"}, {"--quality", "--noise"}};
     const auto other = kSaidAs.find(option);
     const std::string said = other == kSaidAs.end() ? option : other->second;
     EXPECT_NE(err.find(said + " was "), std::string::npos) << option << ": " << err;
