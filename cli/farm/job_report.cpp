@@ -47,20 +47,28 @@ std::string last_line(const std::string& path) {
   }
 }
 
+// The regular files of a folder: reading a pipe would block.
+std::vector<fs::path> files_in(const std::string& folder) {
+  std::vector<fs::path> files;
+  std::error_code error, ignored;
+  fs::directory_iterator entries(folder, error);
+  for (; !error && entries != fs::directory_iterator(); entries.increment(error)) {
+    if (entries->is_regular_file(ignored)) files.push_back(entries->path());
+  }
+  return files;
+}
+
 // The files "GROUP.NUMBER" that tasks have left; each has an exit code.
 std::map<std::string, KnownTasks> ended_tasks(const std::string& folder) {
   std::map<std::string, KnownTasks> ended;
-  std::error_code error, ignored;
-  fs::directory_iterator entries(folder + "/ended", error);
-  for (; !error && entries != fs::directory_iterator(); entries.increment(error)) {
-    if (!entries->is_regular_file(ignored)) continue;  // a pipe would block
-    const std::string name = entries->path().filename().native();
+  for (const fs::path& path : files_in(folder + "/ended")) {
+    const std::string name = path.filename().native();
     const size_t dot = name.rfind('.');
     int number = 0, code = 1;
     if (dot == std::string::npos) continue;
     const auto [end, fault] = std::from_chars(name.data() + dot + 1, name.data() + name.size(), number);
     if (fault != std::errc() || end != name.data() + name.size()) continue;
-    std::ifstream(entries->path()) >> code;
+    std::ifstream(path) >> code;
     const bool is_done = code == kExitOk || code == kExitFault;
     ended[name.substr(0, dot)][number] = {is_done ? TaskState::kDone : TaskState::kFailed,
                                           fmt::format("exit code {}", code), code == kExitFault};
@@ -70,13 +78,10 @@ std::map<std::string, KnownTasks> ended_tasks(const std::string& folder) {
 
 // The files "GROUP.NUMBER" have a line per start, "JOB MADE NODE".
 void add_starts(GroupReport& report, const std::string& folder) {
-  std::error_code error, ignored;
-  fs::directory_iterator entries(folder + "/starts", error);
-  for (; !error && entries != fs::directory_iterator(); entries.increment(error)) {
-    if (!entries->is_regular_file(ignored)) continue;
-    const std::string name = entries->path().filename().native();
+  for (const fs::path& path : files_in(folder + "/starts")) {
+    const std::string name = path.filename().native();
     if (!name.starts_with(report.name + ".")) continue;
-    std::ifstream file(entries->path());
+    std::ifstream file(path);
     std::set<std::string> jobs, nodes;
     int starts = 0;
     for (std::string job, made, node; file >> job >> made >> node; starts++) jobs.insert(job), nodes.insert(node);

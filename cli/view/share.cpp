@@ -16,8 +16,8 @@
 namespace {
 
 constexpr std::chrono::seconds kMessagePatience{5};  // for the next message
-constexpr std::chrono::seconds kSilence{
-    10};  // after which a page counts as closed; pages send a message every two seconds
+// After such a silence a page counts as closed; pages send a message every two seconds.
+constexpr std::chrono::seconds kSilence{10};
 constexpr size_t kMaxBytes = size_t{16} << 10;
 constexpr size_t kMaxPages = 8;
 constexpr size_t kMaxListeners = 4;  // that wait and have not sent a message

@@ -37,7 +37,8 @@ struct RowHoles {
 
 class Converter {
  public:
-  // moves_eyes: the target's eyes are at other positions than the picture's. `plan` and `source` must outlive the converter.
+  // moves_eyes: the target's eyes are at other positions than the picture's. `plan` and `source` must outlive the
+  // converter.
   Converter(const ConversionPlan& plan, const Source& source, bool moves_eyes, bool adds_alpha, Holes holes);
   // For a picture whose texels are computed when read; the plan's eyes do not move.
   Converter(const ConversionPlan& plan, const TexelReader& reader);

@@ -24,7 +24,7 @@ struct Mapping {
   Extent size;
   std::vector<int> eyes;
   std::vector<int> from;          // for each eye of the target, the index in StoredPicture::eyes of its source
-  std::optional<glm::mat3> turn;  // undoes ConvertTarget::turned: rotates rays in the world; not set if there is none
+  std::optional<glm::mat3> turn;  // rotates rays in the world to undo ConvertTarget::turned; not set for no rotation
 
   // uv may be outside the cell of `home`, where the target's own filter reaches.
   Place find(int index, vec2 home, vec2 uv) const;

@@ -104,20 +104,23 @@ void make_own_folder(const std::string& path) {
   if (!is_closed) fail("its mode cannot be changed");
 }
 
-std::string temporary_folder_if_any() {
-  std::error_code error;
-  const fs::path folder = fs::temp_directory_path(error);
-  return error ? "" : folder.native();
+static std::string find_temporary_folder(std::error_code& error) {
+  return fs::temp_directory_path(error).native();  // empty if there is an error
 }
 
 std::string temporary_folder() {
   std::error_code error;
-  const fs::path folder = fs::temp_directory_path(error);
+  const std::string folder = find_temporary_folder(error);
   if (error) {
     throw Error(ErrorKind::kOutput,
                 fmt::format("there is no folder for temporary files (TMPDIR): {}", error.message()));
   }
-  return folder.native();
+  return folder;
+}
+
+std::string temporary_folder_if_any() {
+  std::error_code ignored;
+  return find_temporary_folder(ignored);
 }
 
 PrivateFolder::PrivateFolder() : PrivateFolder((fs::path(temporary_folder()) / "ods-").native()) {}

@@ -10,7 +10,7 @@ namespace ods {
 
 // The folder for temporary files, $TMPDIR or /tmp, which all users share. Throws Error(kOutput) if it is not a folder.
 std::string temporary_folder();
-// Returns temporary_folder(), or an empty string if there is none.
+// Returns the same folder, or an empty string in place of the error.
 std::string temporary_folder_if_any();
 
 // The destructor removes the folder with everything in it, and so does a signal handler that calls

@@ -45,7 +45,7 @@ struct Identity {
 Identity identify(const StoredPicture& whole, const FormatHint& known = {});
 
 // Lists the readings in doubt and the options that decide, for messages: "one eye, lat-long (0.60) or side-by-side,
-// vr180 (0.38): say which with --layout and --projection". Empty if one reading is sure.
+// vr180 (0.38): specify it with --layout and --projection". Empty if one reading is sure.
 std::string doubt_text(const Identity& identity);
 
 }  // namespace ods

@@ -117,8 +117,8 @@ static void look_at_picture(MediaFile& media, bool left_first) {
   if (whole.memory) whole.memory->release();
   if (media.identity->readings.empty()) {
     media.notes.emplace_back(
-        "taken for what its shape suggests, because its pixels show too little: if it is something else, say which "
-        "with `layout` and `projection`");
+        "taken for what its shape suggests, because its pixels show too little: if it is something else, "
+        "specify it with `layout` and `projection`");
   } else if (const std::string doubt = doubt_text(*media.identity); !doubt.empty()) {
     media.notes.push_back(doubt);
   }

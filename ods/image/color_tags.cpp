@@ -147,11 +147,8 @@ static ColorSpace read_jpeg(const FileInput& file) {
 
 static std::vector<uint64_t> numbers_of(const std::string& bytes, size_t size, bool is_little) {
   std::vector<uint64_t> numbers;
-  for (size_t at = 0; at + size <= bytes.size(); at += size) {
-    std::string number = bytes.substr(at, size);
-    if (is_little) std::reverse(number.begin(), number.end());
-    numbers.push_back(get_number(number, 0, size));
-  }
+  const std::endian order = is_little ? std::endian::little : std::endian::big;
+  for (size_t at = 0; at + size <= bytes.size(); at += size) numbers.push_back(get_number(bytes, at, size, order));
   return numbers;
 }
 

@@ -9,6 +9,7 @@
 #include "ods/image/format/file_format.h"
 #include "ods/image/format/jpeg_segments.h"
 #include "ods/image/format/png_chunks.h"
+#include "ods/image/format/tiff_directory.h"
 
 namespace ods {
 
@@ -30,8 +31,7 @@ static std::string in_png(const FileInput& file) {
 static std::string in_webp(const FileInput& file) {
   for (uint64_t at = 12; at + 8 <= file.size();) {
     const std::string header = file.read(at, 8);
-    uint64_t length = 0;
-    for (size_t i = 8; i-- > 4;) length = length << 8 | static_cast<unsigned char>(header[i]);
+    const uint64_t length = get_number(header, 4, 4, std::endian::little);
     if (length > file.size() - at - 8) break;
     if (header.starts_with("EXIF") && length < kLongestExif) {
       const std::string exif = file.read(at + 8, length);
@@ -61,7 +61,7 @@ std::string read_exif(const FileInput& file) {
 
 namespace {
 
-constexpr uint16_t kOrientation = 0x0112, kExifDirectory = 0x8769, kWidth = 0xA002, kHeight = 0xA003;
+constexpr uint16_t kExifDirectory = 0x8769, kWidth = 0xA002, kHeight = 0xA003;
 constexpr uint16_t kThumbnail = 0x0201, kThumbnailLength = 0x0202;
 constexpr uint64_t kShort = 3;
 
@@ -69,18 +69,9 @@ constexpr uint64_t kShort = 3;
 struct TiffNumbers {
   std::string bytes;
 
-  bool is_little() const { return bytes.starts_with("II"); }
-  uint64_t get(size_t at, size_t count) const {
-    get_number(bytes, at, count);  // throws if it is out of bounds
-    std::string number = bytes.substr(at, count);
-    if (is_little()) std::reverse(number.begin(), number.end());
-    return get_number(number, 0, count);
-  }
-  void set(size_t at, uint64_t value, size_t count) {
-    set_number(bytes, at, value, count);
-    if (is_little())
-      std::reverse(bytes.begin() + static_cast<ptrdiff_t>(at), bytes.begin() + static_cast<ptrdiff_t>(at + count));
-  }
+  std::endian order() const { return bytes.starts_with("II") ? std::endian::little : std::endian::big; }
+  uint64_t get(size_t at, size_t count) const { return get_number(bytes, at, count, order()); }
+  void set(size_t at, uint64_t value, size_t count) { set_number(bytes, at, value, count, order()); }
 
   size_t first_directory() const { return get(4, 4); }
   size_t end_of(size_t directory) const { return directory + 2 + 12 * get(directory, 2); }
@@ -120,14 +111,14 @@ void drop_thumbnail(TiffNumbers& tiff) {
 
 uint64_t exif_orientation(std::string_view exif) {
   const TiffNumbers tiff{std::string(exif)};
-  return tiff.value(tiff.first_directory(), kOrientation).value_or(1);
+  return tiff.value(tiff.first_directory(), kTiffOrientation).value_or(1);
 }
 
 std::string exif_for(std::string exif, Extent size) {
   try {
     TiffNumbers tiff{std::move(exif)};
     const size_t first = tiff.first_directory();
-    tiff.replace(first, kOrientation, 1);
+    tiff.replace(first, kTiffOrientation, 1);
     if (const std::optional<uint64_t> camera = tiff.value(first, kExifDirectory)) {
       tiff.replace(*camera, kWidth, static_cast<uint64_t>(size.width));
       tiff.replace(*camera, kHeight, static_cast<uint64_t>(size.height));

@@ -13,14 +13,15 @@ namespace ods {
 
 inline constexpr std::string_view kExifPrefix{"Exif\0\0", 6};  // of the segment of a JPEG
 
-// Returns the Exif of a JPEG, PNG or WebP without its prefix: a TIFF directory. Empty if there is none, or if it exceeds
-// 16 MB. Throws Error(kInput) for a damaged file.
+// Returns the Exif of a JPEG, PNG or WebP without its prefix: a TIFF directory. Returns an empty string for a file
+// without Exif or with more than 16 MB of it. Throws Error(kInput) for a damaged file.
 std::string read_exif(const FileInput& file);
 
-// Returns the tag Orientation, 1 if there is none. Throws MalformedFile.
+// Returns the value of the tag Orientation; 1 by default. Throws MalformedFile.
 uint64_t exif_orientation(std::string_view exif);
 
-// Returns the Exif for new pixels of this size: upright, without the thumbnail of the old ones. Empty if it is malformed.
+// Returns the Exif for new pixels of this size: upright, without the thumbnail of the old ones. Returns an empty string
+// for malformed Exif.
 std::string exif_for(std::string exif, Extent size);
 
 }  // namespace ods

@@ -12,8 +12,6 @@
 
 namespace ods {
 
-constexpr uint16_t kTiffOrientation = 274;
-
 static uint64_t stated(const FileInput& file) {
   if (format_of_file(file) == FileFormat::kTiff)
     return tiff_number(file, read_tiff_directory(file), kTiffOrientation).value_or(1);

@@ -10,8 +10,8 @@
 namespace ods {
 
 // Sets the options so that the picture `to` keeps the Exif of the picture `from` (date, place, camera, author) and the
-// initial view of its GPano. Returns a note for users if the format of `to` has no place for the Exif, otherwise an empty
-// string. Throws Error(kInput) if `from` cannot be read.
+// initial view of its GPano. Returns a note for users if the format of `to` has no place for the Exif, otherwise an
+// empty string. Throws Error(kInput) if `from` cannot be read.
 std::string keep_photo_metadata(const std::string& from, const std::string& to, SaveOptions& options);
 
 }  // namespace ods

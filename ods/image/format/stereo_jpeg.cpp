@@ -23,10 +23,7 @@ struct MpfIndex {
   std::string_view bytes;
 
   uint64_t number(size_t at, size_t count) const {
-    if (bytes.starts_with("MM")) return get_number(bytes, at, count);
-    uint64_t value = 0;
-    for (size_t i = count; i-- > 0;) value = value << 8 | get_number(bytes, at + i, 1);
-    return value;
+    return get_number(bytes, at, count, bytes.starts_with("MM") ? std::endian::big : std::endian::little);
   }
 };
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The metadata of a JPEG about two eyes: the second picture of an MPO, and the descriptor of a JPS (or a PNS, whose JPEG form
-// it is). Sources: CIPA DC-007, "Multi-Picture Format"; VRex, "JPS file format".
+// The metadata of a JPEG about two eyes: the second picture of an MPO, and the descriptor of a JPS (or a PNS, whose
+// JPEG form it is). Sources: CIPA DC-007, "Multi-Picture Format"; VRex, "JPS file format".
 #pragma once
 #include <string>
 
@@ -13,9 +13,9 @@
 namespace ods {
 
 struct StereoJpeg {
-  FileRange right;     // the JPEG of the right eye in the file; size 0 if there is none
+  FileRange right;     // the right eye's JPEG within the file; size 0: the file has only one picture
   std::string layout;  // the name of the layout (layout.h) of both eyes in one picture, or mono; empty if unspecified
-  std::string fault;   // for messages; empty if there is none
+  std::string fault;   // message about damaged metadata; empty for valid metadata
 };
 
 // An MPO has two eyes if it lists two pictures of the type Disparity; other types are panoramas, previews and gain

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "ods/base/bytes.h"
 #include "ods/base/error.h"
 
 namespace ods {
@@ -15,11 +16,7 @@ static Error damaged(const FileInput& file) {
 }
 
 static uint64_t number_of(std::string_view bytes, bool is_little) {
-  uint64_t value = 0;
-  for (size_t i = 0; i < bytes.size(); i++) {
-    value = value << 8 | static_cast<unsigned char>(bytes[is_little ? bytes.size() - 1 - i : i]);
-  }
-  return value;
+  return get_number(bytes, 0, bytes.size(), is_little ? std::endian::little : std::endian::big);
 }
 
 static std::string bytes_of(uint64_t value, size_t count, bool is_little) {

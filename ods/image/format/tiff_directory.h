@@ -27,13 +27,13 @@ struct TiffDirectory {
   uint64_t next = 0;  // offset of the next directory; 0 if there is none
 };
 
-inline constexpr uint16_t kTiffWidth = 256, kTiffHeight = 257, kTiffXmp = 700;
+inline constexpr uint16_t kTiffWidth = 256, kTiffHeight = 257, kTiffOrientation = 274, kTiffXmp = 700;
 
 // Throws Error(kInput) if there is no valid directory.
 TiffDirectory read_tiff_directory(const FileInput& file);
 
 // The bytes of an entry. Returns nullopt if the entry is missing, extends beyond the end of the file or has more than
-// `most` bytes.
+// `maximum` bytes.
 std::optional<std::string> tiff_value(const FileInput& file, const TiffDirectory& directory, uint16_t tag,
                                       uint64_t maximum);
 // The first number of an entry.

@@ -10,10 +10,10 @@
 
 namespace ods {
 
-// The packet of a picture's first page, with the usual prefixes of Google's namespaces; empty if there is none or it
-// cannot be decoded. In a PNG also a compressed one, and the one that ImageMagick writes as text. In formats other than
-// JPEG, PNG and TIFF, the first data in the first megabyte that looks like a packet. Throws Error(kInput) if there is
-// no such file.
+// Returns the packet of a picture's first page, with the usual prefixes of Google's namespaces; an empty string for a
+// picture without a packet that can be decoded. Reads compressed packets of PNG, and those that ImageMagick writes as
+// text, too. In formats other than JPEG, PNG and TIFF, takes the first data in the first megabyte that look like a
+// packet. Throws Error(kInput) for a missing file.
 std::string read_xmp(const std::string& path);
 std::string read_xmp(const FileInput& file);
 

@@ -16,7 +16,7 @@ static float brightest(const PunctualLight& light) {
 }
 
 // Returns whether the power, divided by Blender's factor, is a number of watts with at most three digits. About one
-// lamp in several thousand has such a value by chance. in some thousands does.
+// lamp in several thousand has such a value by chance.
 static bool has_round_watts(const PunctualLight& light) {
   const double sphere = light.kind == kLightDirectional ? 1.0 : 4.0 * std::numbers::pi;
   const double watts = double{brightest(light)} * sphere / kLumensPerWatt;

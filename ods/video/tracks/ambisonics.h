@@ -13,7 +13,8 @@ namespace ods {
 int ambisonic_order(int channels);
 
 // The square matrix, row by row, that computes the channels of a turned field from the old ones: a source in direction
-// d is in direction turn * d afterwards. Directions are a camera's: x right, y up, z back. Precondition: an orthogonal matrix.
+// d is in direction turn * d afterwards. Directions are a camera's: x right, y up, z back. Precondition: an
+// orthogonal matrix.
 std::vector<double> ambisonic_turn(int order, const glm::dmat3& turn);
 
 }  // namespace ods
