@@ -24,7 +24,7 @@ contents() {
 
 # files_as FOLDER HEADER TYPE FUNCTION: the files in a folder as an array of that type.
 files_as() {
-  files=$(find "$1" -type f ! -name '*.pyc' | LC_ALL=C sort)
+  files=$(find "$1" -type f ! -name '*.pyc' ! -path 'web/package/*' | LC_ALL=C sort)
   printf '// Made from %s/ by cmake/page.sh.\n#include "%s"\nnamespace {\n' "$1" "$2"
   for file in $files; do
     printf 'const unsigned char k_%s[] = {\n' "$(echo "$file" | tr -c 'a-zA-Z0-9\n' _)"

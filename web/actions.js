@@ -5,6 +5,9 @@
 // buttons, its keys as in KeyboardEvent.key, its label and its group for users, and if it does not always apply,
 // when(viewer, player). run(player, viewer) may return, or promise, a short text to display.
 import { MODES, modeOf } from './modes.js';
+import { hasDevice } from './look.js';
+import { FOV } from './viewer.js';
+import { t } from './translate.js';
 
 const turn = (yaw, pitch) => (player, viewer) =>
   viewer.set({ yaw: viewer.state.yaw + yaw, pitch: viewer.state.pitch + pitch });
@@ -18,26 +21,26 @@ const isFolder = (viewer, player) => viewer.view.items.length > 1 && !player.isS
 
 function show(viewer, name) {
   viewer.set({ mode: name });
-  return modeOf(name).label;
+  return t(modeOf(name).label);
 }
 
 function expose(viewer, by) {
   viewer.expose(by);
-  return `Exposure ${viewer.choice.exposure} stops`;
+  return t('Exposure {} stops', viewer.choice.exposure);
 }
 
 function converge(viewer, by) {
   viewer.set({ shift: Math.round((viewer.state.shift + by) * 10) / 10 });
   const { shift } = viewer.state;
-  return shift ? `Everything ${Math.abs(shift)}° ${shift > 0 ? 'farther' : 'nearer'}` : 'Depth as in the file';
+  return shift ? t(shift > 0 ? 'Everything {}° farther' : 'Everything {}° nearer', Math.abs(shift)) : t('Depth as in the file');
 }
 
 // Shows everything around as a disc, with the nadir in the middle; or returns to the previous view.
 function planet(player, viewer) {
   const { state } = viewer;
   if (!state.planet) player.before = { pitch: state.pitch, fov: state.fov };
-  viewer.set(state.planet ? { pitch: 0, fov: player.fov(), ...player.before, planet: false } : { pitch: -90, fov: 260, planet: true });
-  return state.planet ? 'Little planet' : 'Panorama';
+  viewer.set(state.planet ? { pitch: 0, fov: FOV, ...player.before, planet: false } : { pitch: -90, fov: 260, planet: true });
+  return t(state.planet ? 'Little planet' : 'Panorama');
 }
 
 const LOOK = 'Look around';
@@ -53,19 +56,19 @@ export const ACTIONS = [
   { id: 'down', keys: ['ArrowDown'], run: turn(0, -5), fine: turn(0, -1) },
   { id: 'closer', keys: ['+', '='], shown: '+ −', label: 'field of view', group: LOOK, run: zoom(1 / 1.1) },
   { id: 'wider', keys: ['-', '_'], run: zoom(1.1) },
-  { id: 'recentre', keys: ['0', 'Home'], label: 'recentre', group: LOOK, run: (player, viewer) => viewer.set({ yaw: 0, pitch: 0, fov: player.fov() }) },
+  { id: 'recentre', keys: ['0', 'Home'], label: 'recentre', group: LOOK, run: (player, viewer) => viewer.set({ yaw: 0, pitch: 0, fov: FOV }) },
   { id: 'turn', keys: ['t'], label: 'turn slowly', group: LOOK, run(player) {
     player.turn();
-    return player.turning ? 'Turning' : 'Still';
+    return t(player.turning ? 'Turning' : 'Still');
   } },
   { id: 'grid', keys: ['g'], label: 'degrees: grid and numbers', group: LOOK, run(player, viewer) {
     viewer.set({ grid: !viewer.state.grid });
-    return viewer.state.grid ? 'Grid, every 10 degrees' : 'No grid';
+    return t(viewer.state.grid ? 'Grid, every 10 degrees' : 'No grid');
   } },
   { id: 'planet', keys: ['w'], label: 'little planet', group: LOOK, run: planet },
   { id: 'swap', keys: ['s'], label: 'swap the eyes', group: EYES, run(player, viewer) {
     viewer.set({ swap: !viewer.state.swap });
-    return viewer.state.swap ? 'Eyes swapped' : 'Eyes as in the file';
+    return t(viewer.state.swap ? 'Eyes swapped' : 'Eyes as in the file');
   } },
   { id: 'mode', keys: ['m'], label: 'next way to show the eyes', group: EYES, run(player, viewer) {
     const at = MODES.indexOf(modeOf(viewer.state.mode));
@@ -85,24 +88,25 @@ export const ACTIONS = [
   { id: 'ahead', keys: ['k'], label: 'ahead 5 s', group: FILM, when: isFilm, run: film((picture, video) => picture.seek(video.currentTime + 5)) },
   { id: 'loop', keys: ['l'], label: 'loop', group: FILM, when: isFilm, run: film((picture) => {
     picture.loop(!picture.loops);
-    return picture.loops ? 'Loop' : 'Play once';
+    return t(picture.loops ? 'Loop' : 'Play once');
   }) },
   { id: 'sound', keys: ['a'], label: 'sound', group: FILM, when: isFilm, run: film((picture, video) => {
     video.muted = !video.muted;
-    return video.muted ? 'No sound' : 'Sound';
+    return t(video.muted ? 'No sound' : 'Sound');
   }) },
   { id: 'brighter', keys: ['e'], label: 'exposure + ¼ stop', group: FOLDER, when: isLive, run: (player, viewer) => expose(viewer, 0.25) },
   { id: 'darker', keys: ['d'], label: 'exposure − ¼ stop', group: FOLDER, when: isLive, run: (player, viewer) => expose(viewer, -0.25) },
   { id: 'subtitles', keys: ['r'], label: 'subtitles', group: FILM, when: (viewer) => viewer.about?.video?.subtitles, run(player, viewer) {
     const on = player.subtitles?.();
     viewer.say('change');
-    return on ? 'Subtitles' : 'No subtitles';
+    return t(on ? 'Subtitles' : 'No subtitles');
   } },
   { id: 'list', keys: ['y'], label: 'all pictures', group: FOLDER, when: isFolder, run: (player) => player.toggleList() },
   { id: 'compare', keys: ['x'], label: 'compare with another picture or setting', group: FOLDER, when: (viewer, player) => isPicture(viewer) && !player.isSingle(), run: (player) => player.compare() },
   { id: 'comfort', keys: ['q'], label: 'what strains the eyes', group: FOLDER, when: isJudged, run: (player) => player.comfort() },
   { id: 'link', keys: ['u'], label: 'copy a link to this view', group: PAGE, when: (viewer, player) => player.copyLink, run: (player) => player.copyLink() },
   { id: 'fullscreen', keys: ['f'], label: 'full screen', group: PAGE, run: (player) => player.toggleFullscreen() },
+  { id: 'device', keys: [], run: (player) => player.controls.device(), label: 'look by turning this device', group: PAGE, when: hasDevice },
   { id: 'headset', keys: ['v'], label: 'view in the headset', group: PAGE, run: (player) => player.enterHeadset() },
   { id: 'screenshot', keys: ['c'], label: 'save a screenshot', group: PAGE, run: (player) => player.screenshot() },
   { id: 'settings', keys: ['o'], label: 'settings', group: PAGE, run: (player) => player.toggleSettings() },

@@ -54,7 +54,7 @@ export function hearVideos({ viewer, headset }) {
     turn = listen(context, context.createMediaElementSource(picture.video));
     follow();
   };
-  viewer.addEventListener('open', open);
+  for (const event of ['open', 'sleep']) viewer.addEventListener(event, open);
   viewer.addEventListener('change', follow);
   open();
 }

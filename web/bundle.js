@@ -1,12 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The start of a bundle (cli/view/bundle.h), with $files before it and the modules after it. Files that the modules
-// fetch come from $files, or from the host; or, because browsers do not let a page from disk read files, from the
-// script FILE.js beside the file.
-const $base = document.currentScript.src;
+// The start of a bundle (ods/view/bundle.h), with $base, its own address, before it and the modules after it. Browsers
+// do not let a page from disk read files, so it gets a file from the script FILE.js beside it.
 const $modules = {};
-const $given = (window.stereo360Files ??= {}); // by address: base64
 let $later;
 
 // Servers put some modules into a separate script (ods/view/bundle.h).
@@ -27,12 +24,10 @@ async function $load(name) {
 
 async function fetch(address, options) {
   const url = new URL(address, document.baseURI);
-  const name = new URL('.', $base).href;
-  const file = url.href.startsWith(name) ? url.pathname.slice(new URL(name).pathname.length) : '';
-  if (Object.hasOwn($files, file)) return new Response($files[file]);
   if (url.protocol !== 'file:') return window.fetch(address, options);
+  const given = (window.stereo360Files ??= {}); // by address: base64
   url.search = url.hash = '';
-  if (!$given[url.href]) {
+  if (!given[url.href]) {
     const script = Object.assign(document.createElement('script'), { src: `${url.href}.js` });
     await new Promise((done) => {
       script.onload = script.onerror = done;
@@ -40,11 +35,11 @@ async function fetch(address, options) {
     });
     script.remove();
   }
-  if (!$given[url.href]) {
+  if (!given[url.href]) {
     const why = 'browsers let no page from disk read it: ods view FILE --export FOLDER makes a copy that they read, or a web server can have it';
     return new Response(why, { status: 404, headers: { 'content-type': 'text/plain' } });
   }
-  const answer = await window.fetch($given[url.href]);
-  delete $given[url.href];
+  const answer = await window.fetch(given[url.href]);
+  delete given[url.href];
   return answer;
 }

@@ -8,6 +8,7 @@ import { make } from './elements.js';
 import { icon } from './icons.js';
 import { modeOf } from './modes.js';
 import { openPicture } from './picture.js';
+import { t } from './translate.js';
 
 const BLINK = 600; // milliseconds
 const STEP = 0.02; // fraction of the view per key press
@@ -18,13 +19,12 @@ export class Compare {
   // end(): closes the comparison.
   constructor(player, end) {
     Object.assign(this, { player, viewer: player.viewer, way: 'slider', split: 0.5, other: null, names: ['A', 'B'], timer: 0, isOther: false });
-    const element = document.createElement('div');
-    element.id = 'compare';
-    element.innerHTML = `<canvas hidden></canvas>
-      <div id="divider" tabindex="0" role="separator" aria-orientation="vertical" aria-valuemin="0" aria-valuemax="100"><span></span><span></span></div>
-      <div id="ways" role="group" aria-label="Compare">${WAYS.map(([way, label]) => `<button type="button" data-way="${way}">${label}</button>`).join('')}
-        <button type="button" aria-label="End the comparison" data-tip="End the comparison" data-key="X">${icon('close')}</button></div>`;
-    Object.assign(this, { element, difference: element.querySelector('canvas'), divider: element.querySelector('#divider') });
+    const difference = make('canvas', { hidden: true });
+    const divider = make('div', { id: 'divider', tabIndex: 0, role: 'separator', 'aria-orientation': 'vertical', 'aria-valuemin': 0, 'aria-valuemax': 100 }, make('span'), make('span'));
+    const close = make('button', { type: 'button', ariaLabel: t('End the comparison'), 'data-tip': t('End the comparison'), 'data-key': 'X' }, icon('close'));
+    const ways = WAYS.map(([way, label]) => make('button', { type: 'button', 'data-way': way, textContent: t(label) }));
+    const element = make('div', { id: 'compare' }, difference, divider, make('div', { id: 'ways', role: 'group', ariaLabel: t('Compare') }, ...ways, close));
+    Object.assign(this, { element, difference, divider });
     element.querySelector('#ways').addEventListener('click', ({ target }) => {
       const button = target.closest('button');
       if (!button) return;
@@ -33,10 +33,10 @@ export class Compare {
     });
     this.drag();
     this.follow = () => this.place();
-    player.viewer.canvas.after(element);
+    player.viewer.element.after(element);
     for (const event of ['change', 'open']) this.viewer.addEventListener(event, this.follow);
     this.watcher = new ResizeObserver(this.follow);
-    this.watcher.observe(this.viewer.canvas);
+    this.watcher.observe(this.viewer.element);
     this.viewer.compare = this;
     this.use('slider');
   }
@@ -120,12 +120,12 @@ export class Compare {
   }
 
   place() {
-    const { divider, viewer: { canvas, state }, split } = this;
+    const { divider, viewer: { element, state }, split } = this;
     const halves = modeOf(state.mode).parts(0).length;
     const isLine = this.way === 'slider';
     divider.classList.toggle('still', !isLine);
     divider.tabIndex = isLine ? 0 : -1;
-    divider.style.setProperty('--x', `${((isLine ? split : 0.5) * canvas.clientWidth) / halves}px`);
+    divider.style.setProperty('--x', `${((isLine ? split : 0.5) * element.clientWidth) / halves}px`);
     [...divider.children].forEach((label, i) => (label.textContent = this.names[i]));
     divider.ariaLabel = `${this.names[0]} to the left, ${this.names[1]} to the right`;
     divider.ariaValueNow = Math.round(100 * split);
@@ -139,11 +139,11 @@ export class Compare {
   }
 
   drag() {
-    const { divider, viewer: { canvas, state } } = this;
+    const { divider, viewer: { element, state } } = this;
     divider.addEventListener('pointerdown', (event) => divider.setPointerCapture(event.pointerId));
     divider.addEventListener('pointermove', (event) => {
       if (!divider.hasPointerCapture(event.pointerId)) return;
-      const box = canvas.getBoundingClientRect();
+      const box = element.getBoundingClientRect();
       this.moveTo(((event.clientX - box.left) / box.width) * modeOf(state.mode).parts(0).length);
     });
     divider.addEventListener('keydown', (event) => {

@@ -5,9 +5,12 @@
 import { ACTIONS, applies, keysOf } from './actions.js';
 import { make } from './elements.js';
 import { hasOtherLayouts } from './form.js';
+import { degrees } from './geometry.js';
+import { LAYOUTS, PROJECTIONS, TONES } from './formats.js';
 import { followDevice, hasDevice } from './look.js';
 import { MODES } from './modes.js';
 import { widest } from './viewer.js';
+import { t } from './translate.js';
 
 const GAP = 8; // pixels
 // The functions of a headset's buttons (headset.js).
@@ -39,7 +42,7 @@ export function nameButtons(element) {
   for (const button of element.querySelectorAll('button[data-action]')) {
     const action = ACTIONS.find(({ id }) => id === button.dataset.action);
     if (!action || button.dataset.tip) continue;
-    const label = titled(action.label);
+    const label = titled(t(action.label));
     if (!button.textContent.trim()) button.ariaLabel = label;
     Object.assign(button.dataset, { tip: label, key: keysOf(action).slice(0, 1).join('') });
   }
@@ -49,11 +52,15 @@ export class Controls {
   constructor(player) {
     const { viewer } = player;
     Object.assign(this, { player, viewer, find: (id) => player.find(id) });
-    fill(this.find('mode'), MODES.map(({ name, label }) => [name, label]));
-    fill(this.find('tone'), viewer.view.tones.map((name) => [name, name]));
+    const modes = player.isVisitors ? MODES.filter((mode) => mode.visitors) : MODES;
+    fill(this.find('mode'), modes.map(({ name, label, visitors }) => [name, t(player.isVisitors ? visitors : label)]));
+    player.element.classList.toggle('visitors', player.isVisitors);
+    this.button('device').hidden = !hasDevice();
+    fill(this.find('tone'), TONES.map((name) => [name, name]));
     this.find('device-row').hidden = !hasDevice();
     nameButtons(player.element);
     this.listen();
+    this.button('fullscreen').hidden = !player.fullscreenWay();
     for (const event of ['change', 'open', 'failed']) viewer.addEventListener(event, () => this.update());
     viewer.addEventListener('open', () => this.describe());
     viewer.addEventListener('loading', ({ detail }) => this.progress(detail));
@@ -86,12 +93,13 @@ export class Controls {
     on('loop', 'change', (box) => viewer.picture?.loop?.(box.checked));
     on('seek', 'input', (range) => viewer.picture?.seek?.((Number(range.value) + 0.5) / viewer.picture.fps));
     on('speed', 'change', (select) => video() && (video().playbackRate = Number(select.value)));
-    find('device').addEventListener('change', () => this.device());
+    find('device').addEventListener('change', () => this.device(find('device').checked));
     find('settings').addEventListener('submit', (event) => event.preventDefault());
     find('settings').addEventListener('beforetoggle', () => this.update()); // the picture of the studio has no event
     for (const id of ['settings', 'why']) find(id).addEventListener('toggle', () => this.placeSettings());
-    addEventListener('pointerdown', () => (this.byPointer = true), true);
-    addEventListener('keydown', () => (this.byPointer = false), true);
+    const heard = player.isPage ? window : player.element; // an element that is removed leaves nothing
+    heard.addEventListener('pointerdown', () => (this.byPointer = true), true);
+    heard.addEventListener('keydown', () => (this.byPointer = false), true);
   }
 
   // Above the right end of the bar, or below it; over it if there is not enough space for everything.
@@ -114,14 +122,12 @@ export class Controls {
     if (this.byPointer && !target.closest('#settings, dialog, #studio')) this.find('picture').focus({ preventScroll: true });
   }
 
-  async device() {
-    const box = this.find('device');
+  async device(is = !this.endDevice) {
     this.endDevice?.();
-    this.endDevice = box.checked ? await followDevice(this.viewer) : null;
-    if (box.checked && !this.endDevice) {
-      box.checked = false;
-      this.player.toast('The browser refuses: allow motion sensors for this page');
-    }
+    this.endDevice = is ? await followDevice(this.viewer) : null;
+    this.find('device').checked = Boolean(this.endDevice);
+    this.press('device', Boolean(this.endDevice));
+    if (is && !this.endDevice) return t('The browser refuses: allow motion sensors for this page');
   }
 
   label(id, text) {
@@ -147,16 +153,17 @@ export class Controls {
     find('name').textContent = name;
     find('count').textContent = !viewer.scene && isOneOfMany ? `${item + 1} / ${view.items.length}` : '';
     find('name').title = name;
-    if (player.isPage) document.title = `${about.name} – Omnistereo`;
-    find('picture').ariaLabel = `${name || 'A panorama'}. Look around with the arrow keys; ? lists all keys.`;
+    this.mark();
+    if (player.isPage && view.live) document.title = `${about.name} – Omnistereo`;
+    find('picture').ariaLabel = t('{}. Look around with the arrow keys; ? lists all keys.', name || t('A panorama'));
     find('reason').textContent = choice.layout ? '' : (about.layout_reason ?? '');
     find('why').hidden = !find('reason').textContent;
-    const layouts = view.layouts.map(({ name }) => [name, name]);
+    const layouts = LAYOUTS.map(({ name }) => [name, name]);
     const hasLayout = hasOtherLayouts(view, about);
-    fill(find('layout'), hasLayout ? [['', `as found: ${about.layout}`], ...layouts] : [['', about.layout ?? 'a file per eye']]);
+    fill(find('layout'), hasLayout ? [['', t('as found: {}', about.layout)], ...layouts] : [['', about.layout ?? t('a file per eye')]]);
     find('layout').disabled = !hasLayout;
     find('layout').value = choice.layout ?? '';
-    fill(find('projection'), [['', `as found: ${about.projection}`], ...view.projections.map(({ name }) => [name, name])]);
+    fill(find('projection'), [['', t('as found: {}', about.projection)], ...PROJECTIONS.map(({ name }) => [name, name])]);
     find('projection').value = choice.projection ?? '';
     for (const id of ['exposure-row', 'tone-row']) find(id).hidden = !about.live;
     const exposure = choice.exposure ?? about.exposure ?? 0;
@@ -193,6 +200,14 @@ export class Controls {
     if (picture?.video) this.film(picture);
   }
 
+  // What can be seen here, in a corner, also while the bar is gone.
+  mark() {
+    const { camera: { projection: { kind, span, angle } }, mono } = this.viewer.picture;
+    const wide = Math.round(degrees(kind < 2 ? span[0] : kind > 4 && kind < 9 ? 2 * Math.PI : angle));
+    this.find('mark').textContent = `${Math.min(wide, 360)}°${mono ? '' : ' 3D'}`;
+    this.find('mark').hidden = !this.player.isVisitors;
+  }
+
   button(action) {
     return this.player.element.querySelector(`button[data-action="${action}"]`);
   }
@@ -205,7 +220,7 @@ export class Controls {
     const { find } = this;
     this.player.element.classList.toggle('playing', !video.paused);
     this.button('play').dataset.on = !video.paused;
-    this.button('play').ariaLabel = video.paused ? 'Play' : 'Pause';
+    this.button('play').ariaLabel = t(video.paused ? 'Play' : 'Pause');
     this.button('sound').dataset.on = !video.muted;
     this.press('sound', !video.muted);
     find('loop').checked = loops;
@@ -213,7 +228,7 @@ export class Controls {
     if (this.player.root.activeElement !== find('seek') || !video.paused) find('seek').value = at;
     const clock = (seconds) => `${Math.floor(seconds / 60)}:${two(seconds % 60)}`;
     this.button('subtitles').hidden = !this.viewer.about.video?.subtitles;
-    find('time').replaceChildren(`${clock(at / fps)} / ${clock(frames / fps)}`, make('span', {}, video.paused ? `  frame ${at}` : ''));
+    find('time').replaceChildren(`${clock(at / fps)} / ${clock(frames / fps)}`, make('span', {}, video.paused ? `  ${t('frame {}', at)}` : ''));
   }
 
   // Lists the actions that apply now, with the most common ones first.
@@ -228,8 +243,8 @@ export class Controls {
     const section = (title, pairs, className = '') => make('section', { className }, make('h2', {}, title), list(pairs));
     // Keys are left out on touch devices without a keyboard.
     find('keys').replaceChildren(...(isTouch() ? [] : groups.map((group) =>
-      section(group, rows.filter((row) => row.group === group).map((action) => [titled(action.label), ...keys(action)])))));
-    if (navigator.xr) find('keys').append(section('In the headset', BUTTONS.filter(([what]) => Boolean(viewer.scene) || !/studio/.test(what)), 'words'));
-    find('gestures').textContent = isTouch() ? 'Drag to look around, pinch to zoom. Settings has more: the layout of the eyes, a grid, the little planet.' : 'Drag to look around; turn the wheel to zoom.';
+      section(t(group), rows.filter((row) => row.group === group).map((action) => [titled(t(action.label)), ...keys(action)])))));
+    if (navigator.xr) find('keys').append(section(t('In the headset'), BUTTONS.filter(([what]) => Boolean(viewer.scene) || !/studio/.test(what)).map((pair) => pair.map((text) => t(text))), 'words'));
+    find('gestures').textContent = t(isTouch() ? 'Drag to look around, pinch to zoom' : 'Drag to look around; turn the wheel to zoom.');
   }
 }

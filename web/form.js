@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The format of a file: the layout of its eyes, and their camera.
+import { LAYOUTS, PROJECTIONS } from './formats.js';
+
 const named = (rows, name) => rows.find((row) => row.name === name);
 
 // The format of an item that the page uses: the file's own, or the one that the user chose.
-export function formOf(view, item, { layout, projection } = {}) {
-  const rows = named(view.layouts, layout) ?? named(view.layouts, item.light_layout ?? item.layout);
-  const own = item.camera ?? named(view.projections, item.projection)?.camera;
+export function formOf(item, { layout, projection } = {}) {
+  const rows = named(LAYOUTS, layout) ?? named(LAYOUTS, item.light_layout ?? item.layout);
+  const own = item.camera ?? named(PROJECTIONS, item.projection)?.camera;
   return {
     layout: rows ?? { left: [0, 0, 1, 1], right: [0, 0, 1, 1] },
-    camera: named(view.projections, projection)?.camera ?? own ?? view.projections[0].camera,
+    camera: named(PROJECTIONS, projection)?.camera ?? own ?? PROJECTIONS[0].camera,
   };
 }
 

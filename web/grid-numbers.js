@@ -23,7 +23,7 @@ export function numberGrid(viewer) {
   const layer = document.createElement('div');
   layer.id = 'numbers';
   layer.ariaHidden = true; // the bar shows the direction of the view
-  viewer.canvas.after(layer);
+  viewer.element.after(layer);
   const place = () => {
     layer.hidden = !viewer.state.grid || Boolean(viewer.session);
     if (layer.hidden) return;
@@ -36,5 +36,5 @@ export function numberGrid(viewer) {
     }));
   };
   for (const event of ['change', 'open']) viewer.addEventListener(event, place);
-  new ResizeObserver(place).observe(viewer.canvas);
+  new ResizeObserver(place).observe(viewer.element);
 }

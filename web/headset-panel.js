@@ -44,8 +44,8 @@ export class HeadsetPanel {
     });
     on(viewer, 'loading', ({ detail }) => (this.message = detail === null ? this.message : `Loading … ${Math.round(100 * detail)} %`));
     on(viewer, 'open', () => (this.message = ''));
-    on(viewer.canvas, 'pointermove', ({ offsetX, offsetY }) => this.headset.mark(directionAt(viewer, offsetX, offsetY)));
-    on(viewer.canvas, 'pointerleave', () => this.headset.mark(null));
+    on(viewer.element, 'pointermove', ({ offsetX, offsetY }) => this.headset.mark(directionAt(viewer, offsetX, offsetY)));
+    on(viewer.element, 'pointerleave', () => this.headset.mark(null));
   }
 
   free() {

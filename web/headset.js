@@ -69,6 +69,7 @@ export class Headset {
     Object.assign(this, { session, turn: 0, held: new Map(), pressed: new Map(), gripped: new Map(), last: 0 });
     this.pace = new Pace(1000 / (isQuick ? RATE : (session.frameRate ?? RATE)));
     this.listenToHands();
+    this.watchWearer();
     this.viewer.session = session;
     this.viewer.say('change');
     if (this.wants.layers) {
@@ -178,6 +179,22 @@ export class Headset {
     if (!this.pose) return;
     const m = this.pose.transform.matrix;
     this.turn = -Math.atan2(-m[8], m[10]);
+  }
+
+  // A video pauses while the headset is taken off.
+  watchWearer() {
+    const { session, viewer } = this;
+    let stopped = null;
+    session.addEventListener('visibilitychange', () => {
+      const video = viewer.picture?.video;
+      if (session.visibilityState === 'hidden') {
+        stopped = video && !video.paused ? video : null;
+        stopped?.pause();
+      } else if (session.visibilityState === 'visible') {
+        if (stopped && stopped === video) video.play().catch(() => {});
+        stopped = null;
+      }
+    });
   }
 
   // A press that ends with `select` was released; otherwise it was cancelled, for example by the system's own gestures.

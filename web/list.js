@@ -13,7 +13,7 @@ export function makeList({ element, viewer }) {
     const picture = make('img', { src: thumbnail ? new URL(thumbnail, viewer.base).href : '', alt: '', loading: 'lazy', decoding: 'async' });
     picture.addEventListener('error', () => picture.removeAttribute('src')); // an empty frame beats a broken image
     const button = make('button', { type: 'button', title: name, 'aria-current': String(i === viewer.item) }, picture, make('span', {}, name));
-    if (kind === 'video') button.insertAdjacentHTML('beforeend', icon('play'));
+    if (kind === 'video') button.append(icon('play'));
     button.addEventListener('click', () => {
       list.hidePopover();
       viewer.open(i, { exposure: viewer.choice.exposure, tone: viewer.choice.tone });

@@ -3,11 +3,11 @@
 //
 // Turns the viewer's look by mouse, touch, wheel and the device's own orientation.
 import { clamp, degrees, dot, radians } from './geometry.js';
-import { fovOf, halfWidth } from './panorama.js';
+import { fovOf, halfSide, halfWidth } from './panorama.js';
 
 // Dragging moves the picture: the point grabbed follows the pointer exactly at the middle of the view. hasWheel():
 // whether the wheel belongs to the picture, and not to the page around it.
-export function followPointer(viewer, element = viewer.canvas, hasWheel = () => true) {
+export function followPointer(viewer, element = viewer.element, hasWheel = () => true) {
   const held = new Map();
   const spread = () => {
     const [a, b] = [...held.values()];
@@ -26,11 +26,12 @@ export function followPointer(viewer, element = viewer.canvas, hasWheel = () => 
     if (held.size === 2) {
       const before = spread();
       Object.assign(last, { x: event.clientX, y: event.clientY });
-      return viewer.set({ fov: fovOf(halfWidth(fov, planet) * (before / Math.max(spread(), 1)), planet) });
+      return viewer.set({ fov: fovOf(halfSide({ fov, planet }) * (before / Math.max(spread(), 1)), planet) });
     }
     Object.assign(last, { x: event.clientX, y: event.clientY });
     const parts = mode === 'side-by-side' || mode === 'cross-eyed' ? 2 : 1;
-    const pixel = degrees((2 * parts * halfWidth(fov, planet)) / element.clientWidth);
+    const aspect = element.clientWidth / parts / element.clientHeight;
+    const pixel = degrees((2 * parts * halfWidth({ fov, planet }, aspect)) / element.clientWidth);
     viewer.set({ yaw: yaw - dx * pixel, pitch: pitch + dy * pixel });
   });
   for (const end of ['pointerup', 'pointercancel']) {

@@ -3,17 +3,19 @@
 //
 // Starts the page: reads view.json, makes the player, and keeps the page's address and its server in step with it.
 import { copyText } from './copy.js';
-import { loadShader } from './panorama.js';
+import { Panorama } from './panorama.js';
 import { Player } from './player.js';
-import { readState, writeState } from './state.js';
+import { findItem, readState, writeState } from './state.js';
+import { useLanguage } from './translate.js';
 
-const GREETED = 'omnistereo-greeted';
 const find = (id) => document.getElementById(id);
 
 // The address of the present view.
 function addressOf({ viewer, wanted }) {
-  const { picture, item, state, choice } = viewer;
-  return writeState({ item, frame: picture?.video?.paused ? picture.frame() : 0, layers: wanted.layers, look: state, choice, beside: viewer.compare?.pin });
+  const { picture, item, state, choice, view: { items } } = viewer;
+  const pin = viewer.compare?.pin;
+  const beside = pin && { ...pin, name: items[pin.item]?.name };
+  return writeState({ item, name: items[item]?.name, frame: picture?.video?.paused ? picture.frame() : 0, layers: wanted.layers, controls: wanted.controls, look: state, choice, beside });
 }
 
 // Keeps the address up to date, and follows it when the user changes it.
@@ -37,7 +39,7 @@ function watchAddress(player) {
     const to = readState(location.hash);
     viewer.set(to.look);
     player.frame = to.frame;
-    if (!viewer.scene) viewer.open(Math.min(to.item, viewer.view.items.length - 1), to.choice);
+    if (!viewer.scene) viewer.open(findItem(viewer.view.items, to), to.choice);
   });
 }
 
@@ -55,47 +57,28 @@ function watchServer(player) {
   }, 2000);
 }
 
-// Greets first-time visitors, until they have moved the picture.
-function greet(player) {
-  const hint = find('hint');
-  try {
-    if (localStorage.getItem(GREETED)) return;
-  } catch {
-    return; // the browser does not store anything, so the greeting would appear every time
-  }
-  const touches = matchMedia('(pointer: coarse)').matches;
-  hint.textContent = touches ? 'Drag to look around, pinch to zoom' : 'Drag to look around, wheel to zoom, ? for all keys';
-  hint.hidden = false;
-  const end = () => {
-    hint.hidden = true;
-    try {
-      localStorage.setItem(GREETED, '1');
-    } catch { /* then it will be there again */ }
-  };
-  for (const event of ['pointerdown', 'wheel', 'keydown']) document.addEventListener(event, end, { once: true, passive: true });
-}
-
 async function start() {
   const answer = await fetch('view.json');
   if (!answer.ok) throw new Error(`view.json did not load (${answer.status}). Open the address that ods view printed.`);
   const view = await answer.json();
+  await useLanguage();
   const wanted = readState(location.hash);
-  const player = new Player(find('player'), document, { view, shader: await loadShader(), base: location.href, wanted, keys: document, isPage: true });
+  const player = new Player(find('player'), document, { view, base: location.href, wanted, keys: document, isPage: true, isVisitors: !view.live && !wanted.controls });
   const { viewer } = player;
+  viewer.wake(new Panorama());
   player.frame = wanted.frame;
-  viewer.set({ fov: player.fov(), ...wanted.look });
+  viewer.set(wanted.look);
   viewer.addEventListener('open', () => {
     if (player.frame) viewer.picture.seek?.((player.frame + 0.5) / viewer.picture.fps);
     player.frame = 0;
-    if (wanted.beside && viewer.view.items[wanted.beside.item]) player.compare(wanted.beside).catch((error) => player.toast(error.message));
+    if (wanted.beside) player.compare({ ...wanted.beside, item: findItem(view.items, wanted.beside) }).catch((error) => player.toast(error.message));
     wanted.beside = null;
   });
   watchAddress(player);
   if (view.live) watchServer(player);
-  viewer.canvas.focus({ preventScroll: true });
+  viewer.element.focus({ preventScroll: true });
   window.omnistereo = player; // for tests, and for the console
-  greet(player);
-  if (view.items.length) await viewer.open(Math.min(wanted.item, view.items.length - 1), wanted.choice);
+  if (view.items.length) await viewer.open(findItem(view.items, wanted), wanted.choice);
   else if (!view.studio) player.fail('There is no picture here. Name one: ods view picture.png');
   if (view.studio) (await import('./studio.js')).startStudio(player);
 }

@@ -3,52 +3,72 @@
 //
 // The elements over the picture, in the page and in <stereo-360>. Buttons of actions get their names and tooltips from
 // the table of actions.js.
+import { make } from './elements.js';
 import { icon } from './icons.js';
+import { t } from './translate.js';
 
-const button = (action, more = '') => `<button type="button" data-action="${action}"${more}>${icon(action)}</button>`;
-const slider = (id, label, range, more = '') =>
-  `<label${more}>${label} <span class="value"><input id="${id}" type="range" ${range}><output></output></span></label>`;
-const check = (id, label, more = '') => `<label class="check"${more}><input id="${id}" type="checkbox"> ${label}</label>`;
-const speeds = [[0.25, '¼×'], [0.5, '½×'], [1, '1×'], [1.5, '1½×'], [2, '2×']]
-  .map(([value, text]) => `<option value="${value}"${value === 1 ? ' selected' : ''}>${text}`).join('');
+const SPEEDS = [[0.25, '¼×'], [0.5, '½×'], [1, '1×'], [1.5, '1½×'], [2, '2×']];
 
-export const MARKUP = `
-<p id="message" role="alert" hidden></p>
-<div id="spinner" hidden></div>
-<progress id="loading" max="1" aria-label="Loading" hidden></progress>
-<div id="title"><span id="folder" hidden>${button('previous')}${button('next')}${button('list')}</span><span id="name"></span><span id="count"></span><output id="look" aria-label="Where you look" hidden></output></div>
-<div id="foot"><p id="toast" role="status"></p><p id="hint" hidden></p><div id="bar" role="toolbar" aria-label="Viewer">
-  <div id="film" hidden>
-    ${button('play')}${button('step-back')}${button('step')}
-    <input id="seek" type="range" min="0" value="0" aria-label="Frame" data-tip="Seek">
-    <output id="time"></output>
-    ${button('sound')}${button('subtitles', ' hidden')}
-  </div>
-  <div id="tools">
-    <select id="mode" aria-label="Eyes" data-tip="How both eyes share the screen" data-key="M"></select>
-    ${button('swap')}${button('compare', ' hidden')}${button('settings')}${button('headset', ' hidden')}${button('fullscreen')}${button('help')}
-  </div>
-</div></div>
-<form id="settings" popover aria-label="Settings">
-  <label>Layout <select id="layout"></select></label>
-  <details id="why" class="note"><summary>Why?</summary><p id="reason"></p></details>
-  <label>Projection <select id="projection"></select></label>
-  ${slider('exposure', 'Exposure', 'min="-8" max="8" step="0.25"', ' id="exposure-row" hidden')}
-  <label id="tone-row" hidden>Tone <select id="tone"></select></label>
-  ${slider('fov', 'Field of view', 'min="20" max="150" step="1"')}
-  ${slider('shift', 'Depth', 'min="-3" max="3" step="0.1"', ' id="shift-row"')}
-  <label id="speed-row" hidden>Speed <select id="speed">${speeds}</select></label>
-  ${check('loop', 'Loop', ' id="loop-row" hidden')}
-  ${check('grid', 'Grid, every 10 degrees')}
-  ${check('planet', 'Little planet')}
-  ${check('turn', 'Turn slowly')}
-  ${check('device', 'Look by turning this device', ' id="device-row" hidden')}
-  <div class="row"><button type="button" data-action="recentre">Recentre</button><button type="button" data-action="screenshot">Screenshot</button><button type="button" data-action="link">Copy link</button>
-    <button type="button" data-action="comfort">What strains the eyes</button></div>
-</form>
-<dialog id="help" aria-labelledby="help-title" tabindex="-1">
-  <form method="dialog"><button aria-label="Close" data-tip="Close" data-key="Esc">${icon('close')}</button></form>
-  <h1 id="help-title">Help</h1>
-  <p id="gestures"></p>
-  <div id="keys"></div>
-</dialog>`;
+const button = (action, more = {}) => make('button', { type: 'button', 'data-action': action, ...more }, icon(action));
+const textButton = (action, text) => make('button', { type: 'button', 'data-action': action, textContent: t(text) });
+const row = (id, label, field, more = {}) => make('label', { id: `${id}-row`, ...more }, `${t(label)} `, field);
+const select = (id, options = []) => make('select', { id }, ...options.map(([value, text]) => make('option', { value, textContent: text, selected: value === 1 })));
+const check = (id, label, more = {}) => make('label', { id: `${id}-row`, className: 'check', ...more }, make('input', { id, type: 'checkbox' }), ` ${t(label)}`);
+
+function slider(id, label, [min, max, step], more = {}) {
+  const range = make('input', { id, type: 'range', min, max, step });
+  return row(id, label, make('span', { className: 'value' }, range, make('output')), more);
+}
+
+function bar() {
+  const film = make('div', { id: 'film', hidden: true }, button('play'), button('step-back'), button('step'),
+    make('input', { id: 'seek', type: 'range', min: 0, value: 0, ariaLabel: t('Frame'), 'data-tip': t('Seek') }),
+    make('output', { id: 'time' }), button('sound'), button('subtitles', { hidden: true }));
+  const mode = make('select', { id: 'mode', ariaLabel: t('Eyes'), 'data-tip': t('How both eyes share the screen'), 'data-key': 'M' });
+  const tools = make('div', { id: 'tools' }, mode, button('swap'), button('compare', { hidden: true }), button('settings'),
+    button('headset', { hidden: true }), button('fullscreen'), button('device', { hidden: true }), button('help'));
+  return make('div', { id: 'bar', role: 'toolbar', ariaLabel: t('Viewer') }, film, tools);
+}
+
+function title() {
+  const folder = make('span', { id: 'folder', hidden: true }, button('previous'), button('next'), button('list'));
+  return make('div', { id: 'title' }, folder, make('span', { id: 'name' }), make('span', { id: 'count' }),
+    make('output', { id: 'look', ariaLabel: t('Where you look'), hidden: true }));
+}
+
+function settings() {
+  const why = make('details', { id: 'why', className: 'note' }, make('summary', { textContent: t('Why?') }), make('p', { id: 'reason' }));
+  return make('form', { id: 'settings', popover: 'auto', ariaLabel: t('Settings') },
+    row('layout', 'Layout', select('layout')), why,
+    row('projection', 'Projection', select('projection')),
+    slider('exposure', 'Exposure', [-8, 8, 0.25], { hidden: true }),
+    row('tone', 'Tone', select('tone'), { hidden: true }),
+    slider('fov', 'Field of view', [20, 150, 1]),
+    slider('shift', 'Depth', [-3, 3, 0.1]),
+    row('speed', 'Speed', select('speed', SPEEDS), { hidden: true }),
+    check('loop', 'Loop', { hidden: true }), check('grid', 'Grid, every 10 degrees'), check('planet', 'Little planet'),
+    check('turn', 'Turn slowly'), check('device', 'Look by turning this device', { hidden: true }),
+    make('div', { className: 'row' }, textButton('recentre', 'Recentre'), textButton('screenshot', 'Screenshot'),
+      textButton('link', 'Copy link'), textButton('comfort', 'What strains the eyes')));
+}
+
+function help() {
+  const close = make('button', { ariaLabel: t('Close'), 'data-tip': t('Close'), 'data-key': 'Esc' }, icon('close'));
+  return make('dialog', { id: 'help', 'aria-labelledby': 'help-title', tabIndex: -1 },
+    make('form', { method: 'dialog' }, close), make('h1', { id: 'help-title', textContent: t('Help') }),
+    make('p', { id: 'gestures' }), make('div', { id: 'keys' }));
+}
+
+// Returns the elements.
+export function makeMarkup() {
+  return [
+    make('p', { id: 'message', role: 'alert', hidden: true }),
+    make('div', { id: 'spinner', hidden: true }),
+    make('progress', { id: 'loading', max: 1, ariaLabel: t('Loading'), hidden: true }),
+    title(),
+    make('span', { id: 'mark', hidden: true }),
+    make('div', { id: 'foot' }, make('p', { id: 'toast', role: 'status' }), make('p', { id: 'hint', hidden: true }), bar()),
+    settings(),
+    help(),
+  ];
+}

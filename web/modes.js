@@ -7,13 +7,16 @@ const WHOLE = [0, 0, 1, 1];
 const LEFT_HALF = [0, 0, 0.5, 1];
 const RIGHT_HALF = [0.5, 0, 0.5, 1];
 const WIGGLE = 160; // milliseconds per eye
+const CALM = 1200; // for those who want less motion
+const wiggle = () => (matchMedia('(prefers-reduced-motion: reduce)').matches ? CALM : WIGGLE);
 
+// visitors: the label for those who only look, in the modes that they need.
 export const MODES = [
-  { name: 'left', label: 'Left eye', parts: () => [{ at: WHOLE, eye: 0 }] },
+  { name: 'left', label: 'Left eye', visitors: 'Flat', parts: () => [{ at: WHOLE, eye: 0 }] },
   { name: 'right', label: 'Right eye', parts: () => [{ at: WHOLE, eye: 1 }] },
   {
     name: 'side-by-side',
-    label: 'Side by side',
+    label: 'Side by side', visitors: '3D side by side',
     parts: () => [{ at: LEFT_HALF, eye: 0 }, { at: RIGHT_HALF, eye: 1 }],
   },
   {
@@ -21,8 +24,8 @@ export const MODES = [
     label: 'Cross-eyed',
     parts: () => [{ at: LEFT_HALF, eye: 1 }, { at: RIGHT_HALF, eye: 0 }],
   },
-  { name: 'anaglyph', label: 'Anaglyph', parts: () => [{ at: WHOLE, show: 'anaglyph' }] },
-  { name: 'wiggle', label: 'Wiggle', moves: true, parts: (now) => [{ at: WHOLE, eye: Math.floor(now / WIGGLE) % 2 }] },
+  { name: 'anaglyph', label: 'Anaglyph', visitors: '3D red and cyan', parts: () => [{ at: WHOLE, show: 'anaglyph' }] },
+  { name: 'wiggle', label: 'Wiggle', visitors: '3D wiggle', moves: true, parts: (now) => [{ at: WHOLE, eye: Math.floor(now / wiggle()) % 2 }] },
   { name: 'difference', label: 'Difference', parts: () => [{ at: WHOLE, show: 'difference' }] },
 ];
 

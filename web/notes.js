@@ -11,7 +11,7 @@ export function showNotes(viewer) {
   const caption = make('p', { id: 'caption' });
   const layer = make('div', { id: 'spots' });
   const card = make('div', { id: 'card', role: 'status', hidden: true });
-  viewer.canvas.after(layer, caption, card);
+  viewer.element.after(layer, caption, card);
   let spots = []; // { spot, buttons: one for each part of the view }
   let open = null;
 
@@ -53,7 +53,7 @@ export function showNotes(viewer) {
     const at = open && parts[0] && placeOf(viewer, open.spot, parts[0]);
     card.hidden = !at;
     if (!at) return;
-    const left = clamp(at[0] - card.offsetWidth / 2, 8, viewer.canvas.clientWidth - card.offsetWidth - 8);
+    const left = clamp(at[0] - card.offsetWidth / 2, 8, viewer.element.clientWidth - card.offsetWidth - 8);
     const above = at[1] - card.offsetHeight - 26;
     card.style.translate = `${left}px ${above > 8 ? above : at[1] + 26}px`;
   };
@@ -62,6 +62,6 @@ export function showNotes(viewer) {
   });
   viewer.addEventListener('change', place);
   viewer.addEventListener('open', fill);
-  new ResizeObserver(place).observe(viewer.canvas);
+  new ResizeObserver(place).observe(viewer.element);
   fill();
 }

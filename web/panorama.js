@@ -4,6 +4,7 @@
 // Draws stereo panoramas with WebGL 2. panorama.glsl finds the texels with the formulas of the renderer itself; this
 // file makes a program of it for each projection, sets its uniforms and contains no formulas.
 import { radians } from './geometry.js';
+import { SHADER } from './shader.js';
 
 const TOE_IN = 1; // number of the kernel's convergence whose lines of sight are not linear across the view
 const CELLS = 16; // cells of the mesh for it, each way
@@ -13,13 +14,6 @@ void main() {
   screen = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
   gl_Position = vec4(screen, 0.0, 1.0);
 }`;
-
-// The text of the shaders, which are beside this module.
-export async function loadShader(base = import.meta.url) {
-  const answer = await fetch(new URL('panorama.glsl', base));
-  if (!answer.ok) throw new Error(`panorama.glsl did not load (${answer.status}). Reload the page.`);
-  return answer.text();
-}
 
 // Starts compiling; some browsers do so in the background until finish() is called.
 function begin(gl, fragment, vertices) {
@@ -44,37 +38,57 @@ function finish(gl, { program, shaders }) {
   return program;
 }
 
-// Half of a view's width, in units of the scale straight ahead, and the angle of view for a half width.
-export const halfWidth = (fov, planet) => (planet ? 2 * Math.tan((fov * Math.PI) / 720) : Math.tan((fov * Math.PI) / 360));
-export const fovOf = (wide, planet) => (planet ? 4 * Math.atan(wide / 2) : 2 * Math.atan(wide)) * (180 / Math.PI);
+// Half of a view's longer side, in units of the scale straight ahead, and the angle of view for such a half side.
+export const halfSide = ({ fov, planet }) => (planet ? 2 * Math.tan((fov * Math.PI) / 720) : Math.tan((fov * Math.PI) / 360));
+export const fovOf = (half, planet) => (planet ? 4 * Math.atan(half / 2) : 2 * Math.atan(half)) * (180 / Math.PI);
+// Half of a view's width. The angle of an upright view is that of its height; of a little planet, always of its width.
+export const halfWidth = (state, aspect) => halfSide(state) * (state.planet ? 1 : Math.min(aspect, 1));
+// The horizontal angle of a view, degrees.
+export const angleAcross = (state, aspect) => fovOf(halfWidth(state, aspect), state.planet);
 // The bend of the stereographic view (panorama.glsl); 0 for other views.
 export const bendOf = ({ planet }) => (planet ? 0.25 : 0);
 
 export const compile = (gl, fragment) => finish(gl, begin(gl, fragment, VERTICES));
 
 // The columns of a matrix that converts a position on the screen (-1..1) to a direction. yaw to the right, pitch up,
-// roll clockwise, in degrees; fov: the horizontal angle of view; aspect: width over height. planet: the view is
-// stereographic.
+// roll clockwise, in degrees; fov: the angle of the view's longer side, so that a phone may be turned; aspect: width over
+// height. planet: the view is stereographic.
 export function raysOf({ yaw = 0, pitch = 0, roll = 0, fov = 90, planet = false }, aspect) {
   const [y, p, r] = [yaw, pitch, roll].map(radians);
   const [sy, cy, sp, cp, sr, cr] = [Math.sin(y), Math.cos(y), Math.sin(p), Math.cos(p), Math.sin(r), Math.cos(r)];
   const right = [cy, 0, sy];
   const up = [-sy * sp, cp, cy * sp];
   const ahead = [sy * cp, sp, -cy * cp];
-  const wide = halfWidth(fov, planet);
+  const wide = halfWidth({ fov, planet }, aspect);
   const mix = (a, b, size) => right.map((x, i) => (x * a + up[i] * b) * size);
   return [...mix(cr, -sr, wide), ...mix(sr, cr, wide / aspect), ...ahead];
 }
 
 export class Panorama {
-  // canvas: where to draw. Throws an Error with advice if there is no WebGL 2.
-  constructor(canvas, shader) {
+  // canvas: where to draw. lost() and restored() are called if the GPU is reset. Throws an Error with advice if there is
+  // no WebGL 2.
+  constructor(canvas = document.createElement('canvas')) {
     const gl = canvas.getContext('webgl2', { alpha: false, antialias: false, depth: false, preserveDrawingBuffer: true });
     if (!gl) throw new Error('This browser has no WebGL 2. Switch on hardware acceleration, or use a newer browser.');
     this.gl = gl;
     this.canvas = canvas;
-    this.shader = shader;
+    canvas.addEventListener('webglcontextlost', (event) => {
+      event.preventDefault();
+      this.lost?.();
+    });
+    canvas.addEventListener('webglcontextrestored', () => {
+      this.start();
+      this.restored?.();
+    });
     this.start();
+  }
+
+  // Frees what belongs to the pictures that were drawn.
+  forget() {
+    this.kept?.source.close(); // picture.js
+    this.maps.forEach((texture) => this.gl.deleteTexture(texture));
+    this.maps.clear();
+    Object.assign(this, { kept: null, lost: null, restored: null });
   }
 
   // Also called after the context was lost with all its objects.
@@ -113,7 +127,7 @@ export class Panorama {
     const key = Object.values(about).join();
     if (!this.programs.has(key)) {
       const defined = Object.entries(about).map(([name, value]) => `#define ODS_${name} ${value}\n`).join('');
-      const text = (more) => this.shader.replace('\n', `\n${defined}${more}`);
+      const text = (more) => SHADER.replace('\n', `\n${defined}${more}`);
       this.programs.set(key, begin(gl, text(''), text('#define ODS_VERTEX\n')));
     }
     return this.programs.get(key);

@@ -151,7 +151,7 @@ async function openLight(panorama, item, form, url, choice, { signal, progress }
 // optional. early(picture): receives a preview of the picture. paging: whether to use pages.js, by default depending on
 // the picture's size. Throws an Error with one line for the user, or an AbortError if `signal` is aborted.
 export async function openPicture(panorama, view, item, { base, choice = {}, ...how } = {}) {
-  const form = formOf(view, item, choice);
+  const form = formOf(item, choice);
   const url = (path, query = {}) => {
     const address = new URL(path, base ?? location.href);
     for (const [name, value] of Object.entries(query)) if (value !== undefined) address.searchParams.set(name, value);

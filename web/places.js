@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Converts between positions on the page and directions. Positions are CSS pixels from the canvas's upper left corner,
+// Converts between positions on the page and directions. Positions are CSS pixels from the upper left corner,
 // directions have yaw and pitch in degrees.
 import { degrees, dot } from './geometry.js';
 import { boxOf, modeOf } from './modes.js';
@@ -10,8 +10,8 @@ import { bendOf, raysOf } from './panorama.js';
 const columns = (rays) => [rays.slice(0, 3), rays.slice(3, 6), rays.slice(6, 9)];
 
 // The parts of the view, each with its eye and its box: left, top, width, height.
-export function partsOf({ canvas, state }) {
-  const scale = canvas.width / canvas.clientWidth;
+export function partsOf({ canvas, element, state }) {
+  const scale = canvas.width / element.clientWidth;
   return modeOf(state.mode).parts(0).map(({ at, eye = 0 }) => {
     const [x, y, width, height] = boxOf(at, canvas);
     return { eye: state.swap ? 1 - eye : eye, box: [x, canvas.height - y - height, width, height].map((pixels) => pixels / scale) };

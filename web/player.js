@@ -4,11 +4,13 @@
 // A viewer with all elements over its picture: bar, settings, help, keys. The page and <stereo-360> each have one.
 import { ACTIONS, actionOf, applies } from './actions.js';
 import { Controls } from './controls.js';
+import { make } from './elements.js';
 import { clamp } from './geometry.js';
 import { followPointer } from './look.js';
-import { MARKUP } from './markup.js';
+import { makeMarkup } from './markup.js';
 import { watchTips } from './tips.js';
 import { Viewer } from './viewer.js';
+import { t } from './translate.js';
 
 const IDLE = 3000; // milliseconds until the bar fades
 const TURN = 6; // degrees per second
@@ -19,24 +21,44 @@ const EXTRAS = {
   sound: () => import('./ambisonics.js'),
 };
 
+const GREETED = 'omnistereo-greeted';
+let greeted = false; // where the browser stores nothing
+
+function wasGreeted() {
+  try {
+    return greeted || Boolean(localStorage.getItem(GREETED));
+  } catch {
+    return greeted;
+  }
+}
+
+function remember() {
+  greeted = true;
+  try {
+    localStorage.setItem(GREETED, '1');
+  } catch { /* then it will be there again */ }
+}
+
 const hasHeadset = async () => Boolean(await navigator.xr?.isSessionSupported('immersive-vr').catch(() => false));
 
 export class Player {
-  // element: contains the canvas #picture and receives the rest. root: its document or shadow root. keys: the element
+  // element: contains #picture, for the viewer, and receives the rest. root: its document or shadow root. keys: the element
   // that receives keys. isPage: the page has no other content, so the wheel belongs to the picture, too. nameOf(item):
-  // its name for users, if any; isSingle(): whether there are no other items to choose.
-  constructor(element, root, { view, shader, base, wanted = {}, keys = element, isPage = false, nameOf = ({ name }) => name, isSingle = () => false }) {
-    Object.assign(this, { element, root, wanted, isPage, keys, nameOf, isSingle });
-    element.insertAdjacentHTML('beforeend', MARKUP);
-    const viewer = new Viewer(this.find('picture'), view, shader, base);
+  // its name for users, if any; isSingle(): whether there are no other items to choose. isVisitors: the bar has what
+  // visitors need, not the tools of the makers of pictures.
+  constructor(element, root, { view, base, wanted = {}, keys = element, isPage = false, isVisitors = false, nameOf = ({ name }) => name, isSingle = () => false }) {
+    Object.assign(this, { element, root, wanted, isPage, isVisitors, keys, nameOf, isSingle });
+    element.append(...makeMarkup());
+    const viewer = new Viewer(this.find('picture'), view, base);
     this.viewer = viewer;
     this.controls = new Controls(this);
-    followPointer(viewer, viewer.canvas, () => isPage || root.activeElement === viewer.canvas || this.isFullscreen());
+    followPointer(viewer, viewer.element, () => isPage || root.activeElement === viewer.element || this.isFullscreen());
     viewer.addEventListener('open', () => this.fail(''));
     viewer.addEventListener('failed', ({ detail }) => this.fail(detail));
     this.watchKeys();
     this.watchIdle();
     this.watchExtras();
+    this.greet();
     watchTips(root);
     hasHeadset().then((has) => {
       root.querySelector('#tools [data-action="headset"]').hidden = !has;
@@ -46,11 +68,6 @@ export class Player {
 
   find(id) {
     return this.root.getElementById(id);
-  }
-
-  // The initial field of view.
-  fov() {
-    return this.element.clientWidth < this.element.clientHeight ? 60 : 90;
   }
 
   toast(words) {
@@ -88,7 +105,7 @@ export class Player {
     try {
       await (await this.loadHeadset()).toggle();
     } catch (error) {
-      this.toast(error.name === 'NotSupportedError' || !navigator.xr ? 'No headset is connected' : `The headset says: ${error.message}`);
+      this.toast(error.name === 'NotSupportedError' || !navigator.xr ? t('No headset is connected') : t('The headset says: {}', error.message));
     }
   }
 
@@ -99,16 +116,33 @@ export class Player {
     link.download = `${this.viewer.about.name.replace(/\.\w+$/, '')} ${Math.round(yaw)} ${Math.round(pitch)}.png`;
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-    return 'Screenshot saved';
+    return t('Screenshot saved');
   }
 
   isFullscreen() {
-    return Boolean(document.fullscreenElement);
+    return Boolean(document.fullscreenElement || this.isFilling);
   }
 
-  toggleFullscreen() {
-    if (this.isFullscreen()) document.exitFullscreen();
-    else (this.isPage ? document.documentElement : this.root.host).requestFullscreen?.().catch(() => {});
+  // 'screen'; 'window', where there is no API for it (iPhones); or nothing, in a frame that may not.
+  fullscreenWay() {
+    if (document.fullscreenEnabled) return 'screen';
+    return this.isPage || window.top !== window ? '' : 'window';
+  }
+
+  async toggleFullscreen() {
+    if (document.fullscreenElement) return document.exitFullscreen();
+    const way = this.fullscreenWay();
+    if (way === 'window') return this.fill(!this.isFilling);
+    const element = this.isPage ? document.documentElement : this.root.host;
+    if (way) return element.requestFullscreen().catch(() => t('The browser refuses full screen'));
+  }
+
+  // Fills the window with the element, or not any more.
+  fill(is) {
+    if (is === Boolean(this.isFilling)) return;
+    this.isFilling = is;
+    this.root.host.toggleAttribute('filling', is);
+    document.documentElement.style.overflow = is ? 'hidden' : '';
   }
 
   async toggleList() {
@@ -145,6 +179,7 @@ export class Player {
     this.keys.addEventListener('keydown', (event) => {
       if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented || this.find('help').open) return;
       const { key } = event;
+      if (key === 'Escape') this.fill(false);
       const target = event.composedPath()[0];
       const takesKeys = target.matches?.('select, textarea, [contenteditable], input:not([type="checkbox"])');
       const isText = key.length === 1 && key !== ' ';
@@ -156,10 +191,28 @@ export class Player {
       if (/^Arrow|^Home/.test(key) || action.id === 'recentre') this.turn(false);
       this.run(action, event);
     });
-    this.viewer.canvas.addEventListener('pointerdown', () => this.turn(false));
+    this.viewer.element.addEventListener('pointerdown', () => this.turn(false));
   }
 
-  // The bar fades without movement, unless a part of it is in use or a drag is held still.
+  // Invites to drag, until the first touch; those who have visited before know it.
+  greet() {
+    const { element, viewer } = this;
+    const hint = this.find('hint');
+    const touches = matchMedia('(pointer: coarse)').matches;
+    const text = touches ? 'Drag to look around, pinch to zoom' : this.isPage ? 'Drag to look around, wheel to zoom, ? for all keys' : 'Drag to look around';
+    hint.append(make('span', { className: 'hand', ariaHidden: 'true', textContent: '☝' }), ` ${t(text)}`);
+    const show = () => (hint.hidden = wasGreeted());
+    const end = () => {
+      viewer.removeEventListener('open', show);
+      this.isTouched = hint.hidden = true;
+      remember();
+    };
+    viewer.addEventListener('open', show);
+    const heard = this.isPage ? document : element;
+    for (const event of ['pointerdown', 'wheel', 'keydown']) heard.addEventListener(event, end, { once: true, passive: true });
+  }
+
+  // The bar fades without movement after the first touch, unless a part of it is in use or a drag is held still.
   watchIdle() {
     const { element } = this;
     let timer;
@@ -167,7 +220,8 @@ export class Player {
       element.classList.remove('idle');
       clearTimeout(timer);
       timer = setTimeout(() => {
-        if (element.querySelector(':popover-open, dialog[open], canvas:active')) return wake();
+        if (element.querySelector(':popover-open, dialog[open], #picture:active')) return wake();
+        if (!this.isTouched) return;
         if (!element.querySelector('#bar, #title').matches(':hover, :has(:focus-visible)')) element.classList.add('idle');
       }, IDLE);
     };
@@ -202,18 +256,18 @@ export class Player {
     const { startCompare } = await import('./compare.js');
     await startCompare(this, pin);
     this.viewer.say('change');
-    return pin ? '' : 'This stays on the right: now choose another picture, or other settings';
+    return pin ? '' : t('This stays on the right: now choose another picture, or other settings');
   }
 
   endCompare() {
     this.viewer.compare?.end();
-    return 'One picture';
+    return t('One picture');
   }
 
   async comfort() {
     if (this.viewer.compare) return this.endCompare();
     const { showComfort } = await import('./compare.js');
-    this.toast('Judging …');
+    this.toast(t('Judging …'));
     return showComfort(this);
   }
 }

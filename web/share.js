@@ -64,8 +64,7 @@ export class Share {
     const { viewer } = player;
     Object.assign(this, { player, viewer, id: Math.random().toString(36).slice(2, 12), clock: 0, known: {}, number: 0, spoke: 0, others: {} });
     Object.assign(this, { follows: true, reel: {}, point: null, heard: new AbortController() });
-    const { canvas } = viewer;
-    const on = (event, run) => canvas.addEventListener(event, run, { signal: this.heard.signal });
+    const on = (event, run) => viewer.element.addEventListener(event, run, { signal: this.heard.signal });
     on('pointerdown', () => this.follow(false));
     on('pointermove', ({ offsetX, offsetY }) => (this.point = directionAt(viewer, offsetX, offsetY)));
     on('pointerleave', () => (this.point = null));
@@ -193,7 +192,7 @@ export class Share {
       this.button = document.createElement('button');
       Object.assign(this.button, { id: 'follow', type: 'button', textContent: 'Follow the headset' });
       this.button.addEventListener('click', () => this.follow(!this.follows));
-      viewer.canvas.after(this.button);
+      viewer.element.after(this.button);
       this.follow(this.follows);
     }
     this.wanted = look;

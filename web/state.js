@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The page's state in its address, so that a link shows exactly its sender's view:
-//   #item=0&yaw=30&pitch=-20&fov=90&mode=left&shift=0.5&swap=1&grid=1&planet=1&layout=..&projection=..&exposure=..&tone=..
-//    &frame=12&layers=1
-// eye=left and eye=right are aliases of mode=. A picture compared with it: beside=1&beside-layout=..
+//   #item=0&name=harbour.jpg&yaw=30&pitch=-20&fov=90&mode=left&shift=0.5&swap=1&grid=1&planet=1&layout=..&projection=..&exposure=..&tone=..
+//    &frame=12&layers=1&controls=all
+// eye=left and eye=right are aliases of mode=. A picture compared with it: beside=1&beside-name=..&beside-layout=..
+// Names count, because numbers change when a file joins the folder.
 const NUMBERS = ['yaw', 'pitch', 'fov', 'shift'];
 const SWITCHES = ['swap', 'grid', 'planet'];
 const CHOICES = ['layout', 'projection', 'tone', 'exposure'];
@@ -26,12 +27,21 @@ export function readState(hash) {
     return choice;
   };
   const whole = (name) => Math.max(0, Math.floor(number(name) ?? 0));
-  const beside = words.has('beside') ? { item: whole('beside'), choice: choiceOf('beside-') } : null;
-  return { item: whole('item'), frame: whole('frame'), layers: words.has('layers'), look, choice: choiceOf(''), beside };
+  const beside = words.has('beside') ? { item: whole('beside'), name: words.get('beside-name') ?? '', choice: choiceOf('beside-') } : null;
+  return { item: whole('item'), name: words.get('name') ?? '', frame: whole('frame'), layers: words.has('layers'), controls: words.get('controls') === 'all', look, choice: choiceOf(''), beside };
 }
 
-export function writeState({ item, frame, layers, look, choice, beside }) {
+// The index of the item that an address names; of its number, if there is no such name.
+export function findItem(items, { item, name }) {
+  const number = Math.min(item, items.length - 1);
+  if (!name || items[number]?.name === name) return number;
+  const found = items.findIndex((each) => each.name === name);
+  return found < 0 ? number : found;
+}
+
+export function writeState({ item, name, frame, layers, controls, look, choice, beside }) {
   const words = [`item=${item}`];
+  if (name) words.push(`name=${encodeURIComponent(name)}`);
   for (const name of NUMBERS) if (look[name] || name !== 'shift') words.push(`${name}=${Math.round(look[name] * 100) / 100}`);
   words.push(`mode=${look.mode}`);
   for (const name of SWITCHES) if (look[name]) words.push(`${name}=1`);
@@ -41,9 +51,11 @@ export function writeState({ item, frame, layers, look, choice, beside }) {
   tell(choice, '');
   if (beside) {
     words.push(`beside=${beside.item}`);
+    if (beside.name) words.push(`beside-name=${encodeURIComponent(beside.name)}`);
     tell(beside.choice, 'beside-');
   }
   if (frame) words.push(`frame=${frame}`);
   if (layers) words.push('layers=1');
+  if (controls) words.push('controls=all');
   return `#${words.join('&')}`;
 }

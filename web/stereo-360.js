@@ -6,49 +6,76 @@
 //   <script src="stereo-360.js"></script>
 //   <stereo-360 src="picture_360_TB.jpg" layout="top-bottom" projection="lat-long"></stereo-360>
 //
-// ods view --export writes it as one classic script. docs/view.md lists attributes, properties, methods and events.
+// The package's README lists attributes, properties, methods and events. An element out of view sleeps: it shows its
+// last frame, and neither the GPU nor the picture's memory is used (contexts.js).
+import { claim, release, settled } from './contexts.js';
+import { make } from './elements.js';
+import { LAYOUTS, PROJECTIONS } from './formats.js';
+import { icon } from './icons.js';
 import { modeOf } from './modes.js';
-import { loadShader } from './panorama.js';
+import { STYLE as PLAYER_STYLE } from './player-style.js';
 import { Player } from './player.js';
+import { FOV } from './viewer.js';
+import { t, useLanguage } from './translate.js';
 
-const STYLE = `
+const STYLE = `${PLAYER_STYLE}
 :host { display: block; position: relative; aspect-ratio: 16 / 9; background: #1a1a1a; overflow: hidden; }
 :host([hidden]) { display: none; }
+:host([filling]) { position: fixed !important; inset: 0 !important; z-index: 2147483647 !important; width: 100vw !important; height: 100dvh !important; max-width: none !important; max-height: none !important; margin: 0 !important; border-radius: 0 !important; aspect-ratio: auto !important; }
 #player { position: absolute; inset: 0; }
 #picture { touch-action: pan-y; }
-:host(:fullscreen) #picture { touch-action: none; }
-#poster { position: absolute; inset: 0; width: 100%; height: 100%; object-fit: cover; }
+:host(:is(:fullscreen, [filling])) #picture { touch-action: none; }
+#poster { position: absolute; inset: 0; width: 100%; height: 100%; object-fit: cover; pointer-events: none; }
 #reveal { position: absolute; inset: 0; margin: auto; width: 76px; height: 76px; padding: 0; border-radius: 50%; background: var(--glass); border: 1px solid var(--edge); color: var(--text); }
 #reveal svg { width: 40px; height: 40px; }
 #again { display: block; margin: 10px auto 0; background: var(--touch); padding: 0 16px; }
-.waiting :is(#bar, #title), .bare :is(#bar, #title) { display: none; }`;
-const VIDEO = /\.(mp4|m4v|mov|webm|mkv)$/i;
+.waiting :is(#bar, #title, #caption, #spots, #hint), .bare :is(#bar, #title) { display: none; }`;
+const VIDEO = /\.(mp4|m4v|mov|webm|mkv|m3u8)$/i;
+const FILES = ['image', 'left', 'right', 'light', 'preview', 'thumbnail', 'poster'];
 const NEAR = '300px'; // distance from the window at which it loads
 const FILE = ['src', 'item', 'layout', 'projection', 'fps'];
 const LOOK = ['mode', 'yaw', 'pitch', 'fov'];
-const BASE = import.meta.url;
 const calm = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
 
-let parts; // the style and the shader, shared by all elements
-const loadParts = () => (parts ??= Promise.all([fetch(new URL('player.css', BASE)).then((answer) => answer.text()), loadShader(BASE)]));
+let sheet; // shared by all elements
+const styleSheet = () => {
+  if (!sheet) (sheet = new CSSStyleSheet()).replaceSync(STYLE);
+  return sheet;
+};
 
-class Stereo360 extends HTMLElement {
+// Pages are also made where there are no elements: on servers.
+export class Stereo360 extends (globalThis.HTMLElement ?? Object) {
   static observedAttributes = [...FILE, ...LOOK, 'poster', 'autorotate', 'controls'];
+  static layouts = LAYOUTS.map(({ name }) => name);
+  static projections = PROJECTIONS.map(({ name }) => name);
 
   connectedCallback() {
     if (!this.shadowRoot) this.build();
-    if (this.player) return this.show();
-    if (this.getAttribute('loading') === 'eager') return this.approach();
-    this.watcher = new IntersectionObserver((entries) => entries.some((entry) => entry.isIntersecting) && this.approach(), { rootMargin: NEAR });
-    this.watcher.observe(this);
+    this.isSeen = false;
+    this.isNear = this.getAttribute('loading') === 'eager';
+    if (this.isNear) this.approach();
+    this.watcher = new IntersectionObserver((entries) => this.moved(entries.at(-1).isIntersecting), { rootMargin: NEAR });
+    this.seeing = new IntersectionObserver((entries) => {
+      this.isSeen = entries.at(-1).isIntersecting;
+      if (this.isSeen) this.approach();
+    });
+    for (const watcher of [this.watcher, this.seeing]) watcher.observe(this);
   }
 
-  // Frees the picture, which may be hundreds of megabytes.
   disconnectedCallback() {
-    this.watcher?.disconnect();
-    const viewer = this.player?.viewer;
-    viewer?.loading?.abort();
-    viewer?.close();
+    for (const watcher of [this.watcher, this.seeing]) watcher.disconnect();
+    this.isNear = this.wasNear = this.isSeen = false;
+    this.player?.fill(false);
+    release(this);
+  }
+
+  // is: whether it is in view, or nearly.
+  moved(is) {
+    if (is) this.isNear = this.wasNear = true;
+    if (is) return this.approach();
+    if (!this.wasNear || this.viewer?.session) return;
+    this.isNear = false;
+    release(this);
   }
 
   attributeChangedCallback(name) {
@@ -58,7 +85,7 @@ class Stereo360 extends HTMLElement {
     if (!this.player) return;
     if (name === 'autorotate') this.player.turn(this.turns());
     if (FILE.includes(name)) this.show();
-    if (LOOK.includes(name)) this.player.viewer.set(this.look());
+    if (LOOK.includes(name)) this.viewer.set(this.look());
   }
 
   number(name, otherwise) {
@@ -68,7 +95,7 @@ class Stereo360 extends HTMLElement {
 
   look() {
     const mode = modeOf(this.getAttribute('mode')).name;
-    return { yaw: this.number('yaw', 0), pitch: this.number('pitch', 0), fov: this.number('fov', 90), mode };
+    return { yaw: this.number('yaw', 0), pitch: this.number('pitch', 0), fov: this.number('fov', FOV), mode };
   }
 
   turns() {
@@ -81,12 +108,11 @@ class Stereo360 extends HTMLElement {
 
   build() {
     const root = this.attachShadow({ mode: 'open' });
-    this.sheet = new CSSStyleSheet();
-    this.sheet.replaceSync(STYLE);
-    root.adoptedStyleSheets = [this.sheet];
-    root.innerHTML = '<div id="player" class="waiting"><canvas id="picture" tabindex="0" role="application"></canvas><img id="poster" alt="" hidden></div>';
-    this.box = root.getElementById('player');
+    root.adoptedStyleSheets = [styleSheet()];
+    this.box = make('div', { id: 'player', className: 'waiting' }, make('div', { id: 'picture', tabIndex: 0, role: 'application' }), make('img', { id: 'poster', alt: '', hidden: true }));
     this.box.classList.toggle('bare', this.getAttribute('controls') === 'none');
+    for (const event of ['pointerenter', 'pointerdown', 'focusin']) this.box.addEventListener(event, () => this.player && claim(this));
+    root.append(this.box);
     this.showPoster();
   }
 
@@ -94,55 +120,85 @@ class Stereo360 extends HTMLElement {
   showPoster(item) {
     const poster = this.shadowRoot.getElementById('poster');
     const src = this.getAttribute('poster') ?? item?.poster;
-    poster.hidden = !src || this.loaded;
+    poster.hidden = !src || Boolean(this.wasShown);
     if (src) poster.src = src;
   }
 
-  // Called when it is in view, or nearly.
+  // Called when it is in view, or nearly: several calls are one.
   approach() {
-    this.watcher?.disconnect();
-    if (this.started) return;
-    this.started = this.start().catch((error) => this.fail(error.message));
+    this.approaching ??= this.prepare().catch((error) => this.fail(error.message)).finally(() => (this.approaching = null));
   }
 
-  async start() {
-    const [style, shader] = await loadParts();
-    this.sheet.replaceSync(style + STYLE);
-    const root = this.shadowRoot;
-    const table = new URL(this.getAttribute('view') ?? new URL('view.json', BASE), document.baseURI);
+  async prepare() {
+    await useLanguage();
+    this.view ??= await this.loadView();
+    if (!this.hasAttribute('src')) this.showPoster(this.view.items[this.number('item', 0)]);
+    if (this.getAttribute('reveal') === 'click' && !this.isRevealed) await this.clicked();
+    if (this.isNear) claim(this);
+  }
+
+  // Items with their addresses: from view.json, which ods view --export writes, or none.
+  async loadView() {
+    if (this.hasAttribute('src') && !this.hasAttribute('view')) return { items: [] };
+    const table = new URL(this.getAttribute('view') ?? new URL('view.json', import.meta.url ?? document.baseURI), document.baseURI);
     const answer = await fetch(table);
     if (!answer.ok) throw new Error(`${table.pathname} did not load (${answer.status}): ods view --export writes it`);
     const view = await answer.json();
-    view.items.forEach((item) => ['image', 'left', 'right', 'light', 'preview', 'thumbnail', 'poster'].forEach((file) => item[file] && (item[file] = new URL(item[file], table).href)));
-    if (!this.hasAttribute('src')) this.showPoster(view.items[this.number('item', 0)]);
-    if (this.getAttribute('reveal') === 'click') await this.clicked();
+    for (const item of view.items) FILES.forEach((file) => item[file] && (item[file] = new URL(item[file], table).href));
+    return view;
+  }
+
+  // Waits until a visitor clicks.
+  async clicked() {
+    const button = make('button', { id: 'reveal', ariaLabel: t('Show the panorama') }, icon('play'));
+    this.box.append(button);
+    await new Promise((done) => button.addEventListener('click', done));
+    button.remove();
+    this.isRevealed = true;
+  }
+
+  // --- called by contexts.js ---
+
+  isBusy() {
+    return this.isLoading || Boolean(this.viewer?.session) || this.box.matches(':hover') || (this.playing && this.isNear);
+  }
+
+  wake(panorama) {
+    this.isLoading = true;
+    if (!this.player) this.start();
+    this.viewer.wake(panorama);
+  }
+
+  sleep() {
+    this.isLoading = false;
+    this.player.turn(false);
+    this.box.classList.add('waiting');
+    return this.viewer.sleep();
+  }
+
+  // --- the panorama ---
+
+  start() {
     const isSingle = () => this.hasAttribute('src') || this.hasAttribute('item');
-    this.player = new Player(this.box, root, { view, shader, base: document.baseURI, nameOf: () => this.ariaLabel ?? '', isSingle });
-    const { viewer } = this.player;
-    this.box.append(root.getElementById('poster'));
+    this.player = new Player(this.box, this.shadowRoot, { view: this.view, base: document.baseURI, nameOf: () => this.ariaLabel ?? '', isSingle, isVisitors: this.getAttribute('controls') !== 'all' });
+    const { viewer } = this;
     viewer.addEventListener('failed', ({ detail }) => this.fail(detail));
     viewer.addEventListener('loading', ({ detail }) => this.say('progress', detail));
     viewer.addEventListener('change', () => this.changed());
     viewer.addEventListener('open', () => this.opened());
     viewer.set(this.look());
     this.say('ready');
-    await this.show();
-  }
-
-  // Waits until a visitor clicks.
-  async clicked() {
-    const button = Object.assign(document.createElement('button'), { id: 'reveal', ariaLabel: 'Show the panorama' });
-    button.innerHTML = '<svg viewBox="0 0 24 24"><path d="M8 5.5v13l10.5-6.5z"/></svg>';
-    this.box.append(button);
-    await new Promise((done) => button.addEventListener('click', done));
-    button.remove();
+    this.show();
   }
 
   opened() {
-    this.shadowRoot.getElementById('poster').hidden = true;
+    this.wasShown = this.shadowRoot.getElementById('poster').hidden = true;
     this.box.classList.remove('waiting');
-    if (!this.viewer.picture.isPreview) this.say('load');
     this.player.turn(this.turns());
+    if (this.viewer.picture.isPreview) return;
+    this.isLoading = false;
+    this.say('load');
+    settled();
   }
 
   changed() {
@@ -157,7 +213,7 @@ class Stereo360 extends HTMLElement {
 
   // The item that `item` or `src` specifies. view.json has more data of its own files than attributes do.
   findItem() {
-    const { items } = this.player.viewer.view;
+    const { items } = this.view;
     const src = this.getAttribute('src');
     if (!src) return this.number('item', 0);
     const image = new URL(src, document.baseURI).href;
@@ -170,10 +226,8 @@ class Stereo360 extends HTMLElement {
   }
 
   async show() {
-    const { viewer } = this.player;
-    const { view } = viewer;
     const choice = {};
-    for (const [what, rows] of [['layout', view.layouts], ['projection', view.projections]]) {
+    for (const [what, rows] of [['layout', LAYOUTS], ['projection', PROJECTIONS]]) {
       const name = this.getAttribute(what);
       if (name && !rows.some((row) => row.name === name)) {
         return this.fail(`There is no ${what} "${name}". There are: ${rows.map((row) => row.name).join(', ')}`);
@@ -181,29 +235,33 @@ class Stereo360 extends HTMLElement {
       if (name) choice[what] = name;
     }
     const item = this.findItem();
-    if (!view.items[item]) return this.fail('There is no such picture. Set src, or item to an index of view.json.');
-    this.showPoster(view.items[item]);
-    await viewer.open(item, choice);
+    if (!this.view.items[item]) return this.fail('There is no such picture. Set src, or item to an index of view.json.');
+    this.showPoster(this.view.items[item]);
+    await this.viewer.open(item, choice);
   }
 
   // Visitors see a hint; the page's author finds the reason in the console and in the event.
   fail(reason) {
     console.warn(`stereo-360: ${reason}`);
+    this.isLoading = false;
     let message = this.shadowRoot.getElementById('message');
-    if (!message) this.box.append((message = Object.assign(document.createElement('p'), { id: 'message', role: 'alert' })));
+    if (!message) this.box.append((message = make('p', { id: 'message', role: 'alert' })));
     const words = /WebGL/.test(reason) ? 'Your browser cannot show this panorama. A newer one can.'
       : /did not load|broke/.test(reason) ? 'This panorama did not load. Check your connection.' : 'This panorama cannot be shown.';
-    message.textContent = words;
+    message.textContent = t(words);
     message.hidden = false;
-    const again = Object.assign(document.createElement('button'), { id: 'again', textContent: 'Try again' });
-    again.addEventListener('click', () => {
-      message.hidden = true;
-      if (this.player) return this.show();
-      parts = this.started = undefined;
-      this.approach();
-    });
+    const again = make('button', { id: 'again', textContent: t('Try again') });
+    again.addEventListener('click', () => this.startAgain());
     message.append(again);
     this.say('error', { message: reason });
+    settled();
+  }
+
+  startAgain() {
+    this.shadowRoot.getElementById('message').hidden = true;
+    release(this);
+    this.view = this.player ? this.view : undefined;
+    this.approach();
   }
 
   // --- for scripts ---
@@ -260,11 +318,11 @@ for (const name of LOOK) {
     set(value) { this.setAttribute(name, value); },
   });
 }
-for (const name of ['src', 'item', 'layout', 'projection', 'fps', 'poster']) {
+for (const name of [...FILE, 'poster']) {
   Object.defineProperty(Stereo360.prototype, name, {
     get() { return this.getAttribute(name); },
     set(value) { value === null ? this.removeAttribute(name) : this.setAttribute(name, value); },
   });
 }
 
-customElements.define('stereo-360', Stereo360);
+if (globalThis.customElements && !customElements.get('stereo-360')) customElements.define('stereo-360', Stereo360);

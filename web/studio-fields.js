@@ -4,6 +4,7 @@
 // The content of the studio's panel: groups of rows. A row has the path of its value in the settings, its label, and
 // either options or a unit, a step (of the displayed number, which is the value times `scale`) and a range for
 // dragging, if the server specifies none; and `when`, for values that do not always apply.
+import { PROJECTIONS } from './formats.js';
 import { valueAt } from './studio-session.js';
 
 const camera = (path) => `sidecar.${path}`;
@@ -13,7 +14,7 @@ const options = (names, words = {}) => names.map((name) => [name, words[name] ??
 
 // The numbers of a projection that are missing in the settings.
 function standardOf(view, { name }) {
-  const { projection } = view.projections.find((each) => each.name === name)?.camera ?? view.projections[0].camera;
+  const { projection } = PROJECTIONS.find((each) => each.name === name)?.camera ?? PROJECTIONS[0].camera;
   const [x, y] = projection.center;
   const [wide, high] = projection.span;
   return {

@@ -3,6 +3,7 @@
 //
 // The studio in the headset: the stick moves the start and the end of the merge, the trigger swaps A and B, and a line
 // of text in view reports it. Called by headset.js.
+import { PROJECTIONS } from './formats.js';
 import { clamp, dot, wrapDegrees } from './geometry.js';
 import { EyeTexture } from './tiles.js';
 
@@ -113,7 +114,7 @@ export class VrSteering {
 
   // A window of the sphere, below the middle of the view.
   picture(texture) {
-    const { camera } = this.studio.page.viewer.view.projections.find(({ name }) => name === 'lat-long');
+    const { camera } = PROJECTIONS.find(({ name }) => name === 'lat-long');
     const high = (WIDE * TEXT[1]) / TEXT[0];
     const window = { ...camera, projection: { ...camera.projection, center: [0, BELOW], span: [WIDE, high] } };
     return { eyes: [texture, texture], camera: window, below: window.projection, mono: true };

@@ -15,7 +15,7 @@ function row(spec, field, reset) {
   field.id = id;
   const label = make('label', { for: id, textContent: spec.label });
   if (spec.about) label.dataset.tip = spec.about;
-  const back = make('button', { type: 'button', className: 'reset', innerHTML: icon('reset'), hidden: true });
+  const back = make('button', { type: 'button', className: 'reset', hidden: true }, icon('reset'));
   back.addEventListener('click', reset);
   return { label, back };
 }

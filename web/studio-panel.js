@@ -24,7 +24,7 @@ export class Panel {
     element.replaceChildren(...groupsOf(view).map((group) => this.group(group)));
     // Placed beside the panel, which may be hidden.
     this.said = make('span', {});
-    const close = make('button', { type: 'button', className: 'small', 'data-tip': 'Close', 'aria-label': 'Close', innerHTML: icon('close') });
+    const close = make('button', { type: 'button', className: 'small', 'data-tip': 'Close', 'aria-label': 'Close' }, icon('close'));
     close.addEventListener('click', () => this.complain(''));
     this.fault = make('div', { id: 'fault', role: 'alert', hidden: true }, this.said, close);
     document.body.append(this.fault);
@@ -41,7 +41,7 @@ export class Panel {
 
   group({ name, open = false, rows, top, bottom }) {
     const body = top ? this.merge(top, bottom) : rows.map((row) => this.row(row));
-    return make('details', { open }, make('summary', { innerHTML: icon('down') }, name), ...body);
+    return make('details', { open }, make('summary', {}, icon('down'), name), ...body);
   }
 
   merge(top, bottom) {

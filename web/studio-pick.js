@@ -19,7 +19,7 @@ const distance = (metres) => (metres < 1 ? `${(metres * 100).toFixed(1)} cm` : `
 // Returns a function that picks the middle.
 export function pickWithClicks(studio) {
   const { viewer } = studio.page;
-  const { canvas } = viewer;
+  const { element } = viewer;
   const mark = make('div', { id: 'pick-mark', hidden: true });
   const card = make('div', { id: 'pick', role: 'status', hidden: true });
   document.body.append(mark, card);
@@ -38,7 +38,7 @@ export function pickWithClicks(studio) {
     // Beside the point, on the side with enough space, and never beyond the picture's edge.
     const [wide, high] = [card.offsetWidth, card.offsetHeight];
     const beside = (at, size, whole) => clamp(at + size + AWAY > whole ? at - size - AWAY : at + AWAY, EDGE, Math.max(whole - size - EDGE, EDGE));
-    put(card, beside(place[0], wide, canvas.clientWidth), beside(place[1], high, canvas.clientHeight - BAR));
+    put(card, beside(place[0], wide, element.clientWidth), beside(place[1], high, element.clientHeight - BAR));
   };
   const row = (name, value) => make('div', {}, make('dt', { textContent: name }), make('dd', { textContent: value }));
   const button = (text, run) => {
@@ -46,7 +46,7 @@ export function pickWithClicks(studio) {
     element.addEventListener('click', run);
     return element;
   };
-  const close = make('button', { type: 'button', className: 'small close', innerHTML: icon('close'), 'aria-label': 'Close', 'data-tip': 'Close', 'data-key': 'Esc' });
+  const close = make('button', { type: 'button', className: 'small close', 'aria-label': 'Close', 'data-tip': 'Close', 'data-key': 'Esc' }, icon('close'));
   close.addEventListener('click', hide);
   const say = (textContent) => card.replaceChildren(make('p', { textContent }), close);
   const tell = (found) => {
@@ -81,10 +81,10 @@ export function pickWithClicks(studio) {
     }
     follow();
   };
-  canvas.addEventListener('pointerdown', (event) => {
+  element.addEventListener('pointerdown', (event) => {
     down = event.isPrimary && !event.button ? { x: event.clientX, y: event.clientY, at: performance.now() } : null;
   });
-  canvas.addEventListener('pointerup', (event) => {
+  element.addEventListener('pointerup', (event) => {
     const from = down;
     down = null;
     if (!from || !viewer.scene || Math.hypot(event.clientX - from.x, event.clientY - from.y) > NEAR || performance.now() - from.at > LONG) return;
@@ -93,7 +93,7 @@ export function pickWithClicks(studio) {
   });
   addEventListener('keydown', (event) => {
     if (event.key !== 'Escape' || !where) return;
-    if (card.contains(document.activeElement)) canvas.focus();
+    if (card.contains(document.activeElement)) element.focus();
     hide();
   });
   viewer.addEventListener('change', follow);

@@ -3,6 +3,7 @@
 //
 // The foot of the studio's panel: the command that makes this picture, rendering it, and saving the camera.
 import { copyText } from './copy.js';
+import { LAYOUTS } from './formats.js';
 import { icon } from './icons.js';
 import { make } from './elements.js';
 import { ENDED, ask, sleep } from './studio-session.js';
@@ -41,6 +42,7 @@ export class RenderFoot {
     save.addEventListener('click', () => this.attempt(async () => {
       await session.settle();
       page.toast(`Camera saved: ${(await ask('save', {})).file}`);
+      session.send(true); // the command names the files that were saved
     }));
     this.bar = make('progress', { max: 1, value: 0, 'aria-label': 'Rendering' });
     this.text = make('output', {});
@@ -60,7 +62,7 @@ export class RenderFoot {
     });
     this.note = make('p', { className: 'note', hidden: true });
     const more = make('div', { className: 'more', id: 'render-more', hidden: true }, make('div', { className: 'command' }, this.command, copy), this.note, form);
-    const open = make('button', { type: 'button', className: 'small unfold', innerHTML: icon('down'), 'aria-controls': more.id, 'aria-expanded': 'false', 'aria-label': 'File, size, command', 'data-tip': 'File, size, command' });
+    const open = make('button', { type: 'button', className: 'small unfold', 'aria-controls': more.id, 'aria-expanded': 'false', 'aria-label': 'File, size, command', 'data-tip': 'File, size, command' }, icon('down'));
     open.addEventListener('click', () => {
       more.hidden = !more.hidden;
       open.ariaExpanded = String(!more.hidden);
@@ -79,7 +81,7 @@ export class RenderFoot {
   }
 
   layouts() {
-    return this.studio.page.viewer.view.layouts.filter(({ name }) => name !== 'mono').map(({ name }) => make('option', { value: name, textContent: name }));
+    return LAYOUTS.filter(({ name }) => name !== 'mono').map(({ name }) => make('option', { value: name, textContent: name }));
   }
 
   update() {

@@ -7,6 +7,7 @@ import { ACTIONS } from './actions.js';
 import { nameButtons } from './controls.js';
 import { icon } from './icons.js';
 import { modeOf } from './modes.js';
+import { angleAcross } from './panorama.js';
 import { VrSteering } from './studio-headset.js';
 import { Live } from './studio-live.js';
 import { make } from './elements.js';
@@ -48,13 +49,13 @@ class Studio {
 
   build() {
     const { page, page: { viewer } } = this;
-    const button = (action, name, className = 'small') => make('button', { type: 'button', className, 'data-action': action, innerHTML: icon(name) });
+    const button = (action, name, className = 'small') => make('button', { type: 'button', className, 'data-action': action }, icon(name));
     this.sideButtons = SIDES.map((name, i) => {
       const each = make('button', { type: 'button', className: 'small', textContent: name, 'data-tip': `Settings ${name}`, 'data-key': 'B' });
       each.addEventListener('click', () => page.toast(this.choose(i)));
       return each;
     });
-    this.back = make('button', { type: 'button', className: 'back', innerHTML: `${icon('previous')} Back to the scene`, hidden: true });
+    this.back = make('button', { type: 'button', className: 'back', hidden: true }, icon('previous'), ' Back to the scene');
     this.back.addEventListener('click', () => this.showScene());
     this.status = make('output', { className: 'status' });
     this.rows = make('div', { className: 'rows' });
@@ -191,7 +192,7 @@ class Studio {
   look() {
     const { state, canvas, session } = this.page.viewer;
     const aspect = canvas.width / this.halves() / canvas.height;
-    return (session && this.headLook) || { yaw: state.yaw, pitch: state.pitch, fov: state.fov, aspect };
+    return (session && this.headLook) || { yaw: state.yaw, pitch: state.pitch, fov: angleAcross(state, aspect), aspect };
   }
 
   async watchLook() {

@@ -1,50 +1,97 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A canvas that shows an item of view.json, with the open picture, the look, and the drawing. It contains no controls.
+// Shows an item of view.json in an element, with the open picture, the look, and the drawing. It contains no controls.
+// It draws on the canvas of a panorama (panorama.js), which it has while it is awake; asleep, it shows its last frame.
 // Events: `change` (the state, or the video's), `loading` (detail: 0..1, null at the end), `open`, `failed` (detail:
-// one line for users).
+// one line for users), `sleep`.
 import { clamp, radians, wrapDegrees } from './geometry.js';
 import { boxOf, modeOf } from './modes.js';
 import { Pace } from './pace.js';
-import { Panorama, raysOf } from './panorama.js';
+import { raysOf } from './panorama.js';
 import { openPicture } from './picture.js';
 
 const REST = 150; // milliseconds without movement until the view is drawn exactly
+const STILL = 960; // pixels: the widest last frame that is kept
 const KEEP = 64e6; // texels: a smaller picture stays on screen until the next one is loaded
 
-// The widest field of view.
+// The first field of view, and the widest.
+export const FOV = 90;
 export const widest = ({ planet }) => (planet ? 330 : 150);
 
 export class Viewer extends EventTarget {
-  // base: the address that view.json's addresses are relative to.
-  constructor(canvas, view, shader, base) {
+  // element: contains the canvas, and hears of pointers and keys; its position is not static. base: the address that
+  // view.json's addresses are relative to.
+  constructor(element, view, base) {
     super();
-    Object.assign(this, { canvas, view, base, picture: null, item: -1, session: null });
-    this.state = { yaw: 0, pitch: 0, roll: 0, fov: 90, mode: 'left', swap: false, grid: false, planet: false, shift: 0 };
+    Object.assign(this, { element, view, base, panorama: null, picture: null, item: -1, session: null });
+    this.state = { yaw: 0, pitch: 0, roll: 0, fov: FOV, mode: 'left', swap: false, grid: false, planet: false, shift: 0 };
     this.compare = null; // compare.js
     this.scene = null; // the studio's live scene, shown instead of an item
     this.choice = {}; // layout, projection, exposure, tone, if they differ from the item
-    this.panorama = new Panorama(canvas, shader);
     this.pace = new Pace();
     this.waiting = false;
     this.settling = null; // a token of the exact drawing in progress
-    this.watch();
+    this.canvas = this.still = this.place(document.createElement('canvas'));
+    new ResizeObserver(() => this.resize()).observe(element);
   }
 
-  watch() {
-    const { canvas } = this;
-    new ResizeObserver(() => this.resize()).observe(canvas);
-    canvas.addEventListener('webglcontextlost', (event) => {
-      event.preventDefault();
+  place(canvas) {
+    Object.assign(canvas.style, { position: 'absolute', inset: 0, width: '100%', height: '100%' });
+    this.element.prepend(canvas); // below the last frame
+    return canvas;
+  }
+
+  // Draws on a panorama's canvas from now on, and opens the item again, at the time at which its video stopped.
+  async wake(panorama) {
+    const { slept } = this;
+    this.panorama = panorama;
+    this.canvas = this.place(panorama.canvas);
+    panorama.lost = () => {
       this.picture = null;
       this.say('failed', 'The GPU was reset. The picture returns by itself; if it does not, reload the page.');
-    });
-    canvas.addEventListener('webglcontextrestored', () => {
-      this.panorama.start();
-      if (this.item >= 0) this.open(this.item, this.choice);
-    });
+    };
+    panorama.restored = () => this.item >= 0 && this.open(this.item, this.choice);
     this.resize();
+    if (this.item < 0) return;
+    await this.open(this.item, this.choice);
+    const { video } = this.picture ?? {};
+    if (!slept || !video) return;
+    this.picture.seek(slept.time);
+    this.picture.loop(slept.loops);
+    video.muted = slept.muted;
+    if (slept.playing) video.play().catch(() => {});
+  }
+
+  // Frees the picture and returns the panorama, for another viewer.
+  sleep() {
+    const { panorama, picture } = this;
+    if (!panorama) return null;
+    const video = picture?.video;
+    this.slept = video && { time: video.currentTime, playing: !video.paused, muted: video.muted, loops: picture.loops };
+    this.loading?.abort();
+    clearTimeout(this.rest);
+    this.settling = null;
+    this.compare?.end();
+    if (picture) this.keepFrame();
+    this.close();
+    this.panorama = null;
+    this.canvas.remove();
+    this.canvas = this.still;
+    panorama.forget();
+    this.say('sleep');
+    this.say('change');
+    return panorama;
+  }
+
+  keepFrame() {
+    const { canvas, still } = this;
+    this.fit();
+    this.paint(performance.now(), { moves: true }); // the open picture may not have been drawn yet
+    const scale = Math.min(1, STILL / canvas.width);
+    [still.width, still.height] = [canvas.width, canvas.height].map((side) => Math.ceil(side * scale));
+    still.getContext('2d').drawImage(canvas, 0, 0, still.width, still.height);
+    this.element.append(still);
   }
 
   say(name, detail) {
@@ -52,16 +99,17 @@ export class Viewer extends EventTarget {
   }
 
   resize() {
+    if (!this.panorama) return;
     if (this.picture) this.draw(performance.now());
     else this.fit();
   }
 
   // An emulated headset draws into the canvas, whose size must then not change. Returns whether it has changed.
   fit(part = 1) {
-    const { canvas } = this;
+    const { canvas, element } = this;
     if (this.session) return false;
     const scale = part * (window.devicePixelRatio || 1);
-    const size = [canvas.clientWidth, canvas.clientHeight].map((pixels) => Math.max(1, Math.round(pixels * scale)));
+    const size = [element.clientWidth, element.clientHeight].map((pixels) => Math.max(1, Math.round(pixels * scale)));
     if (canvas.width === size[0] && canvas.height === size[1]) return false;
     [canvas.width, canvas.height] = size;
     return true;
@@ -80,10 +128,11 @@ export class Viewer extends EventTarget {
   }
 
   redraw() {
-    if (this.waiting) return;
+    if (this.waiting || !this.panorama) return;
     this.waiting = true;
     requestAnimationFrame((now) => {
       this.waiting = false;
+      if (!this.panorama) return;
       this.draw(now);
       requestAnimationFrame((next) => this.pace.took(next - now));
       if (modeOf(this.state.mode).moves && !this.session) this.redraw();
@@ -92,12 +141,13 @@ export class Viewer extends EventTarget {
 
   // Draws quickly, and exactly as soon as nothing moves.
   draw(now) {
-    if (this.session) return;
+    if (this.session || !this.panorama) return;
     this.settling = null;
     clearTimeout(this.rest);
     this.fit(this.pace.how.scale);
     this.picture?.refresh?.();
     this.paint(now, { moves: true, cheap: this.pace.how.cheap });
+    if (this.picture) this.still.remove();
     for (const { pager } of this.pictures()) pager?.follow(this.parts(now), now);
     if (this.picture) this.rest = setTimeout(() => this.settle(), REST);
   }
@@ -166,6 +216,7 @@ export class Viewer extends EventTarget {
   // Opens an item by its index; a load in progress is aborted. Does not throw: fires `open` or `failed`.
   async open(item, choice = {}) {
     this.loading?.abort();
+    if (!this.panorama) return Object.assign(this, { item, choice });
     const loading = (this.loading = new AbortController());
     const texels = this.picture?.eyes.reduce((sum, eye) => sum + eye.size[0] * eye.size[1], 0);
     if (item !== this.item && texels > KEEP) this.close();
@@ -233,8 +284,10 @@ export class Viewer extends EventTarget {
 
   // The canvas as a PNG.
   async screenshot() {
-    this.fit();
-    this.paint(performance.now(), {});
+    if (this.panorama) {
+      this.fit();
+      this.paint(performance.now(), {});
+    }
     return new Promise((done) => (this.compare?.shown() ?? this.canvas).toBlob(done));
   }
 }

@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "cli/console/console.h"
+#include "ods/base/quote.h"
 #include "ods/files/atomic_file.h"
 #include "ods/files/atomic_folder.h"
 #include "ods/files/file_input.h"
@@ -53,18 +55,45 @@ void write_script_beside(const std::string& path) {
                    std::filesystem::path(path).filename().native()));
 }
 
-void write_page(const std::string& folder, const std::string& view) {
-  for (const char* const name :
-       {"index.html", "style.css", "player.css", "example.html", "example.css", "example.js"}) {
+// The page with its title, what a link to it shows, and what is there without scripts.
+std::string index_page(const std::vector<ViewItem>& items, const PageTexts& texts) {
+  std::string page(ods::find_page_file("index.html")->data);
+  if (items.empty()) return page;
+  const auto replace = [&page](std::string_view part, const std::string& text) {
+    page.replace(page.find(part), part.size(), text);
+  };
+  const ViewItem& first = items.front();
+  const std::string name = std::filesystem::path(first.name).stem().native();
+  const std::string about = ods::xml_text(first.notes.caption.empty() ? name : first.notes.caption);
+  const std::string title = texts.title.empty() ? about : ods::xml_text(texts.title);
+  const std::string poster = ods::item_file(0, ods::kPosterFile), file = item_files(first, 0).front();
+  replace(R"(lang="en")", fmt::format(R"(lang="{}")", texts.language));
+  replace("<title>Omnistereo</title>",
+          fmt::format("<title>{0}</title>\n<meta name=\"description\" content=\"{1}\">\n"
+                      "<meta name=\"theme-color\" content=\"#1a1a1a\">\n"
+                      "<meta property=\"og:type\" content=\"website\">\n<meta property=\"og:title\" content=\"{0}\">\n"
+                      "<meta property=\"og:description\" content=\"{1}\">\n"
+                      "<meta property=\"og:image\" content=\"{2}\">\n"
+                      "<meta name=\"twitter:card\" content=\"summary_large_image\">",
+                      title, about, poster));
+  replace("<noscript>The picture needs JavaScript.</noscript>",
+          fmt::format("<noscript><a href=\"{}\"><img src=\"{}\" alt=\"{}\" width=\"100%\"></a></noscript>", file,
+                      poster, title));
+  return page;
+}
+
+void write_page(const std::vector<ViewItem>& items, const PageTexts& texts, const std::string& folder) {
+  ods::write_file(folder + "/index.html", index_page(items, texts));
+  for (const char* const name : {"style.css", "player.css", "example.html", "example.css", "example.js"}) {
     ods::write_file(folder + "/" + name, std::string(ods::find_page_file(name)->data));
   }
   for (const char* const entry : {"main.js", "stereo-360.js"}) {
-    ods::write_file(folder + "/" + entry, ods::bundle(entry, {{"view.json", view}}));
+    ods::write_file(folder + "/" + entry, ods::bundle(entry));
   }
 }
 
 // The page and view.json come last: they list the other files.
-void write_site(const std::vector<ViewItem>& items, const std::string& folder) {
+void write_site(const std::vector<ViewItem>& items, const PageTexts& texts, const std::string& folder) {
   for (size_t i = 0; i < items.size(); i++) {
     std::vector<std::string> files = item_files(items[i], i);
     if (items[i].has_own_file) copy_file(items[i].path, folder + "/" + files[0]);
@@ -76,9 +105,9 @@ void write_site(const std::vector<ViewItem>& items, const std::string& folder) {
     }
     for (const std::string& file : files) write_script_beside(folder + "/" + file);
   }
-  const std::string view = view_json(items, false, {});
-  write_page(folder, view);
-  ods::write_file(folder + "/view.json", view);
+  write_page(items, texts, folder);
+  ods::write_file(folder + "/view.json", view_json(items, false, {}));
+  write_script_beside(folder + "/view.json");
 }
 
 // Messages name files of the draft by their final names.
@@ -91,10 +120,19 @@ std::string with_final_names(const ods::AtomicFolder& site, std::string text) {
 
 }  // namespace
 
-std::string export_site(const std::vector<ViewItem>& items, const std::string& folder) {
+std::vector<std::string> page_languages() {
+  std::vector<std::string> languages = {"en"};
+  for (const ods::PageFile& file : ods::page_files()) {
+    if (file.name.starts_with("translations-")) languages.emplace_back(file.name.substr(13, 2));
+  }
+  std::ranges::sort(languages);
+  return languages;
+}
+
+std::string export_site(const std::vector<ViewItem>& items, const std::string& folder, const PageTexts& texts) {
   ods::AtomicFolder site(folder);
   try {
-    write_site(items, site.draft());
+    write_site(items, texts, site.draft());
     site.commit();
   } catch (const ods::Error& error) {
     throw ods::Error(error.kind(), with_final_names(site, error.what()));

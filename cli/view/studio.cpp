@@ -272,7 +272,7 @@ WebAnswer Studio::set(const std::string& body) {
   const Settings wanted = read_settings(body);
   if (wanted.environment != settings_.environment || wanted.variant != settings_.variant) {
     SceneSource source = source_;
-    source.light.environment = environment_of(wanted.environment);
+    source.light.environment = environment_of(wanted.environment, false);
     source.variant = wanted.variant;
     open(source, false);
   }
@@ -282,16 +282,17 @@ WebAnswer Studio::set(const std::string& body) {
   command.insert(command.begin(), "ods");
   const std::string end = ods::name_end(settings_.live.camera.projection, settings_.sidecar.layout);
   command.insert(command.end(), {"-o", stem() + end});
-  const bool has_maps =
-      std::ranges::find_if(command, [](const std::string& word) { return word.ends_with("-map"); }) != command.end();
-  const char* const note = has_maps ? "Save camera writes the maps that this command reads" : "";
+  const std::string missing = missing_files(command);
+  const std::string note =
+      missing.empty() ? "" : fmt::format("This command reads {}: Save camera writes what it reads", missing);
   return json_answer({{"revision", revision}, {"command", ods::shell_line(command)}, {"note", note}, {"end", end}});
 }
 
 // The command that renders the page's view: with the names of files that the user knows, or with their paths here, and
 // without the quality and the output. maps: as camera_arguments().
 std::vector<std::string> Studio::words(const std::string& maps, bool is_shown) const {
-  std::vector<std::string> words = {"render", is_shown ? title() : source_.name};
+  std::vector<std::string> words = {"render", source_.name};
+  if (is_shown && !dropped_scene_.path.empty()) words[1] = dropped_scene_.shown();
   const auto add = [&](const char* option, const std::string& value) { words.insert(words.end(), {option, value}); };
   if (!source_.scene.empty()) add("--scene", source_.scene);
   if (!settings_.variant.empty()) add("--variant", settings_.variant);
@@ -306,7 +307,7 @@ std::vector<std::string> Studio::words(const std::string& maps, bool is_shown) c
   add_member("--light-unit", ods::kLampUnitTable, source_.light.lamp_unit);
   if (!source_.confine.empty() && !is_shown) add("--confine", source_.confine);
   if (settings_.environment != "auto") {
-    add("--env", is_shown ? settings_.environment : environment_of(settings_.environment));
+    add("--env", environment_of(settings_.environment, is_shown));
   }
   if (!source_.light.lamp.empty()) add("--lamp", source_.light.lamp);
   if (!source_.light.background.empty()) add("--background", source_.light.background);

@@ -51,8 +51,10 @@ class Studio {
 
   // A file that was dropped onto the page.
   struct Drop {
-    std::string name;  // the name that the user knows
-    std::string path;  // ours; empty: none
+    std::string name;       // the name that the user knows
+    std::string path;       // ours; empty: none
+    std::string kept = {};  // the copy that Save camera wrote; empty: none
+    const std::string& shown() const { return kept.empty() ? name : kept; }
   };
 
   Settings read_settings(const std::string& text) const;
@@ -61,7 +63,8 @@ class Studio {
   static Settings suiting(const SceneSource& source, const ods::Scene& scene);
   void open(const SceneSource& source, bool is_new);
   std::string title() const;
-  std::string environment_of(const std::string& word) const;
+  std::string environment_of(const std::string& word, bool is_shown) const;
+  std::string missing_files(const std::vector<std::string>& command) const;
   std::string without_paths(std::string text) const;
   std::vector<std::string> words(const std::string& maps, bool is_shown) const;
   std::string stem() const;
@@ -76,6 +79,7 @@ class Studio {
   WebAnswer status() const;
   WebAnswer drop(const WebRequest& request);
   static void discard(const Drop& drop);
+  static void keep(Drop& drop);
   WebAnswer drop_camera(const std::string& name, const std::string& path);
 
   std::atomic<int> waiting_{0};  // for a frame

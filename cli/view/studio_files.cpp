@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "cli/console/console.h"
@@ -28,6 +30,21 @@ std::string plain_name(const std::string& given) {
   return name;
 }
 
+bool has_same_bytes(const std::string& one, const std::string& other) {
+  namespace fs = std::filesystem;
+  if (!fs::is_regular_file(fs::symlink_status(one)) || fs::file_size(one) != fs::file_size(other)) return false;
+  using Bytes = std::istreambuf_iterator<char>;
+  std::ifstream a(one, std::ios::binary), b(other, std::ios::binary);
+  return std::equal(Bytes(a), Bytes(), Bytes(b), Bytes());
+}
+
+// Returns false if something has the name already.
+bool copy_as_new(const std::string& from, const std::string& to) {
+  const ods::PrivateFolder folder(".ods-view-");
+  std::filesystem::copy_file(from, folder.path() + "/copy");
+  return ods::rename_as_new(folder.path() + "/copy", to);
+}
+
 }  // namespace
 
 // The name of the scene that the user knows.
@@ -35,10 +52,24 @@ std::string Studio::title() const {
   return dropped_scene_.path.empty() ? source_.name : dropped_scene_.name;
 }
 
-// The value of --env for a choice of the page.
-std::string Studio::environment_of(const std::string& word) const {
-  if (!dropped_light_.path.empty() && word == dropped_light_.name) return dropped_light_.path;
+// The value of --env for a choice of the page. is_shown: as for words().
+std::string Studio::environment_of(const std::string& word, bool is_shown) const {
+  if (!dropped_light_.path.empty() && word == dropped_light_.name) {
+    return is_shown ? dropped_light_.shown() : dropped_light_.path;
+  }
   return word == "auto" ? "" : word;
+}
+
+// The files that a command for the user reads, and that are not in his folder until Save camera writes them.
+std::string Studio::missing_files(const std::vector<std::string>& command) const {
+  std::vector<std::string> files;
+  for (const Drop* const drop : {&dropped_scene_, &dropped_light_}) {
+    const bool is_read = std::ranges::find(command, drop->name) != command.end();
+    if (is_read && !drop->path.empty() && drop->kept.empty()) files.push_back(drop->name);
+  }
+  const auto is_map = [](const std::string& word) { return word.ends_with("-map"); };
+  if (std::ranges::any_of(command, is_map)) files.emplace_back("maps");
+  return fmt::format("{}", fmt::join(files, " and "));
 }
 
 // A message for the page, without names of our own files: they mean nothing to its user, and would reveal paths of this
@@ -60,6 +91,17 @@ std::string Studio::without_paths(std::string text) const {
 void Studio::discard(const Drop& drop) {
   std::error_code ignored;
   if (!drop.path.empty()) std::filesystem::remove(drop.path, ignored);
+}
+
+// Copies a dropped file into the folder where ods view was started, unless its bytes are there under its name.
+void Studio::keep(Drop& drop) {
+  if (drop.path.empty() || !drop.kept.empty()) return;
+  const std::filesystem::path plain(drop.name.find_first_not_of("-.") == 0 ? drop.name : "dropped-" + drop.name);
+  for (int i = 1; drop.kept.empty(); i++) {
+    const std::string end = plain.extension().string();
+    const std::string name = i == 1 ? plain.string() : fmt::format("{}-{}{}", plain.stem().string(), i, end);
+    if (has_same_bytes(name, drop.path) || copy_as_new(drop.path, name)) drop.kept = name;
+  }
 }
 
 WebAnswer Studio::drop_camera(const std::string& name, const std::string& path) {
@@ -138,5 +180,6 @@ WebAnswer Studio::save() {
       throw UsageError(fmt::format("'{}' exists by now: try again", name + end));
   }
   saved_ = name;
+  for (Drop* const drop : {&dropped_scene_, &dropped_light_}) keep(*drop);
   return json_answer({{"file", saved_ + ".camera.json"}});
 }

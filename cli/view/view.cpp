@@ -90,7 +90,7 @@ void serve(const ViewJob& job) {
 void view(ViewJob job) {
   find_scene(job);
   if (job.folder.empty()) return serve(job);
-  announce_file(export_site(open_items(job), job.folder));
+  announce_file(export_site(open_items(job), job.folder, job.texts));
 }
 
 }  // namespace

@@ -23,10 +23,10 @@ namespace {
 
 constexpr const char* kViewExamples =
     "  ods view picture_360_TB.png\n"
-    "  ods view film_360_TB.mp4 other.exr folder/\n"
+    "  ods view video_360_TB.mp4 other.exr folder/\n"
     "  ods view picture.png --lan\n"
     "  ods view scene.glb                        the studio: the scene, rendered while you look\n"
-    "  ods view picture_360_TB.png --export site/";
+    "  ods view picture_360_TB.png --export site/ --title \"The harbour\" --lang de";
 
 constexpr const char* kViewSummary =
     "Shows stereo 360 pictures and videos around you: in the browser, and with one click in the headset. --lan is for\n"
@@ -97,6 +97,8 @@ ViewJob parse_view(Options& options) {
   options.flag("--no-browser", stay, "only print the address");
   options.text("--export", ValueKind::output_folder(), job.folder,
                "write the viewer and the files into this folder instead");
+  options.text("--title", "TEXT", job.texts.title, "with --export: what the page and links to it are called");
+  options.text("--lang", "LANGUAGE", job.texts.language, "with --export: the page's language: en, de or fr");
   options.group("Console");
   add_console_options(options);
   options.parse();
@@ -104,6 +106,12 @@ ViewJob parse_view(Options& options) {
   if (job.keep_secret && !job.lan) throw UsageError("--keep-secret is for --lan: other addresses are kept anyway");
   if (!job.folder.empty() && (job.lan || job.port)) {
     throw UsageError("--export serves nothing: leave --lan and --port out");
+  }
+  const bool has_texts = !job.texts.title.empty() || job.texts.language != PageTexts().language;
+  if (has_texts && job.folder.empty()) throw UsageError("--title and --lang are for --export");
+  const std::vector<std::string> languages = page_languages();
+  if (std::ranges::find(languages, job.texts.language) == languages.end()) {
+    throw UsageError(fmt::format("--lang must be one of {}", fmt::join(languages, ", ")));
   }
   finish_lens_options(job.known);
   job.browser = !stay;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/console/options.h"
+#include "cli/view/export_site.h"
 #include "ods/view/view_item.h"
 
 struct ViewJob {
@@ -15,6 +16,7 @@ struct ViewJob {
   std::string scene;  // for the studio; empty: none
   ods::FormatHint known;
   std::string folder;  // to export to; empty: serve
+  PageTexts texts;     // of the export
   bool lan = false;
   bool keep_secret = false;  // with lan: the address is the same the next time
   bool browser = true;

@@ -62,7 +62,7 @@ std::optional<size_t> item_number(const std::string& path) {
 }  // namespace
 
 ViewSite::ViewSite(std::vector<ViewItem> items, const std::optional<SceneSource>& scene)
-    : host_(scene ? ods::PageHost::kStudio : ods::PageHost::kView), script_(ods::bundle("main.js", {}, host_)) {
+    : host_(scene ? ods::PageHost::kStudio : ods::PageHost::kView), script_(ods::bundle("main.js", host_)) {
   for (const ViewItem& item : items) add(item);
   if (!scene) return;
   studio_ =

@@ -87,16 +87,19 @@ Modules first_of(const std::string& entry, PageHost host) {
 
 }  // namespace
 
-std::string bundle(const std::string& entry, std::map<std::string, std::string> files, PageHost host) {
+std::string bundle(const std::string& entry, PageHost host, ScriptKind kind) {
   Modules all = first_of(entry, host);
   if (host == PageHost::kFolder) add_later(host, all);
-  const std::string& modules = all.script;
-  for (const char* const name : {"panorama.glsl", "player.css"}) {
-    if (modules.find(name) != std::string::npos) files[name] = find_page_file(name)->data;
+  const std::string script = std::string(find_page_file("bundle.js")->data) + all.script;
+  constexpr std::string_view kMade = "// Made by Omnistereo from its modules.\n";
+  if (kind == ScriptKind::kClassic) {
+    return fmt::format("{}(() => {{\n'use strict';\nconst $base = document.currentScript?.src;\n{}}})();\n", kMade,
+                       script);
   }
-  return fmt::format("// Made by ods view from its modules.\n(() => {{\n'use strict';\nconst $files = {};{}{}}})();\n",
-                     Json(files).dump(-1, ' ', true, Json::error_handler_t::replace),
-                     "\n" + std::string(find_page_file("bundle.js")->data), modules);
+  const std::string exported =
+      fmt::format("{}", fmt::join(names_in(std::string(find_page_file(entry)->data), kExport, 3), ", "));
+  return fmt::format("{}const $base = import.meta.url;\n{}export const {{ {} }} = $modules['{}'];\n", kMade, script,
+                     exported, entry);
 }
 
 std::string bundle_later(PageHost host) {
@@ -104,7 +107,7 @@ std::string bundle_later(PageHost host) {
   modules.script.clear();
   add_later(host, modules);
   return fmt::format(
-      "// Made by ods view from its modules.\nwindow.omnistereoLater = ($modules, $load, $base, fetch) => {{\n"
+      "// Made by Omnistereo from its modules.\nwindow.omnistereoLater = ($modules, $load, $base, fetch) => {{\n"
       "'use strict';\n{}}};\n",
       modules.script);
 }

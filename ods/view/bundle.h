@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The page without ES modules, which browsers do not load from disk, and load one by one from servers: a module and all
-// that it imports as one classic script, with the files that they fetch in it (web/bundle.js).
+// The page as one script: browsers load no ES modules from disk, and load them one by one from servers. A module and
+// all that it imports become one script (web/bundle.js).
 #pragma once
-#include <map>
 #include <string>
 
 namespace ods {
@@ -12,10 +11,12 @@ namespace ods {
 // The host that answers the page. Code that only other hosts need is left out of the script.
 enum class PageHost { kFolder, kView, kStudio };
 
-// entry: a module of the page, main.js. files: by their names, besides the page's own files: view.json. A folder's
-// script has everything; a server's script has the code for the first view, and loads later.js when it needs more.
-std::string bundle(const std::string& entry, std::map<std::string, std::string> files,
-                   PageHost host = PageHost::kFolder);
+// What loads the script: <script src>, or import.
+enum class ScriptKind { kClassic, kModule };
+
+// entry: a module of the page, main.js. A folder's script has everything; a server's script has the code for the first
+// view, and loads later.js when it needs more. A script of kModule exports what its entry exports.
+std::string bundle(const std::string& entry, PageHost host = PageHost::kFolder, ScriptKind kind = ScriptKind::kClassic);
 
 // Returns later.js, which a server's main.js loads.
 std::string bundle_later(PageHost host);

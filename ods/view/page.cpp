@@ -2,17 +2,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/view/page.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string>
 
+#include "ods/base/json_reader.h"
+#include "ods/base/quote.h"
 #include "ods/base/text.h"
+#include "ods/view/formats.h"
 
 namespace ods {
 
-const PageFile* find_page_file(std::string_view name) {
-  const auto files = page_files();
+static const PageFile* find_in(std::span<const PageFile> files, std::string_view name) {
   const auto file = std::ranges::find(files, name, &PageFile::name);
   return file == files.end() ? nullptr : &*file;
+}
+
+static std::string text_module(const char* constant, std::string_view file) {
+  const std::string text(find_in(page_files(), file)->data);
+  return fmt::format("export const {} = {};\n", constant, json_document(text));
+}
+
+const PageFile* find_page_file(std::string_view name) {
+  static const std::string formats = formats_module(), shader = text_module("SHADER", "panorama.glsl"),
+                           lookup = text_module("LOOKUP", "lookup.glsl"), style = text_module("STYLE", "player.css");
+  static const PageFile kMade[] = {
+      {"formats.js", formats}, {"shader.js", shader}, {"lookup.js", lookup}, {"player-style.js", style}};
+  const PageFile* const made = find_in(kMade, name);
+  return made ? made : find_in(page_files(), name);
 }
 
 std::string_view media_type(std::string_view name) {
@@ -24,6 +43,7 @@ std::string_view media_type(std::string_view name) {
       {".html", "text/html; charset=utf-8"},
       {".css", "text/css; charset=utf-8"},
       {".js", "text/javascript; charset=utf-8"},
+      {".mjs", "text/javascript; charset=utf-8"},
       {".frag", "text/plain; charset=utf-8"},
       {".glsl", "text/plain; charset=utf-8"},
       {".json", "application/json"},

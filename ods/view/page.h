@@ -15,7 +15,9 @@ struct PageFile {
 
 std::span<const PageFile> page_files();
 
-// Returns null if the page has no such file.
+// Returns null if the page has no such file. Besides the files of web/ there are modules of constants, so that scripts
+// need not fetch them: formats.js (ods/view/formats.h), shader.js (SHADER, the text of panorama.glsl), lookup.js (LOOKUP,
+// lookup.glsl) and player-style.js (STYLE, player.css).
 const PageFile* find_page_file(std::string_view name);
 
 // Returns the media type for a file of this name, by its extension; application/octet-stream if that is unknown.

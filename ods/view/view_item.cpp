@@ -17,6 +17,7 @@
 #include "ods/video/container/video_file.h"
 #include "ods/video/video_input.h"
 #include "ods/view/camera_json.h"
+#include "ods/view/formats.h"
 
 namespace ods {
 
@@ -115,37 +116,6 @@ bool has_preview(const ViewItem& item, bool is_live) {
   return !is_live || format_of_path(item.path) == FileFormat::kJpeg;
 }
 
-// The place of an eye in a file with both eyes: the fractions at which it begins, and its size.
-static std::array<double, 4> eye_part(Layout layout, int eye_count, int index) {
-  const Extent eye{2, 2}, whole = packed_size(layout, eye, eye_count);
-  const EyeCorner corner = eye_count == 1 ? EyeCorner() : eye_corner(layout, eye, index);
-  const auto part = [](int n, int of) { return static_cast<double>(n) / of; };
-  return {part(corner.x, whole.width), part(corner.y, whole.height), part(eye.width, whole.width),
-          part(eye.height, whole.height)};
-}
-
-static Json layouts() {
-  Json list = Json::array();
-  const Json whole = eye_part(Layout::kSeparate, 1, 0);
-  list.push_back({{"name", "mono"}, {"left", whole}, {"right", whole}});
-  for (const Layout layout : kLayouts) {
-    if (!arrangement_of(layout).is_halves()) continue;
-    list.push_back(
-        {{"name", layout_name(layout)}, {"left", eye_part(layout, 2, 0)}, {"right", eye_part(layout, 2, 1)}});
-  }
-  return list;
-}
-
-static Json projections() {
-  Json list = Json::array();
-  for (const NamedProjection& named : named_projections()) {
-    StereoCamera camera;
-    camera.projection = named.setting;
-    list.push_back({{"name", named.name}, {"summary", named.summary}, {"camera", camera_json(make_camera(camera))}});
-  }
-  return list;
-}
-
 static Json item_json(const ViewItem& item, size_t index, bool is_live) {
   const std::vector<std::string> files = item_files(item, index);
   const bool is_mono = item.picture.eyes.size() == 1 || item.picture.front_and_back;
@@ -183,9 +153,7 @@ static Json item_json(const ViewItem& item, size_t index, bool is_live) {
 }
 
 std::string view_json(std::span<const ViewItem> items, bool is_live, const Json& studio) {
-  Json json = {{"items", Json::array()}, {"layouts", layouts()}, {"projections", projections()},
-               {"tones", Json::array()}, {"live", is_live},      {"studio", studio}};
-  for (const ToneCurve tone : kToneCurves) json["tones"].push_back(tone_curve_name(tone));
+  Json json = {{"items", Json::array()}, {"live", is_live}, {"studio", studio}};
   for (size_t i = 0; i < items.size(); i++) json["items"].push_back(item_json(items[i], i, is_live));
   return json_document(json);
 }

@@ -35,8 +35,7 @@ struct ViewItem {
 ViewItem open_view_item(const std::string& path, const FormatHint& known = {},
                         std::optional<PictureReader> reader = {});
 
-// Returns the page's view.json: items, and the layouts, projections and tone curves that can be chosen for them.
-// is_live: eyes are sent by a server, which can develop them again. studio: of the studio, or null.
+// Returns the page's view.json: items, and the studio. is_live: eyes are sent by a server, which can develop them again. studio: of the studio, or null.
 std::string view_json(std::span<const ViewItem> items, bool is_live, const Json& studio);
 
 // The name under which view.json refers to a file of an item, relative to itself: item/0/NAME.

@@ -14,19 +14,26 @@ using namespace ods;
 // Browsers run it as a classic script: page_browser_test does. Here, that nothing of modules is left in it.
 TEST(Bundle, IsNoModule) {
   for (const char* const entry : {"main.js", "stereo-360.js"}) {
-    const std::string script = bundle(entry, {{"view.json", "{\"a\": \"</script>\"}"}});
+    const std::string script = bundle(entry);
     for (const char* const word : {"\nimport ", "\nexport ", "import(", "import.meta"}) {
       EXPECT_EQ(script.find(word), std::string::npos) << entry << ": " << word;
     }
-    EXPECT_NE(script.find(R"("view.json":"{\"a\": \"</script>\"}")"), std::string::npos) << entry;
     EXPECT_EQ(script.find("studio-panel"), std::string::npos) << entry;
   }
+}
+
+// In Node, with which sites are made, it imports, too: page_browser_test and web_package_test do so.
+TEST(Bundle, IsAModuleWhereThatIsWanted) {
+  const std::string script = bundle("stereo-360.js", PageHost::kFolder, ScriptKind::kModule);
+  EXPECT_NE(script.find("\nexport const { Stereo360 } = $modules['stereo-360.js'];\n"), std::string::npos);
+  EXPECT_NE(script.find("\nconst $base = import.meta.url;\n"), std::string::npos);
+  EXPECT_EQ(script.find("currentScript"), std::string::npos);
 }
 
 // A server's script has what only a server answers.
 TEST(Bundle, HasWhatItsHostAnswers) {
   const auto has = [](PageHost host, const char* module) {
-    return bundle("main.js", {}, host).find(std::string("$modules['") + module + "'] = (") != std::string::npos;
+    return bundle("main.js", host).find(std::string("$modules['") + module + "'] = (") != std::string::npos;
   };
   for (const PageHost host : {PageHost::kFolder, PageHost::kView, PageHost::kStudio}) {
     EXPECT_TRUE(has(host, "viewer.js"));
@@ -45,9 +52,9 @@ TEST(Bundle, WhatIsWantedLaterIsInAScriptOfItsOwn) {
     }
     return names;
   };
-  const std::set<std::string> folder = modules_in(bundle("main.js", {}));
+  const std::set<std::string> folder = modules_in(bundle("main.js"));
   for (const PageHost host : {PageHost::kView, PageHost::kStudio}) {
-    const std::set<std::string> first = modules_in(bundle("main.js", {}, host)), later = modules_in(bundle_later(host));
+    const std::set<std::string> first = modules_in(bundle("main.js", host)), later = modules_in(bundle_later(host));
     for (const std::string& name : folder) EXPECT_EQ(first.count(name) + later.count(name), 1u) << name;
     EXPECT_TRUE(first.contains("viewer.js") && later.contains("compare.js") && later.contains("headset-panel.js") &&
                 later.contains("share.js"));
@@ -57,7 +64,7 @@ TEST(Bundle, WhatIsWantedLaterIsInAScriptOfItsOwn) {
 
 // The imports of a module are made before it.
 TEST(Bundle, ModulesComeBehindWhatTheyImport) {
-  const std::string script = bundle("main.js", {});
+  const std::string script = bundle("main.js");
   const std::regex use(R"(\$modules\['([\w.-]+)'\];)");
   size_t count = 0;
   for (std::sregex_iterator each(script.begin(), script.end(), use), end; each != end; ++each, ++count) {

@@ -14,7 +14,7 @@
 // { page: NAME } a test of page-test.js, { panel: NAME } a part of headset-test.js.
 import { Headset } from './headset.js';
 import { Pace } from './pace.js';
-import { Panorama, compile, loadShader, raysOf } from './panorama.js';
+import { Panorama, compile, raysOf } from './panorama.js';
 import { openPicture } from './picture.js';
 import { Viewer } from './viewer.js';
 
@@ -31,10 +31,18 @@ function makeCanvas({ width, height }) {
   return canvas;
 }
 
+function makeViewer(view, { width, height }) {
+  const element = document.body.appendChild(document.createElement('div'));
+  Object.assign(element.style, { position: 'relative', width: `${width}px`, height: `${height}px` });
+  const viewer = new Viewer(element, view, location.href);
+  viewer.wake(new Panorama());
+  return viewer;
+}
+
 let drawing; // one for all pictures: software compiles the shader for seconds
 
-async function draw(view, shader, { item, choice, width, height, looks, paging }) {
-  drawing ??= new Panorama(makeCanvas({ width, height }), shader);
+async function draw(view, { item, choice, width, height, looks, paging }) {
+  drawing ??= new Panorama(makeCanvas({ width, height }));
   const panorama = drawing;
   const { canvas } = panorama;
   Object.assign(canvas, { width, height });
@@ -91,9 +99,9 @@ function flatten(gl, cubes, target, [width, height]) {
 
 // Plays the browser's part of the WebXR Layers API, which no browser has without a headset: one texture for both eyes, or a
 // cube map for each.
-async function layOut(view, shader, { item, layers: name, cube }) {
+async function layOut(view, { item, layers: name, cube }) {
   const { EyeLayers } = await import('./layers.js');
-  const panorama = new Panorama(makeCanvas({ width: 64, height: 64 }), shader);
+  const panorama = new Panorama(makeCanvas({ width: 64, height: 64 }));
   const { gl } = panorama;
   const texture = gl.createTexture();
   let asked;
@@ -153,7 +161,7 @@ function orient(quaternion, { yaw = 0, pitch = 0 }) {
   quaternion.set(cy * sp, sy * cp, -sy * sp, cy * cp);
 }
 
-async function wear(view, shader, job) {
+async function wear(view, job) {
   // The runtime makes the canvas as large as the window.
   Object.defineProperties(window, { innerWidth: { value: job.width }, innerHeight: { value: job.height } });
   const { XRDevice, metaQuest3 } = await import('./iwer.module.js');
@@ -163,8 +171,8 @@ async function wear(view, shader, job) {
   device.stereoEnabled = true;
   device.fovy = Math.PI / 2;
   device.position.set(3, 1.6, -2); // which must not matter
-  const canvas = makeCanvas(job);
-  const viewer = new Viewer(canvas, view, shader, location.href);
+  const viewer = makeViewer(view, job);
+  const { canvas } = viewer;
   await viewer.open(job.item, job.choice);
   if (!viewer.picture) throw new Error('the picture did not open');
   const headset = new Headset(viewer, {});
@@ -220,10 +228,10 @@ function testPace() {
 }
 
 // The viewer draws quickly at first, and at rest exactly what one exact drawing shows; a movement interrupts it.
-async function rest(view, shader, { item }) {
+async function rest(view, { item }) {
   testPace();
-  const canvas = makeCanvas({ width: 200, height: 150 });
-  const viewer = new Viewer(canvas, view, shader, location.href);
+  const viewer = makeViewer(view, { width: 200, height: 150 });
+  const { canvas } = viewer;
   const settled = () => new Promise((done) => viewer.addEventListener('settled', done, { once: true }));
   const pixels = () => {
     const { gl } = viewer.panorama;
@@ -252,8 +260,8 @@ async function run() {
   if (jobs[0]?.page) return (await import('./page-test.js')).testPage(jobs[0]);
   if (jobs[0]?.panel) return (await import('./headset-test.js')).testHeadset(jobs[0].panel);
   if (jobs[0]?.studio) return (await import('./studio-test.js')).testStudio();
-  const [view, shader] = [await json('view.json'), await loadShader(location.href)];
-  for (const job of jobs) await (job.headset ? wear : job.rest ? rest : job.layers ? layOut : draw)(view, shader, job);
+  const view = await json('view.json');
+  for (const job of jobs) await (job.headset ? wear : job.rest ? rest : job.layers ? layOut : draw)(view, job);
 }
 
 run().then(() => post('done', 'ok'), (error) => post('done', `${error.message}\n${error.stack}`));

@@ -8,7 +8,7 @@ import { Headset } from './headset.js';
 import { TEXT } from './headset-controls.js';
 import { DISTANCE } from './headset-panel.js';
 import { plus } from './headset-room.js';
-import { loadShader } from './panorama.js';
+import { Panorama } from './panorama.js';
 import { placeOf, partsOf } from './places.js';
 import { Share } from './share.js';
 import { Viewer } from './viewer.js';
@@ -33,10 +33,10 @@ async function until(is, what, step = () => sleep(20)) {
 }
 
 async function makeViewer(size) {
-  const canvas = document.createElement('canvas');
-  Object.assign(canvas.style, { width: `${size[0]}px`, height: `${size[1]}px`, display: 'block' });
-  document.body.append(canvas);
-  const viewer = new Viewer(canvas, await (await fetch('view.json')).json(), await loadShader(location.href), location.href);
+  const element = document.body.appendChild(document.createElement('div'));
+  Object.assign(element.style, { position: 'relative', width: `${size[0]}px`, height: `${size[1]}px` });
+  const viewer = new Viewer(element, await (await fetch('view.json')).json(), location.href);
+  viewer.wake(new Panorama());
   return viewer;
 }
 
@@ -283,6 +283,18 @@ async function testFilm(wearer, item) {
   await until(() => !picture.video.paused, 'plays');
   await wearer.click('play');
   await until(() => picture.video.paused, 'pauses');
+  await wearer.click('play');
+  await until(() => !picture.video.paused, 'plays again');
+  wearer.device.updateVisibilityState('hidden');
+  await until(() => picture.video.paused, 'pauses when the headset is taken off');
+  wearer.device.updateVisibilityState('visible');
+  await until(() => !picture.video.paused, 'plays when it is put on again');
+  picture.video.pause();
+  for (const state of ['hidden', 'visible']) {
+    wearer.device.updateVisibilityState(state);
+    await until(() => wearer.headset.session.visibilityState === state, `is ${state}`);
+  }
+  expect(picture.video.paused, 'what the wearer paused plays when the headset is put on');
   return 'ok';
 }
 
@@ -395,11 +407,11 @@ async function testMirror(wearer) {
   Object.defineProperty(prototype, 'framebuffer', own);
   [canvas.width, canvas.height] = SMALL;
   await wearer.wait(200);
-  const { left, top, width, height } = canvas.getBoundingClientRect();
-  canvas.dispatchEvent(new PointerEvent('pointermove', { clientX: left + width / 2, clientY: top + height / 2 }));
+  const { left, top, width, height } = viewer.element.getBoundingClientRect();
+  viewer.element.dispatchEvent(new PointerEvent('pointermove', { clientX: left + width / 2, clientY: top + height / 2 }));
   expect(Math.abs(headset.marker.yaw - 25) < 0.5 && Math.abs(headset.marker.pitch - 10) < 0.5, 'the wearer sees nothing of the desk’s pointer');
   await wearer.send('marker');
-  canvas.dispatchEvent(new PointerEvent('pointerleave'));
+  viewer.element.dispatchEvent(new PointerEvent('pointerleave'));
   expect(!headset.marker, 'the mark stays');
   headset.mark({ yaw: 0, pitch: 0, eye: 'left' });
   await wearer.wait(4500);
@@ -474,7 +486,7 @@ async function testStudio() {
 async function testSharedSettings({ viewer, headset }, session) {
   const other = { settings: structuredClone(session.settings), use: (settings) => (other.settings = settings) };
   const desk = {
-    item: -1, choice: {}, state: {}, view: viewer.view, canvas: document.createElement('canvas'), picture: null,
+    item: -1, choice: {}, state: {}, view: viewer.view, element: document.createElement('div'), picture: null,
     set: (state) => Object.assign(desk.state, state), steering: { studio: { session: other } },
   };
   const shares = [new Share({ viewer, headset }), new Share({ viewer: desk, headset: { mark() {} } })];
@@ -517,8 +529,7 @@ function testLies(viewer, headset) {
 async function openPage() {
   const page = new DOMParser().parseFromString(await (await fetch('index.html')).text(), 'text/html');
   document.body.append(...page.body.childNodes);
-  const canvas = document.querySelector('canvas#picture, #player canvas');
-  if (canvas) Object.assign(canvas.style, { width: '160px', height: '90px' });
+  Object.assign(document.getElementById('picture').style, { position: 'relative', width: '160px', height: '90px' });
   document.body.append(Object.assign(document.createElement('script'), { src: 'main.js' })); // no module
   await until(() => window.omnistereo?.viewer.picture, 'opens the page');
   return window.omnistereo;
@@ -550,15 +561,15 @@ async function testSharing(items) {
   await until(() => viewer.item === 2 && viewer.picture, 'loads what the desk loads', () => wearer.frames());
   const direction = { yaw: 50, pitch: -10 };
   const [x, y] = placeOf(desk, direction, partsOf(desk)[0]);
-  const { left, top } = desk.canvas.getBoundingClientRect();
+  const { left, top } = desk.element.getBoundingClientRect();
   const move = new PointerEvent('pointermove', { clientX: left + x, clientY: top + y });
   await until(() => {
-    desk.canvas.dispatchEvent(move);
+    desk.element.dispatchEvent(move);
     return headset.marker && Math.abs(headset.marker.yaw - 50) < 1 && Math.abs(headset.marker.pitch + 10) < 1;
   }, 'marks what the desk points at', () => wearer.frames());
-  desk.canvas.dispatchEvent(new PointerEvent('pointerleave'));
+  desk.element.dispatchEvent(new PointerEvent('pointerleave'));
   await until(() => !headset.marker, 'forgets what the desk pointed at', () => wearer.frames());
-  desk.canvas.dispatchEvent(new PointerEvent('pointerdown'));
+  desk.element.dispatchEvent(new PointerEvent('pointerdown'));
   wearer.look({ yaw: -60 });
   await wearer.wait(700);
   expect(Math.abs(desk.state.yaw - 40) < 1, 'who looks elsewhere is taken along');

@@ -3,6 +3,7 @@
 //
 // The page and <stereo-360> in a browser, as visitors and scripts use them. testPage(name) throws what is wrong.
 // src/ has the page's own modules; the rest is an exported site.
+import { testElements } from './element-test.js';
 import { listen } from './src/ambisonics.js';
 
 const sleep = (time) => new Promise((done) => setTimeout(done, time));
@@ -53,10 +54,10 @@ function pixelOf(canvas, x, y) {
 
 // --- the page -------------------------------------------------------------------------------------------------------
 
-async function openPage(hash = '') {
+async function openPage(hash = '#controls=all') {
   location.hash = hash;
   await Promise.all([load('link', { rel: 'stylesheet', href: 'src/style.css' }), load('link', { rel: 'stylesheet', href: 'src/player.css' })]);
-  document.body.insertAdjacentHTML('beforeend', '<div id="player"><canvas id="picture" tabindex="0"></canvas></div>');
+  document.body.insertAdjacentHTML('beforeend', '<div id="player"><div id="picture" tabindex="0"></div></div>');
   await import('./src/main.js');
   await until(() => window.omnistereo?.viewer.picture || !(find('message')?.hidden ?? true), 'opens a picture');
   expect(window.omnistereo?.viewer.picture, find('message')?.textContent);
@@ -83,6 +84,17 @@ function testTips(player) {
     press('Escape', swap);
     expect(!find('tip').matches(':popover-open'), 'Escape leaves the tooltip');
   });
+}
+
+// Links name what they show: numbers change when a file joins the folder.
+async function testLinks(player) {
+  const { findItem, readState } = await import('./src/state.js');
+  await until(() => /item=0&name=waves_360_TB.png&/.test(location.hash), 'names its item in its address');
+  const items = ['a.png', 'b, c & d.png', 'e.png', 'b, c & d.png'].map((name) => ({ name }));
+  const to = (hash) => findItem(items, readState(hash));
+  expect(to('#item=0&name=b%2C+c+%26+d.png') === 1 && to('#item=3&name=b,%20c%20%26%20d.png') === 3, 'a name does not count');
+  expect(to('#item=2') === 2 && to('#item=2&name=gone.png') === 2 && to('#item=9') === 3, 'a number does not help');
+  expect(player.viewer.item === 0, 'another item is open');
 }
 
 async function testDegrees(player) {
@@ -335,9 +347,10 @@ const isScheme = (scheme) => expect(matchMedia(`(prefers-color-scheme: ${scheme}
 
 async function testThePage() {
   isScheme('dark');
-  const player = await openPage('#yaw=0&shift=0');
+  const player = await openPage('#yaw=0&shift=0&controls=all');
   await testHint(player);
   await testTips(player);
+  await testLinks(player);
   await testDegrees(player);
   await testNotes(player);
   await testPlanet(player);
@@ -473,7 +486,7 @@ async function testStudioPage() {
   await until(() => find('pick').textContent.includes('2.00 m'), 'picks by the keyboard');
   expect(find('pick').contains(document.activeElement), 'what can be done with it is not next');
   press('Escape', document.activeElement);
-  expect(find('pick').hidden && document.activeElement === viewer.canvas, 'Escape does not lead back');
+  expect(find('pick').hidden && document.activeElement === viewer.element, 'Escape does not lead back');
   press('x');
   await until(() => viewer.compare && studio.session.sides[1], 'compares A and B');
   press('Home', find('divider'));
@@ -535,7 +548,7 @@ async function testElement() {
   press('s', document.body);
   expect(element.viewer.state.swap, 'it takes the keys of the page');
   const wheel = new WheelEvent('wheel', { deltaY: 100, cancelable: true });
-  element.viewer.canvas.dispatchEvent(wheel);
+  element.viewer.element.dispatchEvent(wheel);
   expect(!wheel.defaultPrevented && element.fov === 60, 'it takes the wheel of the page');
   element.remove();
   expect(!element.loaded, 'it keeps its picture');
@@ -632,6 +645,9 @@ async function testSound() {
   expect(Math.abs(10 * Math.log10(power(fromLeft) / power(fromAhead))) < 4, 'directions differ in loudness');
 }
 
-const TESTS = { page: testThePage, light: testLight, phone: testPhone, video: testVideo, studio: testStudioPage, 'studio-phone': testStudioPhone, element: testElement, aframe: testAframe, three: testThree, sound: testSound };
+const TESTS = { page: testThePage, light: testLight, phone: testPhone, video: testVideo, studio: testStudioPage, 'studio-phone': testStudioPhone, element: testElement, elements: ({ test }) => testElements(test), aframe: testAframe, three: testThree, sound: testSound };
 
-export const testPage = (job) => TESTS[job.page](job);
+export async function testPage(job) {
+  if (job.page === 'elements') for (const i of [1, 2]) await load('script', { src: `stereo-360.js?${i}` }); // twice
+  return TESTS[job.page](job);
+}

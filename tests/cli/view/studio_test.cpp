@@ -410,6 +410,19 @@ TEST_F(StudioCommand, TakesFileAfterFileThatIsDropped) {
     EXPECT_NE(set["command"].get<std::string>().find("--env " + std::string(light)), std::string::npos) << set;
     frame_of(set["revision"], "base", 160);
   }
+  // The command is exact: what it reads is in the user's folder after Save camera, and it says so before.
+  folder.write("second.glb", "another scene of this name");
+  Json settings = Json::parse(body_of(drop("sky.hdr", folder.read("sky.hdr"))))["settings"];
+  settings["width"] = 64;
+  EXPECT_EQ(asked("set", settings)["note"],
+            "This command reads second.glb and sky.hdr: Save camera writes what it reads");
+  EXPECT_EQ(status_of(post("studio/save", "{}")), 200);
+  const Json set = asked("set", settings);
+  EXPECT_EQ(set["note"], "");
+  EXPECT_EQ(folder.read("second.glb"), "another scene of this name");
+  EXPECT_EQ(folder.read("second-2.glb"), triangle());
+  EXPECT_FALSE(std::filesystem::exists("sky-2.hdr")) << "it was there already";
+  EXPECT_EQ(run(set["command"].get<std::string>().substr(4) + " -q --quality preview"), 0) << set << err;
   for (const char* bad : {"bad.glb", "bad.zip", "bad.hdr", "bad.exr"}) {
     EXPECT_EQ(status_of(drop(bad, "glTF, or so it says")), 400) << bad;
     EXPECT_EQ(shown()["scene"], "second.glb");

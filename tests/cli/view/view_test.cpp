@@ -451,6 +451,24 @@ TEST_F(ViewOptions, ExportIsAFolderOfItsOwn) {
   }
 }
 
+// A page for those who have never heard of ods.
+TEST_F(ViewOptions, AnExportHasATitleAndALanguage) {
+  const std::string picture = folder.path("a_360_TB.png"), site = folder.path("site");
+  ASSERT_EQ(run("testcard -q --width 128 -o " + picture), 0) << err;
+  ASSERT_EQ(run("view -q " + picture + " --export " + site + " --title A\"<b>\"&B --lang de"), 0) << err;
+  const std::string page = folder.read("site/index.html");
+  for (const char* part : {"<html lang=\"de\">", "<title>A&quot;&lt;b&gt;&quot;&amp;B</title>",
+                           "<meta property=\"og:image\" content=\"item/0/poster.jpg\">",
+                           "<noscript><a href=\"item/0/picture.png\"><img src=\"item/0/poster.jpg\""}) {
+    EXPECT_NE(page.find(part), std::string::npos) << part << page;
+  }
+  ASSERT_EQ(run("view -q " + picture + " --export " + site), 0) << err;
+  EXPECT_NE(folder.read("site/index.html").find("<title>a_360_TB</title>"), std::string::npos);
+  EXPECT_EQ(run("view -q " + picture + " --export " + site + " --lang tlh"), 2);
+  EXPECT_NE(err.find("--lang must be one of de, en, fr"), std::string::npos) << err;
+  EXPECT_EQ(run("view -q " + picture + " --title T"), 2);
+}
+
 // A picture that opens, and turns out to be damaged when it is decoded.
 TEST_F(ViewOptions, AFailedExportChangesNothing) {
   const std::string picture = folder.path("a_360_TB.png"), broken = folder.path("b_360_TB.exr"),
