@@ -117,8 +117,7 @@ ProjectJob parse_project(Options& options) {
 }
 
 void project(const ProjectJob& job) {
-  const auto& [given, points, pixel, json] = job;
-  CameraSource source = given;
+  CameraSource source = job.source;
   const Sidecar file = read_camera_source(source);
   const Camera camera = make_camera(file.camera);
   const auto print = [&](std::string word) {
@@ -126,15 +125,15 @@ void project(const ProjectJob& job) {
         word.begin(), word.end(), [](char c) { return c == ' ' || c == '\t'; }, ',');
     const vec3 point = parse_point("a point", word);
     const std::vector<Found> all = find(file, camera, point);
-    if (json) {
+    if (job.json) {
       put_out(ods::json_document(to_json(point, all)) + "\n");
     } else {
       print_text(point, all);
     }
   };
-  if (!pixel.empty()) print_point_of(pixel, file, camera, json);
-  for (const std::string& word : points) print(word);
-  if (!points.empty() || !pixel.empty()) return;
+  if (!job.pixel.empty()) print_point_of(job.pixel, file, camera, job.json);
+  for (const std::string& word : job.points) print(word);
+  if (!job.points.empty() || !job.pixel.empty()) return;
   if (isatty(STDIN_FILENO)) throw UsageError("which points? ods project X,Y,Z, or lines of X,Y,Z on stdin");
   for (std::string line; std::getline(std::cin, line);) {
     if (!line.empty()) print(line);

@@ -32,11 +32,11 @@ constexpr int kMaxWidth = 2048;  // of judged pictures
 // The colours of an eye: the nearest pixels.
 Image colors_of(const StoredPicture& picture, size_t eye, Extent size) {
   Image light(size.width, size.height, 3);
-  const auto [eye_width, eye_height] = picture.size;
+  const Extent stored = picture.size;
   read_colors(picture, eye, [&](int from, const std::vector<float>& row) {
-    const int y = static_cast<int>(int64_t{from} * size.height / eye_height);
+    const int y = static_cast<int>(int64_t{from} * size.height / stored.height);
     for (int x = 0; x < size.width; x++) {
-      std::copy_n(&row[3 * static_cast<size_t>(int64_t{x} * eye_width / size.width)], 3, light.at(x, y));
+      std::copy_n(&row[3 * static_cast<size_t>(int64_t{x} * stored.width / size.width)], 3, light.at(x, y));
     }
   });
   return light;

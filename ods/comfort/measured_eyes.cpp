@@ -185,7 +185,9 @@ std::optional<MeasuredEyes> measure_eyes(const std::vector<Image>& eyes, const S
     horizon.insert(horizon.end(), rows[static_cast<size_t>(row)].begin(), rows[static_cast<size_t>(row)].end());
   }
   const double pixel = 2.0 * pi / aligned.views[0].width;
-  const auto [meeting, full] = stance_of(horizon, 0.5 * double{seen.camera.ipd}, pixel);
+  const Stance stance = stance_of(horizon, 0.5 * double{seen.camera.ipd}, pixel);
+  const double meeting = stance.meeting;
+  const Circle& full = stance.circle;
   if (!(full.radius > 0.0)) return std::nullopt;
   const auto circle_at = [&](int row) {
     const SightedRow& seen_there = rows[static_cast<size_t>(row)];

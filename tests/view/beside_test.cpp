@@ -56,7 +56,7 @@ TEST_F(Beside, TooMuchIsRefused) {
   EXPECT_NE(fault(spots(1, R"({"text": "a"})")).find("hotspots.0.title must be text"), std::string::npos);
   EXPECT_NE(fault(spots(1, R"({"title": "a", "pitch": 91})")).find("hotspots.0.pitch"), std::string::npos);
   for (const auto& [key, maximum] : {std::pair{"title", 100}, {"text", 1000}}) {
-    const auto with = [&](int count) {
+    const auto with = [&, key = key](int count) {
       const std::string text(static_cast<size_t>(count), 'x'), other = key == std::string("text") ? "title" : "text";
       return spots(1, fmt::format(R"({{"{}": "{}", "{}": "a"}})", key, text, other));
     };
