@@ -265,7 +265,7 @@ const timer = setInterval(async () => {
   const int bytes = std::atoi(end.c_str());
   fmt::print("{}\n", end);
   EXPECT_GT(bytes, 20'000) << end;
-  EXPECT_LE(bytes, 42'000) << end;
+  EXPECT_LE(bytes, 43'000) << end;
   EXPECT_NE(end.find("main.js; later 1, true"), std::string::npos) << end;
 }
 
@@ -288,7 +288,7 @@ TEST(Page, IsSmallOnTheWire) {
              element, view, studio, later);
   EXPECT_LE(page, 70'000u);
   EXPECT_LE(element, 70'000u);
-  EXPECT_LE(view, 42'000u);
+  EXPECT_LE(view, 43'000u);
   EXPECT_LE(studio, 67'000u);
   EXPECT_LE(later, 35'000u);
 }
