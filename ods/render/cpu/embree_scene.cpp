@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <new>
 #include <vector>
 
@@ -197,11 +198,24 @@ static void write_positions(const Scene& scene, const Mesh& mesh, uint key, cons
   }
 }
 
+struct ReleaseGeometry {
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+
+using Geometry = std::unique_ptr<RTCGeometryTy, ReleaseGeometry>;
+
+static Geometry new_geometry(RTCDevice device, RTCGeometryType type) {
+  Geometry geometry(rtcNewGeometry(device, type));
+  if (!geometry) throw std::bad_alloc();
+  return geometry;
+}
+
 // Makes an Embree geometry of a mesh's triangles. placed: the instance whose matrix transforms copies of the vertices,
 // or null. chosen: some rays do not meet all of its triangles.
-static RTCGeometry make_geometry(RTCDevice device, const Scene& scene, const Mesh& mesh, const Instance* placed,
-                                 bool chosen) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+static Geometry make_geometry(RTCDevice device, const Scene& scene, const Mesh& mesh, const Instance* placed,
+                              bool chosen) {
+  Geometry owner = new_geometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  RTCGeometry geometry = owner.get();
   const uint keys = key_count(scene, mesh.motion);
   rtcSetGeometryTimeStepCount(geometry, keys);
   for (uint key = 0; key < keys; key++) {
@@ -225,7 +239,7 @@ static RTCGeometry make_geometry(RTCDevice device, const Scene& scene, const Mes
   }
   rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
   rtcCommitGeometry(geometry);
-  return geometry;
+  return owner;
 }
 
 static RTCScene new_scene(RTCDevice device) {
@@ -250,17 +264,16 @@ static void set_transform(RTCGeometry geometry, const Scene& scene, const Instan
   }
 }
 
-static RTCGeometry make_instance(RTCDevice device, RTCScene mesh, const Scene& scene, const Instance& instance) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-  rtcSetGeometryInstancedScene(geometry, mesh);
-  set_transform(geometry, scene, instance);
-  rtcCommitGeometry(geometry);
+static Geometry make_instance(RTCDevice device, RTCScene mesh, const Scene& scene, const Instance& instance) {
+  Geometry geometry = new_geometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry.get(), mesh);
+  set_transform(geometry.get(), scene, instance);
+  rtcCommitGeometry(geometry.get());
   return geometry;
 }
 
-static void attach(RTCScene scene, RTCGeometry geometry, size_t id) {
-  rtcAttachGeometryByID(scene, geometry, static_cast<uint>(id));
-  rtcReleaseGeometry(geometry);
+static void attach(RTCScene scene, const Geometry& geometry, size_t id) {
+  rtcAttachGeometryByID(scene, geometry.get(), static_cast<uint>(id));
 }
 
 EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles, const std::vector<char>& left_out)
@@ -296,8 +309,8 @@ EmbreeScene::EmbreeScene(const Scene& scene, size_t max_copied_triangles, const 
       rtcCommitScene(handles_->shared[mesh]);
     }
     handles_->coherent = false;
-    RTCGeometry geometry = make_instance(device, handles_->shared[mesh], scene, instance);
-    if (hidden) rtcDisableGeometry(geometry);
+    const Geometry geometry = make_instance(device, handles_->shared[mesh], scene, instance);
+    if (hidden) rtcDisableGeometry(geometry.get());
     attach(handles_->top, geometry, i);
   }
   if (split) {
