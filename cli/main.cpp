@@ -57,7 +57,7 @@ int unknown_command(const std::string& name) {
 
 // Libraries' constructors run for a while, and a Ctrl-C during them must be handled, too. Only the loader runs before
 // our code; there the signal ends the process, which has not done anything yet. Sanitizers are not ready then.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef ODS_SANITIZED
 [[gnu::section(".preinit_array"), gnu::used]] static void (*const before_constructors)() = [] { end_on_interrupts(); };
 #endif
 

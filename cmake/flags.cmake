@@ -26,7 +26,7 @@ target_link_options(ods_flags INTERFACE -Wl,--as-needed)  # a program starts fas
 if(ODS_SANITIZE)  # g++ 12 has false positives in <regex>
   target_compile_options(ods_flags INTERFACE -fsanitize=${ODS_SANITIZE} -fno-sanitize-recover=all
     -fno-omit-frame-pointer $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
-  target_compile_definitions(ods_flags INTERFACE _GLIBCXX_ASSERTIONS)
+  target_compile_definitions(ods_flags INTERFACE _GLIBCXX_ASSERTIONS ODS_SANITIZED)
   target_link_options(ods_flags INTERFACE -fsanitize=${ODS_SANITIZE})
 endif()
 

@@ -42,7 +42,7 @@ size_t left_behind() {
 
 // One test, because the change lasts as long as the process.
 TEST(LargeBlocks, GoBackToTheSystem) {
-#if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if !defined(__GLIBC__) || defined(ODS_SANITIZED)
   GTEST_SKIP() << "skipped: the allocator is not glibc's";
 #endif
   EXPECT_GE(left_behind(), 19u) << "this test's premise";
@@ -52,7 +52,7 @@ TEST(LargeBlocks, GoBackToTheSystem) {
 
 // Blocks of a kilobyte that a few which stay in use keep in the heap.
 TEST(FreeMemory, GoesBackToTheSystem) {
-#if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if !defined(__GLIBC__) || defined(ODS_SANITIZED)
   GTEST_SKIP() << "skipped: the allocator is not glibc's";
 #endif
   std::vector<void*> blocks, kept;

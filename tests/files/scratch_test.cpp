@@ -52,7 +52,7 @@ TEST(Scratch, WithoutAFolderAllIsMemory) {
 }
 
 TEST(Scratch, ReleasedBytesAreNoLongerInMemory) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef ODS_SANITIZED
   GTEST_SKIP() << "skipped: a sanitizer's own memory grows beside it";
 #endif
   const TemporaryFolder folder;

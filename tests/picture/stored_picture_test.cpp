@@ -464,7 +464,7 @@ size_t peak() {
 }
 
 TEST(OpenPicture, ALargePictureIsNeverInMemory) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef ODS_SANITIZED
   GTEST_SKIP() << "skipped: sanitizers keep memory of their own";
 #endif
   const TemporaryFolder folder;

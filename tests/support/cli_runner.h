@@ -22,7 +22,7 @@
 #include "tests/support/temporary_folder.h"
 
 // Sanitizers reserve the whole address space.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef ODS_SANITIZED
 inline constexpr bool kSanitized = true;
 #else
 inline constexpr bool kSanitized = false;

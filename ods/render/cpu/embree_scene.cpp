@@ -198,9 +198,11 @@ static void write_positions(const Scene& scene, const Mesh& mesh, uint key, cons
   }
 }
 
+namespace {
 struct ReleaseGeometry {
   void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
 };
+}  // namespace
 
 using Geometry = std::unique_ptr<RTCGeometryTy, ReleaseGeometry>;
 
