@@ -43,8 +43,9 @@ const styleSheet = () => {
   return sheet;
 };
 
-// Pages are also made where there are no elements: on servers.
-export class Stereo360 extends (globalThis.HTMLElement ?? Object) {
+const Base = globalThis.HTMLElement ?? Object; // servers that make pages have no elements
+
+export class Stereo360 extends Base {
   static observedAttributes = [...FILE, ...LOOK, 'poster', 'autorotate', 'controls'];
   static layouts = LAYOUTS.map(({ name }) => name);
   static projections = PROJECTIONS.map(({ name }) => name);

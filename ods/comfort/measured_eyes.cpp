@@ -186,15 +186,13 @@ std::optional<MeasuredEyes> measure_eyes(const std::vector<Image>& eyes, const S
   }
   const double pixel = 2.0 * pi / aligned.views[0].width;
   const Stance stance = stance_of(horizon, 0.5 * double{seen.camera.ipd}, pixel);
-  const double meeting = stance.meeting;
-  const Circle& full = stance.circle;
-  if (!(full.radius > 0.0)) return std::nullopt;
+  if (!(stance.circle.radius > 0.0)) return std::nullopt;
   const auto circle_at = [&](int row) {
     const SightedRow& seen_there = rows[static_cast<size_t>(row)];
-    Circle circle = circle_of(seen_there, meeting, pixel);
-    const double shown = full.radius * circle.weight;
+    Circle circle = circle_of(seen_there, stance.meeting, pixel);
+    const double shown = stance.circle.radius * circle.weight;
     if (shown < kMinPixels * pixel || circle.unexplained > kMaxNoise * shown) circle.weight = 0.0;
-    circle.radius = std::min(circle.radius / full.radius, 1.0);
+    circle.radius = std::min(circle.radius / stance.circle.radius, 1.0);
     return circle;
   };
   MeasuredEyes measured{seen.camera};
@@ -223,14 +221,14 @@ std::optional<MeasuredEyes> measure_eyes(const std::vector<Image>& eyes, const S
   const double minimum = 1.0 - std::max(kMinMerge, kSure * measured.error);
   const int up = kMiddle - static_cast<int>(measured.up), down = kMiddle - 1 + static_cast<int>(measured.down);
   // Eyes that converge show a floor and a ceiling without parallax, where merges are: a merge changes nothing there.
-  measured.is_known = meeting == 0.0 && std::max(measured.up, measured.down) >= kTells;
+  measured.is_known = stance.meeting == 0.0 && std::max(measured.up, measured.down) >= kTells;
   measured.is_merged = measured.is_known && double{std::min(*map.at(0, up), *map.at(0, down))} < minimum;
   StereoCamera& camera = measured.camera;
-  if (std::abs(2.0 * full.radius / double{camera.ipd} - 1.0) > kSameEyes)
-    camera.ipd = static_cast<float>(2.0 * full.radius);
-  if (meeting > 0.0) {
+  if (std::abs(2.0 * stance.circle.radius / double{camera.ipd} - 1.0) > kSameEyes)
+    camera.ipd = static_cast<float>(2.0 * stance.circle.radius);
+  if (stance.meeting > 0.0) {
     camera.convergence = kToeIn;
-    camera.convergence_distance = static_cast<float>(1.0 / meeting);
+    camera.convergence_distance = static_cast<float>(1.0 / stance.meeting);
   }
   if (measured.is_merged) {
     for (float& share : map.pixels) share = share > 1.0f - kFull ? 1.0f : share;
