@@ -97,7 +97,7 @@ export const ACTIONS = [
   { id: 'brighter', keys: ['e'], label: 'exposure + ¼ stop', group: FOLDER, when: isLive, run: (player, viewer) => expose(viewer, 0.25) },
   { id: 'darker', keys: ['d'], label: 'exposure − ¼ stop', group: FOLDER, when: isLive, run: (player, viewer) => expose(viewer, -0.25) },
   { id: 'subtitles', keys: ['r'], label: 'subtitles', group: FILM, when: (viewer) => viewer.about?.video?.subtitles, run(player, viewer) {
-    const on = player.subtitles?.();
+    const on = viewer.subtitles?.toggle();
     viewer.say('change');
     return t(on ? 'Subtitles' : 'No subtitles');
   } },

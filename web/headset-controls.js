@@ -12,6 +12,7 @@ const PAD = 24;
 const GAP = 12;
 const HIGH = 84;
 const LISTED = 3; // files at a time
+const TURN = 30; // degrees
 const STEPS = 400; // number of steps of a slider
 
 const ICONS = {
@@ -63,11 +64,15 @@ function listRows(panel, entries) {
   });
 }
 
-function filmRow({ picture }) {
+function videoRows({ picture, about, subtitles }) {
   if (!picture?.video) return [];
   const { video, fps, frames } = picture;
   const at = picture.frame();
+  const hasSubtitles = subtitles && about.video?.subtitles;
   return [[
+    { id: 'sound', text: video.muted ? 'Sound off' : 'Sound on', on: !video.muted, run: () => (video.muted = !video.muted) },
+    ...(hasSubtitles ? [{ id: 'subtitles', text: subtitles.isOn ? 'Subtitles on' : 'Subtitles off', on: subtitles.isOn, run: () => subtitles.toggle() }] : []),
+  ], [
     { id: 'play', icon: video.paused ? 'play' : 'pause', run: () => picture.toggle() },
     { id: 'seek', part: stepped(at / Math.max(frames - 1, 1)), share: 6, drag: (part, isLast) => (isLast || !video.seeking) && picture.seek((part * (frames - 1) + 0.5) / fps) },
     { text: `${clock(at / fps)} / ${clock(frames / fps)}`, share: 3 },
@@ -104,7 +109,7 @@ export function controlsOf(headset, panel) {
   return lay([
     [{ text: panel.message || viewer.about?.name || '', share: 9, isName: true }, { id: 'close', icon: 'close', run: () => panel.close() }],
     ...listRows(panel, entries),
-    ...filmRow(viewer),
+    ...videoRows(viewer),
     [
       ...(many ? [{ id: 'previous', icon: 'previous', run: () => viewer.go(-1) }, { id: 'next', icon: 'next', run: () => viewer.go(1) }] : []),
       { id: 'mode', text: WORN[worn].label, on: worn > 0, share: 3, run: () => viewer.set({ worn: WORN[(worn + 1) % WORN.length].name }) },
@@ -113,7 +118,11 @@ export function controlsOf(headset, panel) {
     ...exposureRow(headset),
     ...mergeRows(headset),
     [
+      { id: 'turn-left', text: 'Turn left', share: 3, run: () => headset.turnBy(-TURN), repeats: true },
       { id: 'recentre', text: 'Recentre', share: 3, run: () => headset.recentre() },
+      { id: 'turn-right', text: 'Turn right', share: 3, run: () => headset.turnBy(TURN), repeats: true },
+    ],
+    [
       ...(viewer.scene ? [{ id: 'sides', text: `Settings ${viewer.steering.side}`, share: 3, run: () => viewer.steering.select() }] : []),
       { id: 'leave', text: 'Leave', share: 3, run: () => headset.session.end() },
     ],

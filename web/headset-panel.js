@@ -6,6 +6,7 @@
 // Neither is fixed to the head: the panel stays in the room until the wearer has turned away from it.
 import { clamp, radians } from './geometry.js';
 import { TEXT, WIDE, controlsOf, paint } from './headset-controls.js';
+import { HeadsetSubtitles } from './headset-subtitles.js';
 import { Sheets, facing, headingOf, meet, plus, poseOf, sheetAhead, thread } from './headset-room.js';
 import { directionAt } from './places.js';
 
@@ -28,6 +29,7 @@ export class HeadsetPanel {
     const { gl } = headset.viewer.panorama;
     Object.assign(this, { headset, gl, isOpen: false, first: 0, message: '', pointers: [], thumbnails: new Map(), held: new Map(), dwell: { for: 0 }, hovered: new Set(), painted: '' });
     this.sheets = new Sheets(gl);
+    this.subtitles = new HeadsetSubtitles(this.sheets, gl);
     this.canvas = new OffscreenCanvas(WIDE, TEXT);
     [this.face, this.label] = [gl.createTexture(), gl.createTexture()];
     paint(this.canvas, { high: HANDLE[1], controls: [{ box: [0, 0, ...HANDLE], icon: 'menu', text: 'Menu' }] }, this.hovered, HANDLE[0]);
@@ -50,6 +52,7 @@ export class HeadsetPanel {
 
   free() {
     this.heard.abort();
+    this.subtitles.free();
     this.sheets.free();
     for (const texture of [this.face, this.label]) this.gl.deleteTexture(texture);
   }
@@ -194,6 +197,7 @@ export class HeadsetPanel {
     const seconds = Math.min((now - (this.last ?? now)) / 1000, 0.1);
     this.last = now;
     this.head = poseOf(pose.transform);
+    this.subtitles.update(this.headset.viewer.subtitles?.text ?? '', this.head);
     if (this.isOpen) this.content = controlsOf(this.headset, this);
     this.follow(now, seconds);
     this.point(frame, pose, seconds);
@@ -213,12 +217,13 @@ export class HeadsetPanel {
 
   // The objects to draw for an eye, over the picture.
   things({ eye, index }) {
-    const things = [];
+    const things = this.subtitles.sheet ? [this.subtitles.sheet] : [];
+    const isMenu = this.isOpen || this.isSought;
     if (this.isOpen) things.push({ color: DIM }, { ...this.sheet, face: this.face });
     else if (this.isSought) things.push({ ...this.sheet, face: this.label, color: [1, 1, 1, this.pointers.some(({ control }) => control) || this.dwell.id ? 1 : 0.6] });
-    if (things.length) for (const pointer of this.pointers) things.push(...this.traces(pointer, eye));
+    if (isMenu) for (const pointer of this.pointers) things.push(...this.traces(pointer, eye));
     const { dwell } = this;
-    if (things.length && dwell.id && !dwell.isDone) things.push({ ...facing(plus(this.head.at, this.head.back, -0.98 * DISTANCE), eye, 0.03), color: [...ACCENT, 1], ring: [0.7, dwell.for / DWELL] });
+    if (isMenu && dwell.id && !dwell.isDone) things.push({ ...facing(plus(this.head.at, this.head.back, -0.98 * DISTANCE), eye, 0.03), color: [...ACCENT, 1], ring: [0.7, dwell.for / DWELL] });
     const { marker, turn } = this.headset;
     if (marker && index === (marker.eye === 'right' ? 1 : 0)) this.mark = eye;
     if (marker && this.mark) {
@@ -235,7 +240,7 @@ export class HeadsetPanel {
   }
 
   get isSeen() {
-    return Boolean(this.isOpen || this.isSought || this.headset.marker);
+    return Boolean(this.isOpen || this.isSought || this.subtitles.sheet || this.headset.marker);
   }
 
   // view: { rays, eye, index, box, target }, see Sheets.draw(); index: 0 for the left eye.

@@ -4,7 +4,7 @@
 // The picture in a headset, by WebXR. Only the orientation of each eye's view counts: every direction shows exactly the
 // picture's line of sight, at any position of the head. The panel (headset-panel.js) comes with the session. The page's
 // canvas shows what the left eye sees.
-import { clamp, degrees } from './geometry.js';
+import { clamp, degrees, radians } from './geometry.js';
 import { wornEye } from './modes.js';
 import { raysOf } from './panorama.js';
 import { Pace } from './pace.js';
@@ -67,7 +67,7 @@ export class Headset {
     if (typeof layer.fixedFoveation === 'number') layer.fixedFoveation = FOVEATION;
     session.updateRenderState({ baseLayer: layer });
     Object.assign(this, { session, turn: 0, held: new Map(), pressed: new Map(), gripped: new Map(), last: 0 });
-    this.pace = new Pace(1000 / (isQuick ? RATE : (session.frameRate ?? RATE)));
+    this.pace = new Pace({ period: 1000 / (isQuick ? RATE : (session.frameRate ?? RATE)) });
     this.listenToHands();
     this.watchWearer();
     this.viewer.session = session;
@@ -179,6 +179,11 @@ export class Headset {
     if (!this.pose) return;
     const m = this.pose.transform.matrix;
     this.turn = -Math.atan2(-m[8], m[10]);
+  }
+
+  // Turns the wearer by degrees, to the right: those who sit see what is behind them.
+  turnBy(angle) {
+    this.turn += radians(angle);
   }
 
   // A video pauses while the headset is taken off.

@@ -112,11 +112,16 @@ export class MergeCurve {
     }
   }
 
-  // merges: { top, bottom } of a sidecar; other: those of the other side, or null.
+  // merges: { top, bottom } of a sidecar, and map, the shares of its merge map from the zenith down, if it has one;
+  // other: those of the other side, or null.
   draw(merges, other) {
     this.last = [merges, other];
     if (!this.formula) return;
-    const points = ({ top, bottom }) => this.formula.values([top, bottom]).map((left, i) => `${xOf(i - 90).toFixed(1)},${yOf(left).toFixed(1)}`);
+    const shareOf = (map, i) => map[clamp(Math.floor(((COUNT - i) / COUNT) * map.length), 0, map.length - 1)];
+    const points = ({ top, bottom, map }) => this.formula.values([top, bottom]).map((left, i) => {
+      const isOfMap = map && (i < 90 ? bottom : top).mode === 'map';
+      return `${xOf(i - 90).toFixed(1)},${yOf(isOfMap ? shareOf(map, i) : left).toFixed(1)}`;
+    });
     const line = points(merges);
     this.line.setAttribute('points', line.join(' '));
     this.fill.setAttribute('points', [`${BOX[0]},${BOX[3]}`, ...line, `${BOX[1]},${BOX[3]}`].join(' '));

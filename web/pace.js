@@ -5,12 +5,36 @@
 // there is time. A reduction that does not help is undone, because then the GPU is not the bottleneck.
 const LEVELS = [{ scale: 1 }, { scale: 1, cheap: true }, { scale: 0.7, cheap: true }, { scale: 0.5, cheap: true }];
 const COUNT = 4; // frames that are evaluated together
+const FIRST = 2; // frames that are evaluated at first
 const PATIENCE = 2000; // milliseconds from a reduction to the next attempt; doubled each time
 
+const KEY = 'stereo-360 pace'; // of the browser's storage, which may be forbidden
+const SOFTWARE = /swiftshader|llvmpipe|softpipe|basic render/i;
+
+// Returns the level that this device ended with the last time; at first, software GPUs do not begin with the best one.
+export function firstLevel(gl) {
+  try {
+    const kept = Number(localStorage.getItem(KEY) ?? NaN);
+    if (LEVELS[kept]) return kept;
+  } catch { /* begin without it */ }
+  const about = gl.getExtension('WEBGL_debug_renderer_info');
+  return about && SOFTWARE.test(gl.getParameter(about.UNMASKED_RENDERER_WEBGL)) ? 1 : 0;
+}
+
+export function keepLevel(level) {
+  try {
+    localStorage.setItem(KEY, level);
+  } catch { /* the next visit begins again */ }
+}
+
 export class Pace {
-  // period: the target duration of a frame, milliseconds.
-  constructor(period = 1000 / 60) {
-    Object.assign(this, { period, level: 0, times: [], before: 0, until: 0, wait: PATIENCE, stuck: 0 });
+  // period: the target duration of a frame, milliseconds. level: of LEVELS, to begin with.
+  constructor({ period = 1000 / 60, level = 0 } = {}) {
+    Object.assign(this, { period, level, times: [], count: FIRST, before: 0, until: 0, wait: PATIENCE, stuck: 0 });
+  }
+
+  get isSlow() {
+    return this.level > 0;
   }
 
   // scale: of the canvas; cheap: as in panorama.js.
@@ -21,8 +45,9 @@ export class Pace {
   // Records the duration of a frame, milliseconds.
   took(time, now = performance.now()) {
     this.times.push(time);
-    if (this.times.length < COUNT) return;
-    const median = this.times.sort((a, b) => a - b)[COUNT / 2];
+    if (this.times.length < this.count) return;
+    const median = this.times.sort((a, b) => a - b)[this.count / 2];
+    this.count = COUNT;
     this.times = [];
     const isLate = median > 1.7 * this.period;
     if (isLate && this.before && median > 0.9 * this.before) {

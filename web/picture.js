@@ -93,19 +93,17 @@ async function openPreview(panorama, item, form, url, signal, early) {
   return source;
 }
 
-async function openImage(panorama, item, form, layout, url, { signal, progress, early, paging }) {
-  const [left, right] = eyeFiles(item, layout);
-  const files = item.image ? [url(item.image)] : [url(left), url(right)];
+async function openImage(panorama, item, form, files, url, { signal, progress, early, paging, ahead }) {
   const crops = item.image ? [form.layout.left, form.layout.right] : [[0, 0, 1, 1], [0, 0, 1, 1]];
-  const mono = files.length === 1 ? same(...crops) : left === right;
+  const mono = files.length === 1 ? same(...crops) : files[0].href === files[1].href;
   const preview = item.preview && early ? openPreview(panorama, item, form, url, signal, early).catch(() => null) : null;
   const sources = [];
   let picture = null;
   try {
     for (const [i, file] of files.entries()) {
       if (i === 1 && mono) break;
-      const blob = await download(file, item.name, signal, (part) => progress?.((part + i) / files.length));
-      sources.push(await decode(blob, item.name));
+      const load = async () => decode(await download(file, item.name, signal, (part) => progress?.((part + i) / files.length)), item.name);
+      sources.push((await ahead?.take(file.href)) ?? (await load()));
       signal?.throwIfAborted();
     }
     if (sources.length === 1) sources.push(sources[0]);
@@ -147,22 +145,31 @@ async function openLight(panorama, item, form, url, choice, { signal, progress }
   }.develop(choice);
 }
 
+// An address of an item's file, with what a server of ods view is asked for.
+function addressOf(path, base, query = {}) {
+  const address = new URL(path, base ?? location.href);
+  for (const [name, value] of Object.entries(query)) if (value !== undefined) address.searchParams.set(name, value);
+  return address;
+}
+
+// The addresses of a picture's file or of its eyes' files, as openPicture() loads them; none for videos and for light.
+export function imageAddresses(view, item, base, choice = {}) {
+  if (item.kind === 'video' || item.light) return [];
+  const layout = !item.image && hasOtherLayouts(view, item) ? choice.layout : undefined;
+  const { exposure, tone } = item.live ? choice : {};
+  return (item.image ? [item.image] : eyeFiles(item, layout)).map((path) => addressOf(path, base, { layout, exposure, tone }));
+}
+
 // base: the address that the item's addresses are relative to. choice: { layout, projection, exposure, tone }, all
-// optional. early(picture): receives a preview of the picture. paging: whether to use pages.js, by default depending on
+// optional. early(picture): receives a preview of the picture. ahead: ahead.js, or missing. paging: whether to use pages.js, by default depending on
 // the picture's size. Throws an Error with one line for the user, or an AbortError if `signal` is aborted.
 export async function openPicture(panorama, view, item, { base, choice = {}, ...how } = {}) {
   const form = formOf(item, choice);
-  const url = (path, query = {}) => {
-    const address = new URL(path, base ?? location.href);
-    for (const [name, value] of Object.entries(query)) if (value !== undefined) address.searchParams.set(name, value);
-    return address;
-  };
+  const url = (path) => addressOf(path, base);
   if (item.kind === 'video') {
     const { openVideo } = await import('./video.js');
     return openVideo(panorama.gl, item, form, url(item.image), how.signal);
   }
   if (item.light && panorama.hasLight) return openLight(panorama, item, form, url, choice, how);
-  const layout = !item.image && hasOtherLayouts(view, item) ? choice.layout : undefined;
-  const { exposure, tone } = item.live ? choice : {};
-  return openImage(panorama, item, form, layout, (path) => url(path, { layout, exposure, tone }), how);
+  return openImage(panorama, item, form, imageAddresses(view, { ...item, light: null }, base, choice), url, how);
 }

@@ -244,7 +244,7 @@ export class Player {
     };
     extra('grid', ({ state }) => state.grid, ({ numberGrid }) => numberGrid(viewer));
     extra('notes', ({ about }) => about?.hotspots || about?.caption, ({ showNotes }) => showNotes(viewer));
-    extra('subtitles', ({ about }) => about?.video?.subtitles, ({ showSubtitles }) => (this.subtitles = showSubtitles(this)));
+    extra('subtitles', ({ about }) => about?.video?.subtitles, ({ showSubtitles }) => showSubtitles(this));
     extra('sound', ({ about }) => about?.video?.sound, ({ hearVideos }) => hearVideos(this));
   }
 

@@ -50,15 +50,6 @@ export function groupsOf(view) {
   const turns = [-180, 180];
   const has = (number) => (settings) => studio.controls[settings.sidecar.projection.name]?.includes(number);
   return [
-    { name: 'Pole merge', id: 'merge', open: true, top: merge('merge_top'), bottom: merge('merge_bottom') },
-    { name: 'Eyes', open: true, rows: [
-      { path: camera('ipd'), label: 'Eye distance', unit: 'mm', scale: 1000, step: 0.5, range: [0, 1000] },
-      { path: camera('convergence.mode'), label: 'Convergence', options: options(studio.convergences) },
-      { path: camera('convergence.distance'), label: 'Converge at', unit: 'm', step: 0.01, range: [0.01, 1000], when: (s) => s.sidecar.convergence.mode !== 'parallel' },
-      { path: camera('neck'), label: 'Neck to eyes', unit: 'mm', scale: 1000, step: 1, range: [-1000, 1000], about: 'Distance of the eyes in front of the axis they turn about' },
-      { path: camera('axis'), label: 'Eyes turn about', options: [['camera', 'The camera’s up'], ['own', 'Another axis']], write: (word) => (word === 'own' ? UP : null) },
-      { label: 'Axis', when: (s) => s.sidecar.axis, parts: ['X', 'Y', 'Z'].map((label, i) => ({ path: camera(`axis.${i}`), label, name: `Axis ${label}`, step: 0.01, range: [-1, 1] })) },
-    ] },
     { name: 'Camera', open: true, rows: [
       { label: 'Position', parts: ['X', 'Y', 'Z'].map((label, i) => ({ path: camera(`position.${i}`), label, name: `Position ${label}`, unit: 'm', step: 0.01, range: [-1e5, 1e5] })) },
       { label: 'Direction', parts: [
@@ -73,6 +64,15 @@ export function groupsOf(view) {
       { path: 'env', label: 'Environment', options: options(studio.envs, { 0: 'None', auto: 'As it suits' }) },
       ...(studio.variants.length ? [{ path: 'variant', label: 'Variant', options: [['', 'First'], ...studio.variants.map((name) => [name, name])] }] : []),
       ...(studio.duration ? [{ path: 'time', label: 'Time', unit: 's', step: 0.02, range: [0, studio.duration] }] : []),
+    ] },
+    { name: 'Comfort: pole merge', id: 'merge', open: true, top: merge('merge_top'), bottom: merge('merge_bottom') },
+    { name: 'Eyes', open: true, rows: [
+      { path: camera('ipd'), label: 'Eye distance', unit: 'mm', scale: 1000, step: 0.5, range: [0, 1000] },
+      { path: camera('convergence.mode'), label: 'Convergence', options: options(studio.convergences) },
+      { path: camera('convergence.distance'), label: 'Converge at', unit: 'm', step: 0.01, range: [0.01, 1000], when: (s) => s.sidecar.convergence.mode !== 'parallel' },
+      { path: camera('neck'), label: 'Neck to eyes', unit: 'mm', scale: 1000, step: 1, range: [-1000, 1000], about: 'Distance of the eyes in front of the axis they turn about' },
+      { path: camera('axis'), label: 'Eyes turn about', options: [['camera', 'The camera’s up'], ['own', 'Another axis']], write: (word) => (word === 'own' ? UP : null) },
+      { label: 'Axis', when: (s) => s.sidecar.axis, parts: ['X', 'Y', 'Z'].map((label, i) => ({ path: camera(`axis.${i}`), label, name: `Axis ${label}`, step: 0.01, range: [-1, 1] })) },
     ] },
     { name: 'Projection', rows: [
       { path: camera('projection.name'), label: 'Projection', options: studio.projections.map((name) => [name, name]), projection: true },

@@ -2,10 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Controls of the studio's panel, each a row with its label, its value and a button back to the default. A number is
-// typed, dragged at its label, or moved with the arrow keys (Shift: finely, Ctrl: coarsely).
+// typed, also with another unit (10 cm), dragged at its label, or moved with the arrow keys (Shift: finely, Ctrl:
+// coarsely).
 import { make } from './elements.js';
 import { clamp } from './geometry.js';
 import { icon } from './icons.js';
+
+// Units that a user may write, in those of the rows.
+const UNITS = {
+  m: { km: 1000, m: 1, cm: 0.01, mm: 0.001, ft: 0.3048, in: 0.0254 },
+  mm: { m: 1000, cm: 10, mm: 1, in: 25.4 },
+  '°': { '°': 1, deg: 1, rad: 180 / Math.PI, '′': 1 / 60 },
+  s: { min: 60, s: 1, ms: 0.001 },
+  stops: { stops: 1, stop: 1, ev: 1 },
+};
 
 const pace = (event) => (event.shiftKey ? 0.1 : event.ctrlKey || event.metaKey ? 10 : 1);
 let count = 0;
@@ -27,10 +37,17 @@ export function textOf(value, step) {
   return String(Number(value.toFixed(fine)));
 }
 
-// spec: { label, unit, step, scale (shown = value * scale), and for the displayed number its range [low, high] for
+// Returns the number that a text has, in a unit of UNITS; NaN if there is none.
+export function numberOf(text, unit) {
+  const found = /^([-+]?[\d.]+(?:e[-+]?\d+)?)\s*(\S*)$/i.exec(text.trim().replace('−', '-').replace(',', '.'));
+  const factor = found?.[2] ? UNITS[unit]?.[found[2].toLowerCase()] : 1;
+  return found && factor ? Number(found[1]) * factor : NaN;
+}
+
+// spec: { label, name (of the row in messages, by default the label), unit, step, scale (shown = value * scale), and for the displayed number its range [low, high] for
 // dragging and its limits for typing }.
-// change(value, gesture, dragging) and reset() are called; update(value, standard) shows a value.
-export function numberRow(spec, change, reset) {
+// change(value, gesture, dragging), reset() and complain(text) are called; update(value, standard) shows a value.
+export function numberRow(spec, change, reset, complain = () => {}) {
   const { scale = 1, step, limits: [low, high] } = spec;
   const reach = [Math.max(low, spec.range[0]), Math.min(high, spec.range[1])];
   const field = make('input', { type: 'text', inputMode: 'decimal', autocomplete: 'off', spellcheck: false, role: 'spinbutton' });
@@ -39,9 +56,18 @@ export function numberRow(spec, change, reset) {
   let shown = 0;
   const give = (value, gesture = null, dragging = false) => change(Number((clamp(value, low, high) / scale).toPrecision(9)), gesture, dragging);
   const read = () => {
-    const value = Number(field.value.trim().replace('−', '-').replace(',', '.'));
-    if (field.value.trim() === '' || !Number.isFinite(value)) return (field.value = textOf(shown, step));
-    if (textOf(shown, step) !== field.value) give(value);
+    const text = field.value.trim();
+    if (text === textOf(shown, step)) return;
+    const value = numberOf(text, spec.unit);
+    const name = spec.name ?? spec.label;
+    const unit = spec.unit ? ` ${spec.unit}` : '';
+    if (!Number.isFinite(value)) {
+      field.value = textOf(shown, step);
+      if (text) complain(`${name}: “${text}” is not a number${UNITS[spec.unit] ? ` of ${Object.keys(UNITS[spec.unit]).join(', ')}` : ''}`);
+      return;
+    }
+    complain(value === clamp(value, low, high) ? '' : `${name} is between ${textOf(low, step)} and ${textOf(high, step)}${unit}`);
+    give(value);
   };
   field.addEventListener('change', read);
   field.addEventListener('focus', () => field.select());

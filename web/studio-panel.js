@@ -18,7 +18,7 @@ const numbersOfProjection = ['longitude', 'latitude', 'fov', 'aspect', 'pan', 't
 export class Panel {
   // element: where to build it. view: view.json.
   constructor(element, view, session) {
-    Object.assign(this, { element, view, session, rows: [], names: {} }); // names of values for users
+    Object.assign(this, { element, view, session, rows: [], names: { map: 'Map' } }); // names of values for users
     const { merge_top: top, merge_bottom: bottom } = session.settings.sidecar;
     this.linked = JSON.stringify(top) === JSON.stringify(bottom);
     element.replaceChildren(...groupsOf(view).map((group) => this.group(group)));
@@ -54,9 +54,14 @@ export class Panel {
     });
     this.box = box;
     const link = make('label', { className: 'check' }, box, ' Same above and below');
+    this.useAuto = make('button', { type: 'button', className: 'small', textContent: 'Use the dotted curve', hidden: true, 'data-tip': 'As much eye distance as the depth of the picture allows: --merge auto' });
+    this.useAuto.addEventListener('click', () => this.session.edit({
+      'sidecar.merge_map': { width: 1, height: this.auto.length, values: this.auto }, 'maps.merge': -1,
+      'sidecar.merge_top.mode': 'map', 'sidecar.merge_bottom.mode': 'map',
+    }));
     this.titles = ['Above', 'Below'].map((textContent) => make('h3', { textContent }));
     this.below = make('div', {}, this.titles[1], ...bottom.map((row) => this.row({ ...row, name: `Below: ${row.label}` })));
-    return [this.curve.element, link, this.titles[0], ...top.map((row) => this.row(row)), this.below];
+    return [this.curve.element, this.useAuto, link, this.titles[0], ...top.map((row) => this.row(row)), this.below];
   }
 
   row(spec) {
@@ -67,7 +72,7 @@ export class Panel {
     const change = (value, gesture = null, dragging = false) => this.change(spec, value, gesture, dragging);
     const reset = () => this.change(spec, this.standard(spec), null, false);
     const control = spec.options ? choiceRow({ ...spec, names: this.names }, change, reset) :
-      numberRow({ ...spec, limits: limitsOf(this.view.studio.ranges, spec) }, change, reset);
+      numberRow({ ...spec, limits: limitsOf(this.view.studio.ranges, spec) }, change, reset, (text) => this.complain(text));
     if (spec.name) control.element.querySelector('input, select').setAttribute('aria-label', spec.name);
     control.element.dataset.path = spec.path;
     this.rows.push({ spec, control });
@@ -124,7 +129,8 @@ export class Panel {
       if (!hidden) control.update(readValue(this.view, settings, spec.path), this.standard(spec));
     }
     const other = sides[1 - active]?.settings.sidecar;
-    this.curve.draw({ top, bottom }, other && { top: other.merge_top, bottom: other.merge_bottom });
+    const merges = ({ merge_top, merge_bottom, merge_map }) => ({ top: merge_top, bottom: merge_bottom, map: merge_map?.width === 1 ? merge_map.values : null });
+    this.curve.draw(merges(settings.sidecar), other && merges(other));
   }
 
   // The curve that the depth of the picture allows, beside the hand-made one. Computing it takes time from the
@@ -133,8 +139,18 @@ export class Panel {
     if (this.isAsking) return;
     this.isAsking = true;
     const comfort = await ask('comfort').catch(() => null);
-    if (comfort) this.curve.drawAuto(comfort.auto);
+    if (comfort) {
+      this.auto = comfort.auto;
+      this.curve.drawAuto(this.auto);
+      this.useAuto.hidden = false;
+    }
     this.isAsking = false;
+  }
+
+  // Replaces the names of settings in a message by the labels of their rows.
+  withLabels(text) {
+    const byLength = [...this.rows].sort((a, b) => b.spec.path.length - a.spec.path.length);
+    return byLength.reduce((all, { spec }) => all.replaceAll(spec.path.replace('sidecar.', ''), `“${spec.name ?? spec.label}”`), text);
   }
 
   // Displays an error until it is closed or replaced; '' for none.
@@ -152,7 +168,7 @@ export class Panel {
       control.element.classList.toggle('wrong', is);
       control.element.querySelector('input, select').setAttribute('aria-invalid', is);
     }
-    this.complain(text.replace("'camera' is not a valid camera: ", ''));
+    this.complain(this.withLabels(text.replace("'camera' is not a valid camera: ", '')));
     this.isOfSettings = Boolean(text);
     const at = marked.find(({ control }) => !control.element.hidden)?.control.element;
     if (at) at.closest('details').open = true;

@@ -124,6 +124,10 @@ class Studio {
 
   tell({ state, done, fault, side, isOthers, ...frame }) {
     this.takeTurns(done, side);
+    if (frame.samples && this.page.viewer.isProvisional === done) {
+      this.page.viewer.isProvisional = !done;
+      if (done) this.page.viewer.redraw();
+    }
     if (fault) this.page.fail(fault);
     const name = !this.comparing || !side ? '' : `${SIDES[this.session.sides.indexOf(side)]}: `;
     if (isOthers) this.status.textContent = 'Another tab has changed the scene. What you change here counts again.';
@@ -286,7 +290,7 @@ class Studio {
       this.page.toast(what === 'camera' ? `Camera of ${file.name}` : `Light of ${file.name}`);
     } catch (error) {
       this.page.toast('');
-      this.panel.complain(`${file.name}: ${error.message}`);
+      this.panel.complain(error.message.includes(file.name) ? error.message : `${file.name}: ${error.message}`);
     }
   }
 }

@@ -2,19 +2,26 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Subtitles of a video: the text of a WebVTT file, given as video.subtitles in view.json. The browser reads it; the
-// current text is shown above the bar. Returns a function that switches them.
+// current text is shown above the bar, and in the headset, which finds it in viewer.subtitles: { text, isOn, toggle() }.
 export function showSubtitles({ viewer, root }) {
   const line = document.createElement('p');
   line.id = 'subtitles';
   line.hidden = true;
   root.getElementById('foot').prepend(line);
-  let on = true;
   let track = null;
   const show = () => {
-    const cues = on ? [...(track?.activeCues ?? [])] : [];
-    line.textContent = cues.map((cue) => cue.getCueAsHTML().textContent).join('\n');
-    line.hidden = !line.textContent;
+    const cues = state.isOn ? [...(track?.activeCues ?? [])] : [];
+    state.text = line.textContent = cues.map((cue) => cue.getCueAsHTML().textContent).join('\n');
+    line.hidden = !state.text;
   };
+  const state = (viewer.subtitles = {
+    text: '', isOn: true,
+    toggle() {
+      state.isOn = !state.isOn;
+      show();
+      return state.isOn;
+    },
+  });
   const open = () => {
     const { picture, about } = viewer;
     track = null;
@@ -30,9 +37,4 @@ export function showSubtitles({ viewer, root }) {
   };
   viewer.addEventListener('open', open);
   open();
-  return (is = !on) => {
-    on = is;
-    show();
-    return on;
-  };
 }

@@ -5,11 +5,12 @@
 // It draws on the canvas of a panorama (panorama.js), which it has while it is awake; asleep, it shows its last frame.
 // Events: `change` (the state, or the video's), `loading` (detail: 0..1, null at the end), `open`, `failed` (detail:
 // one line for users), `sleep`.
+import { Ahead } from './ahead.js';
 import { clamp, radians, wrapDegrees } from './geometry.js';
 import { boxOf, modeOf } from './modes.js';
-import { Pace } from './pace.js';
+import { Pace, firstLevel, keepLevel } from './pace.js';
 import { raysOf } from './panorama.js';
-import { openPicture } from './picture.js';
+import { imageAddresses, openPicture } from './picture.js';
 
 const REST = 150; // milliseconds without movement until the view is drawn exactly
 const STILL = 960; // pixels: the widest last frame that is kept
@@ -29,8 +30,10 @@ export class Viewer extends EventTarget {
     this.compare = null; // compare.js
     this.scene = null; // the studio's live scene, shown instead of an item
     this.choice = {}; // layout, projection, exposure, tone, if they differ from the item
-    this.pace = new Pace();
+    this.pace = null; // since the first panorama
+    this.ahead = new Ahead();
     this.waiting = false;
+    this.isProvisional = false; // better pictures follow soon: a slow GPU does not draw this one exactly
     this.settling = null; // a token of the exact drawing in progress
     this.canvas = this.still = this.place(document.createElement('canvas'));
     new ResizeObserver(() => this.resize()).observe(element);
@@ -46,6 +49,7 @@ export class Viewer extends EventTarget {
   async wake(panorama) {
     const { slept } = this;
     this.panorama = panorama;
+    this.pace ??= new Pace({ level: firstLevel(panorama.gl) });
     this.canvas = this.place(panorama.canvas);
     panorama.lost = () => {
       this.picture = null;
@@ -72,6 +76,7 @@ export class Viewer extends EventTarget {
     this.loading?.abort();
     clearTimeout(this.rest);
     this.settling = null;
+    this.ahead.keep([]);
     this.compare?.end();
     if (picture) this.keepFrame();
     this.close();
@@ -183,6 +188,7 @@ export class Viewer extends EventTarget {
   // Draws exactly, strip by strip: a slow GPU is never busy for long, and movements need not wait for the rest.
   async settle() {
     const { panorama, canvas } = this;
+    if (this.isProvisional && this.pace.isSlow) return;
     const mark = (this.settling = {});
     const goesOn = () => this.settling === mark && this.picture && !this.session;
     const nextFrame = () => new Promise(requestAnimationFrame);
@@ -206,7 +212,19 @@ export class Viewer extends EventTarget {
       isBetter = true;
       await nextFrame();
     }
-    if (goesOn()) isBetter ? this.redraw() : this.say('settled');
+    if (!goesOn()) return;
+    if (isBetter) return this.redraw();
+    keepLevel(this.pace.level);
+    this.fetchAhead();
+    this.say('settled');
+  }
+
+  // Fetches the pictures beside the open one, unless the visitor saves data.
+  fetchAhead() {
+    const { items } = this.view;
+    if (this.scene || this.session || items.length < 2 || navigator.connection?.saveData) return;
+    const beside = [1, -1].map((by) => items[(this.item + by + items.length) % items.length]);
+    this.ahead.keep(beside.flatMap((item) => imageAddresses(this.view, item, this.base)).map(({ href }) => href));
   }
 
   get about() {
@@ -224,7 +242,7 @@ export class Viewer extends EventTarget {
     this.say('loading', 0);
     try {
       const picture = await openPicture(this.panorama, this.view, this.about, {
-        base: this.base, choice, signal: loading.signal, progress: (part) => this.say('loading', part),
+        base: this.base, choice, signal: loading.signal, ahead: this.ahead, progress: (part) => this.say('loading', part),
         early: (preview) => this.take(Object.assign(preview, { isPreview: true }), loading.signal),
       });
       this.take(picture, loading.signal);

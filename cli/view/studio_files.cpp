@@ -11,9 +11,11 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "cli/bridge/foreign_scene.h"
 #include "cli/console/console.h"
 #include "cli/view/render_arguments.h"
 #include "cli/view/studio.h"
+#include "ods/base/quote.h"
 #include "ods/base/text.h"
 #include "ods/camera/camera_fields.h"
 #include "ods/files/atomic_file.h"
@@ -125,6 +127,10 @@ WebAnswer Studio::drop(const WebRequest& request) {
   const std::string name = plain_name(value_of(request, "name"));
   const std::string kind = ods::small_letters(std::filesystem::path(name).extension().string());
   if (kind == ".json") return drop_camera(name, request.file);
+  if (is_foreign_scene(name)) {
+    throw UsageError(fmt::format("{} must be converted first: end ods view and start it as ods view {}", name,
+                                 ods::shell_word(name)));
+  }
   const bool is_scene = kind == ".glb" || kind == ".zip", is_light = kind == ".hdr" || kind == ".exr";
   if (!is_scene && !is_light) throw UsageError("drop a .glb or .zip, an .hdr or .exr, or a .camera.json");
   const Drop drop{name, fmt::format("{}/{}{}", drops_.path(), ++drop_count_, kind)};

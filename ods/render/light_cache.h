@@ -19,8 +19,8 @@ int64_t light_cache_paths(const RenderOptions& options);
 // The light of one path at one place.
 struct CacheDeposit {
   CachePlace place;
-  vec3 light;     // outgoing light, of the surface's albedo
-  bool odd_path;  // the half of the paths that it belongs to; the difference of the halves is the error of a cell
+  vec3 light{0.0f};       // outgoing light, of the surface's albedo
+  bool odd_path = false;  // the half of the paths that it belongs to: the halves' difference is the error of a cell
 };
 
 class LightCacheSums {

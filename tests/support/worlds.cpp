@@ -19,9 +19,9 @@ float noise_at(vec3 p, float size, uint32_t seed) {
     float value = 0.0f;
     for (int i = 0; i < 8; i++) {
       const int x = i & 1, y = i >> 1 & 1, z = i >> 2;
-      uint32_t n = static_cast<uint32_t>(static_cast<int>(low.x) + x) * 374761393u +
-                   static_cast<uint32_t>(static_cast<int>(low.y) + y) * 668265263u +
-                   static_cast<uint32_t>(static_cast<int>(low.z) + z) * 2147483647u + seed * 97u;
+      uint32_t n = static_cast<uint32_t>(static_cast<int64_t>(low.x) + x) * 374761393u +
+                   static_cast<uint32_t>(static_cast<int64_t>(low.y) + y) * 668265263u +
+                   static_cast<uint32_t>(static_cast<int64_t>(low.z) + z) * 2147483647u + seed * 97u;
       n = (n ^ n >> 13) * 1274126177u;
       const float random = static_cast<float>((n ^ n >> 16) & 0xffffu) / 65535.0f;
       value += random * (x ? s.x : 1.0f - s.x) * (y ? s.y : 1.0f - s.y) * (z ? s.z : 1.0f - s.z);

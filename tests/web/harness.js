@@ -227,6 +227,21 @@ function testPace() {
   for (let i = 0; i < 500; i++) if (after(strange, 1, () => 5 + ((i * 37) % 90)) > 3 || !strange.how) throw new Error('pace: no such level');
 }
 
+// The next picture of a folder is fetched while the viewer rests, and opens without the server.
+async function testAhead(viewer) {
+  const next = viewer.view.items.findIndex(({ kind, light, image }) => kind !== 'video' && !light && image);
+  viewer.item = next === 0 ? 1 : next - 1;
+  viewer.fetchAhead();
+  const address = new URL(viewer.view.items[next].image, viewer.base ?? location.href).href;
+  if (!(await viewer.ahead.kept.get(address))) throw new Error('ahead: the next picture is not fetched');
+  const asked = () => performance.getEntriesByName(address).length;
+  const before = asked();
+  const opened = new Promise((done) => viewer.addEventListener('open', done, { once: true }));
+  viewer.open(next);
+  await opened;
+  if (asked() !== before || !viewer.picture) throw new Error('ahead: the next picture is fetched again');
+}
+
 // The viewer draws quickly at first, and at rest exactly what one exact drawing shows; a movement interrupts it.
 async function rest(view, { item }) {
   testPace();
@@ -253,6 +268,7 @@ async function rest(view, { item }) {
     viewer.paint(0, {});
     if (pixels() === moving) throw new Error(`${mode}: exact while it moves`);
   }
+  await testAhead(viewer);
 }
 
 async function run() {

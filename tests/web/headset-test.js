@@ -265,6 +265,34 @@ async function testExposure(wearer, item) {
   expect(panel.content.controls.some(({ text }) => text === '+0.5'), 'the exposure is not said');
 }
 
+async function testTurns(wearer) {
+  const { headset } = wearer;
+  const { turn } = headset;
+  await wearer.click('turn-right');
+  expect(Math.abs(headset.turn - turn - Math.PI / 6) < 1e-6, 'the wearer is not turned to the right');
+  await wearer.click('turn-left');
+  expect(Math.abs(headset.turn - turn) < 1e-6, 'the wearer is not turned back');
+}
+
+// They are in the room below the middle of the view, and come along when the wearer turns away.
+async function testSubtitles(wearer) {
+  const { viewer, panel } = wearer;
+  viewer.subtitles = { text: '', isOn: true, toggle: () => (viewer.subtitles.text = '') };
+  viewer.about.video.subtitles = 'WEBVTT';
+  expect(!panel.subtitles.sheet, 'there is a subtitle without a text');
+  viewer.subtitles.text = 'Hello there\nSecond line';
+  await wearer.frames();
+  const { sheet } = panel.subtitles;
+  expect(sheet && sheet.at[1] < panel.head.at[1] && sheet.face, 'there is no subtitle');
+  wearer.look({ yaw: 120 });
+  await wearer.frames();
+  expect(panel.subtitles.sheet.at[0] > sheet.at[0] + 0.5, 'the subtitle stays behind');
+  wearer.look({});
+  await wearer.frames();
+  await wearer.click('subtitles');
+  expect(!panel.subtitles.sheet, 'the subtitle stays on');
+}
+
 async function testFilm(wearer, item) {
   const { viewer } = wearer;
   await viewer.open(item);
@@ -289,6 +317,12 @@ async function testFilm(wearer, item) {
   await until(() => picture.video.paused, 'pauses when the headset is taken off');
   wearer.device.updateVisibilityState('visible');
   await until(() => !picture.video.paused, 'plays when it is put on again');
+  await wearer.click('sound');
+  expect(!picture.video.muted, 'the sound stays off');
+  await wearer.click('sound');
+  expect(picture.video.muted, 'the sound stays on');
+  await testTurns(wearer);
+  await testSubtitles(wearer);
   picture.video.pause();
   for (const state of ['hidden', 'visible']) {
     wearer.device.updateVisibilityState(state);

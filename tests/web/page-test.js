@@ -439,6 +439,38 @@ function testFields() {
   expect(fields.length > 8 && edges.size === 1, `fields end at ${[...edges]}`);
 }
 
+// Numbers may have units; what is not a number, or beyond the limits, is told.
+function testNumbers({ session, panel }) {
+  const field = panel.rows.find(({ spec }) => spec.path === 'sidecar.position.0').control.element.querySelector('input');
+  const x = () => session.settings.sidecar.position[0];
+  const before = x();
+  const type = (text) => {
+    field.value = text;
+    field.dispatchEvent(new Event('change'));
+    return panel.said.textContent;
+  };
+  expect(type('150 cm') === '' && x() === 1.5, `150 cm are ${x()}`);
+  expect(type('abc') === 'Position X: “abc” is not a number of km, m, cm, mm, ft, in' && x() === 1.5, `abc: ${panel.said.textContent}`);
+  expect(type('5 kg').includes('not a number') && x() === 1.5, `5 kg are ${x()}`);
+  expect(type('1e9') === 'Position X is between -100000 and 100000 m' && x() === 1e5, `1e9 is ${x()}: ${panel.said.textContent}`);
+  expect(type(String(before)) === '' && x() === before, 'a right number leaves the message');
+  expect(panel.withLabels('merge_top.start must be below its end') === '“Start” must be below its end', panel.withLabels('merge_top.start must be below its end'));
+}
+
+// The curve that the depth allows is used by a button, and can be undone.
+async function testAutoCurve({ session, panel }) {
+  const shares = document.querySelector('.curve-line').getAttribute('points');
+  await panel.followDepth();
+  expect(panel.useAuto.checkVisibility(), 'the dotted curve cannot be used');
+  panel.useAuto.click();
+  const { merge_top: top, merge_bottom: bottom, merge_map: map } = session.settings.sidecar;
+  expect(top.mode === 'map' && bottom.mode === 'map' && map.values.length === 180, 'the dotted curve is not used');
+  const levels = new Set(document.querySelector('.curve-line').getAttribute('points').split(' ').map((point) => point.split(',')[1]));
+  expect(levels.size === 1, 'the curve is not what the map has');
+  session.step(-1);
+  expect(session.settings.sidecar.merge_top.mode !== 'map' && document.querySelector('.curve-line').getAttribute('points') === shares, 'it is not undone');
+}
+
 async function testStudioPhone() {
   const { player } = await openStudio();
   const { viewer, studio } = player;
@@ -474,6 +506,8 @@ async function testStudioPage() {
   const { viewer, studio } = player;
   testFields();
   testCurve(studio);
+  testNumbers(studio);
+  await testAutoCurve(studio);
   const foot = find('studio').querySelector('footer');
   const code = foot.querySelector('code');
   expect(foot.offsetHeight < 64 && !code.checkVisibility(), `the foot is ${foot.offsetHeight} high`);

@@ -423,7 +423,7 @@ TEST_F(StudioCommand, TakesFileAfterFileThatIsDropped) {
   EXPECT_EQ(folder.read("second-2.glb"), triangle());
   EXPECT_FALSE(std::filesystem::exists("sky-2.hdr")) << "it was there already";
   EXPECT_EQ(run(set["command"].get<std::string>().substr(4) + " -q --quality preview"), 0) << set << err;
-  for (const char* bad : {"bad.glb", "bad.zip", "bad.hdr", "bad.exr"}) {
+  for (const char* bad : {"bad.glb", "bad.zip", "bad.hdr", "bad.exr", "house.blend"}) {
     EXPECT_EQ(status_of(drop(bad, "glTF, or so it says")), 400) << bad;
     EXPECT_EQ(shown()["scene"], "second.glb");
     EXPECT_EQ(shown()["settings"]["env"], "sky.hdr");

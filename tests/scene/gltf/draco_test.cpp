@@ -194,7 +194,7 @@ TEST(GltfDraco, SmallStreamsMayHoldMuch) {
   GltfJson ids;
   const Binary stream = draco_stream(file, file.primitive(), {true, 10}, &ids);
   GltfBuilder small = make_triangle();
-  small.json["accessors"] = {file.json["accessors"][0]};
+  small.json["accessors"] = GltfJson::array({file.json["accessors"][0]});
   small.json["accessors"][0].erase("bufferView");
   small.binary.clear();
   small.json["bufferViews"] = GltfJson::array();

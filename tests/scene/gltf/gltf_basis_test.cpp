@@ -20,7 +20,7 @@ constexpr size_t kTexels = 61 * 61;
 // A triangle that shows the picture of texture 0.
 GltfBuilder make_textured(const GltfJson& texture) {
   GltfBuilder file = make_triangle();
-  file.json["textures"] = {texture};
+  file.json["textures"] = GltfJson::array({texture});
   file.json["materials"] = GltfJson::parse(R"([{"emissiveTexture": {"index": 0}}])");
   return file;
 }
@@ -28,7 +28,7 @@ GltfBuilder make_textured(const GltfJson& texture) {
 TEST(GltfBasis, IsDecoded) {
   GltfBuilder file = make_textured(GltfJson::parse(R"({"extensions": {"KHR_texture_basisu": {"source": 0}}})"));
   file.json["extensionsRequired"] = file.json["extensionsUsed"] = {"KHR_texture_basisu"};
-  file.json["images"] = {{{"bufferView", file.add_view(small_ktx2())}, {"mimeType", "image/ktx2"}}};
+  file.json["images"] = GltfJson::array({{{"bufferView", file.add_view(small_ktx2())}, {"mimeType", "image/ktx2"}}});
   const Scene scene = file.load();
   EXPECT_EQ(scene.texels.size(), kTexels);
   EXPECT_EQ(scene.textures.at(0).srgb, 1);
@@ -38,7 +38,7 @@ TEST(GltfBasis, IsDecoded) {
 // Some exporters name the picture as if every program read it.
 TEST(GltfBasis, NeedsNoExtension) {
   GltfBuilder file = make_textured(GltfJson::parse(R"({"source": 0})"));
-  file.json["images"] = {{{"bufferView", file.add_view(small_ktx2())}}};
+  file.json["images"] = GltfJson::array({{{"bufferView", file.add_view(small_ktx2())}}});
   const Scene scene = file.load();
   EXPECT_EQ(scene.texels.size(), kTexels);
   EXPECT_TRUE(scene.warnings.empty());
@@ -58,7 +58,7 @@ TEST(GltfBasis, OthersAreAnErrorThatNamesThem) {
   Binary cube = small_ktx2();
   cube[36] = 6;  // faces
   GltfBuilder file = make_textured(GltfJson::parse(R"({"extensions": {"KHR_texture_basisu": {"source": 0}}})"));
-  file.json["images"] = {{{"bufferView", file.add_view(cube)}}};
+  file.json["images"] = GltfJson::array({{{"bufferView", file.add_view(cube)}}});
   const std::string error = error_of(file.glb());
   EXPECT_NE(error.find("image 0"), std::string::npos) << error;
   EXPECT_NE(error.find("cube map"), std::string::npos) << error;
