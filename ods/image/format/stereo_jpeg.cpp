@@ -87,6 +87,8 @@ std::optional<std::string> grown_mpf(const JpegSegment& segment, int64_t growth,
   return std::string(kMpf) + bytes;
 }
 
+namespace {
+
 // A directory of MPF: its fields, then the values that do not fit in them.
 class MpfDirectory {
  public:
@@ -127,6 +129,8 @@ class MpfDirectory {
   uint64_t offset_;
   std::vector<Field> fields_;
 };
+
+}  // namespace
 
 constexpr uint64_t kUndefinedType = 7, kLong = 4, kFirstDirectory = 8;
 const std::string kBigEndian{"MM\0*\0\0\0\x8", kFirstDirectory};
