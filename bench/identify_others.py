@@ -245,7 +245,7 @@ def verdict(ods, truth, path):
         return (1 if done.returncode == 3 and "nothing tells" in said else 2), said
     if "two fisheyes that look ahead and back" in said:
         taken = "front and back"
-    elif "a pair of fisheyes whose circles" in said:
+    elif "a pair of fisheyes" in said:
         taken = "side-by-side, fisheye"
     else:
         notes = re.findall(r"^ods: " + re.escape(path) + r": ([a-z0-9- ]+): ", said, re.M)

@@ -12,6 +12,7 @@
 #include "ods/camera/sizes.h"
 #include "ods/image/format/file_format.h"
 #include "ods/picture/metadata/stereo_format.h"
+#include "ods/picture/stereo_file.h"
 
 using ods::Layout;
 
@@ -92,7 +93,9 @@ void save_as_it_was(const ods::StoredPicture& picture, const ods::ProjectionSett
   const bool unfit = own == Layout::kSeparate || (own == Layout::kMultiview && !ods::keeps_layers(output));
   const std::optional<Layout> named = ods::read_name(output).layout;
   const bool is_named = named && ods::arrangement_of(*named).is_halves();
+  const bool is_jps = ods::stereo_file(output) == ods::StereoFile::kJps;  // cross-eyed, by custom
   save.layout = requested.value_or(is_named ? *named
+                                   : is_jps ? Layout::kCrossEyed
                                    : unfit  ? ods::default_layout(projection)
                                             : ods::layout_of_converted(own, picture.camera.projection, projection));
   save.exposure = display.exposure.value_or(save.exposure);

@@ -9,6 +9,8 @@
 #include "cli/console/print.h"
 #include "ods/base/json_reader.h"
 #include "ods/base/text.h"
+#include "ods/video/container/complete_metadata.h"
+#include "ods/video/container/hls.h"
 
 using ods::Json;
 using ods::SphericalMetadata;
@@ -37,6 +39,12 @@ std::string sound_text(const ods::SoundTrack& track) {
                      track.ambisonics->has_head_locked ? ", with head-locked stereo" : "");
 }
 
+// The line for a track with metadata.
+std::optional<std::string> hls_line_of(const ods::VideoTrack& track) {
+  const std::optional<SphericalMetadata> declared = ods::declared_metadata(track);
+  return declared ? ods::hls_line(track, *declared) : std::nullopt;
+}
+
 void print_views(const ProbeReport& report, size_t index) {
   put_out(fmt::format("\nA player that\n"));
   for (const ods::PlayerView& view : report.views[index]) {
@@ -60,6 +68,7 @@ void print_video(const ProbeReport& report) {
     if (!is_matroska(video) || track.v1) row("Spherical Video V1", said(track.v1));
     row(is_matroska(video) ? "Projection, Stereo" : "Spherical Video V2", said(track.v2));
     if (!is_matroska(video)) row("Apple's vexu", said(track.vexu));
+    if (const std::optional<std::string> line = hls_line_of(track)) row("HLS", *line);
     print_views(report, i);
   }
   if (video.tracks.empty()) row("pictures", "none");
@@ -136,7 +145,9 @@ Json video_to_json(const ProbeReport& report) {
                     {"fps", nullptr},
                     {"v1", to_json(track.v1)},
                     {"v2", to_json(track.v2)},
-                    {"vexu", to_json(track.vexu)}};
+                    {"vexu", to_json(track.vexu)},
+                    {"hls", nullptr}};
+    if (const std::optional<std::string> line = hls_line_of(track)) picture["hls"] = *line;
     if (track.fps > 0.0) picture["fps"] = track.fps;
     picture.update(views_to_json(report, i));
     json["video"].push_back(picture);

@@ -6,12 +6,16 @@
 #include <cmath>
 #include <vector>
 
+#include "ods/base/median.h"
+
 namespace ods {
 
 constexpr int kRays = 720;
-constexpr float kMinDark = 0.03f;  // video black, and the noise and ringing of codecs
-constexpr float kMinShare = 0.2f;  // minimum fraction of the circle
-constexpr float kRound = 0.012f;   // relative to the radius: maximum distance of a border from the circle
+constexpr float kMinShare = 0.2f;   // minimum fraction of the circle
+constexpr float kMinFound = 0.4f;   // minimum fraction of that where a border is found
+constexpr float kRound = 0.012f;    // relative to the radius: maximum distance of a border from the circle
+constexpr float kMinRadius = 0.3f;  // relative to the shorter side
+constexpr float kMinDrop = 0.025f;  // from the picture to its surround, as displayed
 
 static float sample(const Image& image, vec2 at) {
   const float x = std::clamp(at.x - 0.5f, 0.0f, static_cast<float>(image.width - 1));
@@ -22,45 +26,116 @@ static float sample(const Image& image, vec2 at) {
   return std::lerp(top, std::lerp(*image.at(x0, y0 + 1), *image.at(x0 + 1, y0 + 1), fx), fy);
 }
 
-// Maximum brightness of the surround: the darkest corner plus a margin.
-static float dark_level(const Image& image) {
-  const int side = std::max(1, std::min(image.width, image.height) / 50);
-  float darkest = 1.0f;
-  for (const int x : {0, image.width - side}) {
-    for (const int y : {0, image.height - side}) {
-      float maximum = 0.0f;
-      for (int i = 0; i < side * side; i++) maximum = std::max(maximum, *image.at(x + i % side, y + i / side));
-      darkest = std::min(darkest, maximum);
+static bool is_in(const Image& image, vec2 at) {
+  return at.x > 0.5f && at.y > 0.5f && at.x < static_cast<float>(image.width) - 0.5f &&
+         at.y < static_cast<float>(image.height) - 0.5f;
+}
+
+// --- a first circle --------------------------------------------------------------------------------------------------
+
+// Averages whole blocks of pixels, so that positions do not move.
+static Image reduced(const Image& image, int by) {
+  Image small(image.width / by, image.height / by, 1);
+  for (int y = 0; y < small.height; y++) {
+    for (int x = 0; x < small.width; x++) {
+      float sum = 0.0f;
+      for (int i = 0; i < by * by; i++) sum += *image.at(x * by + i % by, y * by + i / by);
+      *small.at(x, y) = sum / static_cast<float>(by * by);
     }
   }
-  return darkest + kMinDark;
+  return small;
 }
 
-// The length of a ray from `from` inside the image.
-static float length_inside(const Image& image, vec2 from, vec2 way) {
-  float length = 1e9f;
-  const vec2 size(static_cast<float>(image.width), static_cast<float>(image.height));
-  for (int c = 0; c < 2; c++) {
-    if (way[c] > 0.0f) length = std::min(length, (size[c] - from[c]) / way[c]);
-    if (way[c] < 0.0f) length = std::min(length, -from[c] / way[c]);
+// The mean drop of brightness across a circle, outwards, and more the longer its part in the image. A bright light
+// counts no more than any other drop, and a glow around the circle, which fades slowly, hardly at all.
+// Source: J. Daugman, "How Iris Recognition Works", the integro-differential operator.
+static float drop_across(const Image& image, const Rim& rim) {
+  constexpr int kPlaces = 96;
+  constexpr float kMost = 0.08f;
+  const float step = std::max(1.5f, 0.02f * rim.radius);
+  float sum = 0.0f;
+  int inside = 0;
+  for (int i = 0; i < kPlaces; i++) {
+    const float angle = 2.0f * kPi * static_cast<float>(i) / kPlaces;
+    const vec2 way(std::cos(angle), std::sin(angle));
+    const vec2 out = rim.center + (rim.radius + step) * way;
+    if (!is_in(image, out)) continue;
+    inside++;
+    sum += std::clamp(sample(image, rim.center + (rim.radius - step) * way) - sample(image, out), -kMost, kMost);
   }
-  return length;
+  if (static_cast<float>(inside) < kMinShare * kPlaces) return 0.0f;
+  return sum / std::sqrt(static_cast<float>(kPlaces * inside));
 }
 
-// The point on the way inwards where the image becomes brighter than dark; the steepest point near it. Returns nullopt
-// if it is bright at its very edge, or nowhere.
-static std::optional<vec2> border_on(const Image& image, vec2 from, vec2 way, float dark) {
-  const float length = length_inside(image, from, way), kStep = 0.5f;
-  if (sample(image, from + way * (length - 0.5f)) > dark) return std::nullopt;
-  float at = length - 0.5f;
-  while (at > 0.0f && sample(image, from + way * at) <= dark) at -= kStep;
+// The circle of the largest drop: all centres near the middle and all radii in a small image, then smaller steps.
+static Rim rough_rim(const Image& image) {
+  const vec2 size(static_cast<float>(image.width), static_cast<float>(image.height));
+  const float least = kMinRadius * std::min(size.x, size.y), most = 0.6f * length(size), far = 0.25f;
+  Rim best;
+  float largest = 0.0f;
+  const auto attempt = [&](const Rim& rim) {
+    const float drop = drop_across(image, rim);
+    if (drop > largest) largest = drop, best = rim;
+  };
+  for (float y = (0.5f - far) * size.y; y <= (0.5f + far) * size.y; y += 2.0f) {
+    for (float x = (0.5f - far) * size.x; x <= (0.5f + far) * size.x; x += 2.0f) {
+      for (float radius = least; radius <= most; radius += 1.0f) attempt({vec2(x, y), radius});
+    }
+  }
+  for (float step = 1.0f; step > 0.1f; step *= 0.5f) {
+    for (int round = 0; round < 3; round++) {
+      const Rim from = best;
+      for (int i = 0; i < 27; i++) {
+        const vec3 by = step * vec3(static_cast<float>(i % 3 - 1), static_cast<float>(i / 3 % 3 - 1),
+                                    static_cast<float>(i / 9 - 1));
+        attempt({from.center + vec2(by.x, by.y), from.radius + by.z});
+      }
+    }
+  }
+  return best;
+}
+
+// --- its exact place -------------------------------------------------------------------------------------------------
+
+// The mean of a stretch of a ray.
+static float mean_on(const Image& image, vec2 from, vec2 way, float start, float end) {
+  constexpr int kSteps = 6;
+  float sum = 0.0f;
+  for (int i = 0; i < kSteps; i++) {
+    sum += sample(image, from + way * std::lerp(start, end, (static_cast<float>(i) + 0.5f) / kSteps));
+  }
+  return sum / kSteps;
+}
+
+// The point on a ray near the circle where the image drops most: first over a stretch that averages noise out, then
+// over a pixel. Returns nullopt if it does not drop there, or leaves the image.
+static std::optional<vec2> border_on(const Image& image, const Rim& rim, vec2 way, float reach) {
+  const float wide = std::max(1.0f, 0.015f * rim.radius);
+  if (!is_in(image, rim.center + way * (rim.radius + 0.5f))) return std::nullopt;
+  float most = kMinDrop, at = 0.0f;
+  for (float t = rim.radius - reach; t <= rim.radius + reach; t += 0.5f) {
+    if (!is_in(image, rim.center + way * (t + 0.5f))) break;
+    const float drop = mean_on(image, rim.center, way, t - wide, t) - mean_on(image, rim.center, way, t, t + wide);
+    if (drop > most) most = drop, at = t;
+  }
   if (at <= 0.0f) return std::nullopt;
   float steepest = 0.0f, best = at;
-  for (float t = at - 2.0f; t <= at + 2.0f; t += 0.1f) {
-    const float slope = sample(image, from + way * (t - 0.5f)) - sample(image, from + way * (t + 0.5f));
+  for (float t = at - 0.5f * wide - 1.0f; t <= at + 0.5f * wide + 1.0f; t += 0.1f) {
+    const float slope =
+        std::abs(sample(image, rim.center + way * (t - 0.5f)) - sample(image, rim.center + way * (t + 0.5f)));
     if (slope > steepest) steepest = slope, best = t;
   }
-  return from + way * best;
+  return rim.center + way * best;
+}
+
+static std::vector<vec2> borders_near(const Image& image, const Rim& rim, float reach) {
+  std::vector<vec2> borders;
+  for (int i = 0; i < kRays; i++) {
+    const float angle = 2.0f * kPi * static_cast<float>(i) / kRays;
+    if (const auto border = border_on(image, rim, vec2(std::cos(angle), std::sin(angle)), reach))
+      borders.push_back(*border);
+  }
+  return borders;
 }
 
 // Least squares of x^2 + y^2 + a x + b y + c = 0. Source: I. Kasa, "A Circle Fitting Procedure and Its Error Analysis".
@@ -79,34 +154,11 @@ static std::optional<Rim> fit(const std::vector<vec2>& points) {
   const glm::dvec2 center(-abc.x / 2.0, -abc.y / 2.0);
   const double square = glm::dot(center, center) - abc.z;
   if (!(square > 0.0)) return std::nullopt;
-  return Rim{vec2(center + mean), static_cast<float>(std::sqrt(square)), 0.0f};
+  return Rim{vec2(center + mean), static_cast<float>(std::sqrt(square))};
 }
 
 static float off(const Rim& rim, vec2 point) {
   return length(point - rim.center) - rim.radius;
-}
-
-// The circle through three points with the most borders on it, and few outside: dark objects at the rim move borders
-// inwards.
-static std::optional<Rim> most_supported_circle(const std::vector<vec2>& borders) {
-  std::optional<Rim> best;
-  int maximum = 0;
-  uint32_t state = 1;
-  const auto draw = [&] {
-    state = state * 1664525u + 1013904223u;
-    return borders[(state >> 8) % borders.size()];
-  };
-  for (int i = 0; i < 400; i++) {
-    const std::optional<Rim> rim = fit({draw(), draw(), draw()});
-    if (!rim || !(rim->radius < 1e5f)) continue;
-    int votes = 0;
-    for (const vec2& border : borders) {
-      const float away = off(*rim, border) / rim->radius;
-      votes += std::abs(away) < kRound ? 1 : away > kRound ? -2 : 0;
-    }
-    if (votes > maximum) maximum = votes, best = rim;
-  }
-  return best;
 }
 
 // The fraction of the circle inside the image.
@@ -115,46 +167,73 @@ static float share_inside(const Image& image, const Rim& rim) {
   for (int i = 0; i < kRays; i++) {
     const float angle = 2.0f * kPi * static_cast<float>(i) / kRays;
     const vec2 at = rim.center + rim.radius * vec2(std::cos(angle), std::sin(angle));
-    inside += at.x > 1.0f && at.y > 1.0f && at.x < static_cast<float>(image.width - 1) &&
-                      at.y < static_cast<float>(image.height - 1)
-                  ? 1
-                  : 0;
+    inside += is_in(image, at) ? 1 : 0;
   }
   return static_cast<float>(inside) / kRays;
 }
 
-std::optional<Rim> find_rim(const Image& image) {
-  if (image.width < 32 || image.height < 32) return std::nullopt;
-  const float dark = dark_level(image);
-  if (dark > 0.25f) return std::nullopt;
-  const vec2 middle(0.5f * static_cast<float>(image.width), 0.5f * static_cast<float>(image.height));
-  std::vector<vec2> borders;
-  for (int i = 0; i < kRays; i++) {
-    const float angle = 2.0f * kPi * static_cast<float>(i) / kRays;
-    if (const auto border = border_on(image, middle, vec2(std::cos(angle), std::sin(angle)), dark)) {
-      borders.push_back(*border);
+// The brightness around the circle, if that is a sensor without light, or with a glow: darker than the picture, and
+// smooth but for noise and a few flares.
+static std::optional<float> dark_level_around(const Image& image, const Rim& rim) {
+  constexpr int kBands = 12;
+  constexpr float kClear = 1.03f, kBandWidth = 0.04f;  // of the radius
+  constexpr float kMaxLevel = 0.35f, kEven = 0.07f, kMostly = 0.8f;
+  std::vector<float> levels[kBands], within;
+  for (int y = 0; y < image.height; y++) {
+    for (int x = 0; x < image.width; x++) {
+      const float r =
+          length(vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f) - rim.center) / rim.radius;
+      if (r > 0.8f && r < 0.95f) within.push_back(*image.at(x, y));
+      if (r < kClear) continue;
+      const int band = std::min(static_cast<int>((r - kClear) / kBandWidth), kBands - 1);
+      levels[band].push_back(*image.at(x, y));
     }
   }
-  if (static_cast<float>(borders.size()) < kRays * kMinShare) return std::nullopt;
-  std::optional<Rim> rim = most_supported_circle(borders);
+  size_t count = 0, even = 0;
+  double sum = 0.0;
+  for (const std::vector<float>& band : levels) {
+    if (band.empty()) continue;
+    const float middle = median(band);
+    for (const float level : band) even += std::abs(level - middle) < kEven ? 1 : 0;
+    count += band.size(), sum += static_cast<double>(middle) * static_cast<double>(band.size());
+  }
+  if (count == 0) return std::nullopt;
+  const float around = static_cast<float>(sum / static_cast<double>(count));
+  const bool is_dark = around < kMaxLevel && around + kMinDrop < median(within);
+  const bool is_even = static_cast<double>(even) > static_cast<double>(kMostly) * static_cast<double>(count);
+  return is_dark && is_even ? std::optional(around) : std::nullopt;
+}
+
+std::optional<Rim> find_rim(const Image& image) {
+  constexpr int kSmall = 96;  // pixels
+  const int shorter = std::min(image.width, image.height);
+  if (shorter < 32) return std::nullopt;
+  const int by = std::max(1, shorter / kSmall);
+  Rim rim = rough_rim(reduced(image, by));
+  if (rim.radius <= 0.0f) return std::nullopt;
+  rim.center *= static_cast<float>(by), rim.radius *= static_cast<float>(by);
   size_t on = 0;
-  for (int i = 0; rim && i < 5; i++) {
+  for (int i = 0; i < 8; i++) {
+    const float reach = std::max(2.0f, (i < 2 ? 5.0f : i < 4 ? 2.0f : 1.0f) * kRound * rim.radius);
+    const float width = i < 4 ? 0.8f * reach : std::max(0.7f, 0.4f * reach);
     std::vector<vec2> near;
-    const float width = std::max(0.7f, (i == 0 ? kRound : 0.4f * kRound) * rim->radius);
-    for (const vec2& border : borders) {
-      if (std::abs(off(*rim, border)) < width) near.push_back(border);
+    for (const vec2& border : borders_near(image, rim, reach)) {
+      if (std::abs(off(rim, border)) < width) near.push_back(border);
     }
     on = near.size();
     if (static_cast<float>(on) < kRays * kMinShare * 0.5f) return std::nullopt;
-    rim = fit(near);
+    const std::optional<Rim> fitted = fit(near);
+    if (!fitted) return std::nullopt;
+    rim = *fitted;
   }
-  if (!rim) return std::nullopt;
-  const float inside = share_inside(image, *rim);
-  const float minimum = 0.3f * static_cast<float>(std::min(image.width, image.height));
-  if (rim->radius < minimum || inside < kMinShare) return std::nullopt;
+  const float inside = share_inside(image, rim);
+  if (rim.radius < kMinRadius * static_cast<float>(shorter) || inside < kMinShare) return std::nullopt;
   // The fraction of borders on the circle, out of the circle's part inside the image.
-  rim->share = std::min(1.0f, static_cast<float>(on) / (kRays * inside));
-  return rim->share > 0.5f ? rim : std::nullopt;
+  rim.share = std::min(1.0f, static_cast<float>(on) / (kRays * inside));
+  const std::optional<float> around = dark_level_around(image, rim);
+  if (rim.share <= kMinFound || !around) return std::nullopt;
+  rim.around = *around;
+  return rim;
 }
 
 }  // namespace ods

@@ -10,195 +10,56 @@
 
 #include "ods/camera/odd_halves.h"
 #include "ods/disparity/rim.h"
+#include "ods/identify/correlation.h"
+#include "ods/identify/lens_detail.h"
 #include "ods/identify/pairs.h"
 #include "ods/identify/thumbnail.h"
 #include "ods/picture/load_eyes.h"
 
 namespace ods {
 
-// --- front and back --------------------------------------------------------------------------------------------------
+// --- two circles -----------------------------------------------------------------------------------------------------
 
-constexpr float kMinAlike = 0.5f, kMinSame = 0.7f;
+constexpr float kMinAlike = 0.5f, kMinSame = 0.5f;
 
-static float sample(const Image& image, vec2 uv) {
-  const float x = uv.x * static_cast<float>(image.width) - 0.5f, y = uv.y * static_cast<float>(image.height) - 0.5f;
-  const int x0 = std::clamp(static_cast<int>(x), 0, image.width - 2),
-            y0 = std::clamp(static_cast<int>(y), 0, image.height - 2);
-  const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
-  const float top = std::lerp(*image.at(x0, y0), *image.at(x0 + 1, y0), fx);
-  return std::lerp(top, std::lerp(*image.at(x0, y0 + 1), *image.at(x0 + 1, y0 + 1), fx), fy);
-}
-
-namespace {
-
-struct Halves {
-  const Image& first;
-  const Image& second;
-};
-
-class Correlation {
- public:
-  void add(double a, double b) { count_++, a_ += a, b_ += b, aa_ += a * a, bb_ += b * b, ab_ += a * b; }
-  double count() const { return count_; }
-  // The correlation; -1 if the values hardly vary.
-  float value() const {
-    const double va = aa_ / count_ - a_ * a_ / count_ / count_, vb = bb_ / count_ - b_ * b_ / count_ / count_;
-    if (!(va > 1e-4 && vb > 1e-4)) return -1.0f;
-    return static_cast<float>((ab_ / count_ - a_ * b_ / count_ / count_) / std::sqrt(va * vb));
-  }
-
- private:
-  double count_ = 0.0, a_ = 0.0, b_ = 0.0, aa_ = 0.0, bb_ = 0.0, ab_ = 0.0;
-};
-
-}  // namespace
-
-// The correlation of the images in the zone that both lenses see beside them; -1 if there is none.
-static float alikeness(const Halves& halves, const std::vector<FisheyeLens>& lenses) {
-  constexpr int kAround = 720, kAcross = 9;
-  const Extent size{halves.first.width, halves.first.height};
-  FisheyeLens back = lenses[1];
-  back.yaw += 180.0f;
-  const auto first = make_map(lenses[0], size), second = make_map(back, size);
-  const float maximum = 0.9f * glm::radians(0.5f * lenses[0].fov - 90.0f);  // the outermost rim is dark
-  Correlation both;
-  for (int i = 0; i < kAround * kAcross; i++) {
-    const float around = 2.0f * kPi * static_cast<float>(i % kAround) / kAround;
-    const float behind = maximum * (2.0f * static_cast<float>(i / kAround) / (kAcross - 1) - 1.0f);
-    const vec3 d(std::cos(behind) * std::cos(around), std::cos(behind) * std::sin(around), std::sin(behind));
-    const ImagePoint p = first->place(d), q = second->place(d);
-    if (!p.seen || !q.seen) continue;
-    both.add(static_cast<double>(sample(halves.first, p.uv)), static_cast<double>(sample(halves.second, q.uv)));
-  }
-  return both.count() < kAround ? -1.0f : both.value();
-}
-
-// The correlation of equal positions in both circles: two eyes see nearly the same there.
-static float sameness(const Halves& halves, const std::vector<FisheyeLens>& lenses) {
+// The correlation of equal positions in both circles, by their detail: two eyes see nearly the same there.
+static float sameness(const LensImages& detail, const std::vector<FisheyeLens>& lenses) {
   constexpr int kSide = 64;
-  const vec2 size(static_cast<float>(halves.first.width), static_cast<float>(halves.first.height));
+  const vec2 size(static_cast<float>(detail.first.width), static_cast<float>(detail.first.height));
   Correlation both;
   for (int i = 0; i < kSide * kSide; i++) {
     const vec2 off =
         (vec2(static_cast<float>(i % kSide), static_cast<float>(i / kSide)) + 0.5f) / (0.5f * kSide) - 1.0f;
     const vec2 p = (lenses[0].center + lenses[0].radius * off) / size;
     const vec2 q = (lenses[1].center + lenses[1].radius * off) / size;
-    if (length(off) > 0.85f || !inside_picture(p) || !inside_picture(q)) continue;
-    both.add(static_cast<double>(sample(halves.first, p)), static_cast<double>(sample(halves.second, q)));
+    if (length(off) > 0.8f || !inside_picture(p) || !inside_picture(q)) continue;
+    both.add(sample_at(detail.first, p), sample_at(detail.second, q));
   }
   return both.count() > 0.0 ? both.value() : -1.0f;
 }
 
-static void set_fov(std::vector<FisheyeLens>& lenses, float fov) {
-  for (FisheyeLens& lens : lenses) lens.fov = fov;
-}
-
-// Optimizes one parameter after another, in decreasing steps.
-static float refine(const Halves& halves, std::vector<FisheyeLens>& lenses) {
-  float best = alikeness(halves, lenses);
-  using Change = void (*)(std::vector<FisheyeLens>&, float);
-  const Change kChanges[] = {[](std::vector<FisheyeLens>& l, float by) { set_fov(l, l[0].fov + by); },
-                             [](std::vector<FisheyeLens>& l, float by) { l[1].roll += by; },
-                             [](std::vector<FisheyeLens>& l, float by) { l[1].yaw += by; },
-                             [](std::vector<FisheyeLens>& l, float by) { l[1].pitch += by; }};
-  for (float step = 1.0f; step > 0.04f; step *= 0.5f) {
-    for (int round = 0; round < 3; round++) {
-      for (const Change change : kChanges) {
-        for (const float by : {step, -step}) {
-          std::vector<FisheyeLens> tried = lenses;
-          change(tried, by);
-          if (!(tried[0].fov > 181.0f && tried[0].fov < 280.0f)) continue;
-          const float alike = alikeness(halves, tried);
-          if (alike > best) best = alike, lenses = tried;
-        }
-      }
-    }
-  }
-  return best;
-}
-
-// The brightness above minus the brightness below, -1..1, in both lenses.
-static float light_from_above(const Halves& halves, const std::vector<FisheyeLens>& lenses) {
-  const Extent size{halves.first.width, halves.first.height};
-  double up = 0.0, all = 0.0;
-  for (const size_t which : {0u, 1u}) {
-    FisheyeLens lens = lenses[which];
-    lens.yaw = lens.pitch = 0.0f;
-    const auto map = make_map(lens, size);
-    const Image& image = which == 0 ? halves.first : halves.second;
-    for (int i = 0; i < 90 * 30; i++) {
-      const float around = 2.0f * kPi * static_cast<float>(i % 90) / 90.0f;
-      const float off = 1.4f * static_cast<float>(i / 90 + 1) / 30.0f;
-      const vec3 d(std::sin(off) * std::cos(around), std::sin(off) * std::sin(around), -std::cos(off));
-      const ImagePoint p = map->place(d);
-      if (!p.seen) continue;
-      const double light = static_cast<double>(sample(image, p.uv)) * std::sin(static_cast<double>(off));
-      up += light * static_cast<double>(d.y), all += light * std::abs(static_cast<double>(d.y));
-    }
-  }
-  return all > 0.0 ? static_cast<float>(up / all) : 0.0f;
-}
-
-// The overlap gives the relative roll of the lenses, but not which way is up: light comes from there.
-static void turn_upright(const Halves& halves, std::vector<FisheyeLens>& lenses) {
-  const float kLead = 0.15f;  // most cameras store the upper side up
-  std::vector<FisheyeLens> best = lenses;
-  float lightest = light_from_above(halves, lenses) + kLead;
-  for (const float roll : {90.0f, 180.0f, 270.0f}) {
-    std::vector<FisheyeLens> turned = lenses;
-    turned[0].roll += roll;
-    // Rotates the world about the axis of the first lens; the second one looks the other way.
-    turned[1].roll -= roll;
-    const float c = std::cos(glm::radians(roll)), s = std::sin(glm::radians(roll));
-    const float yaw = turned[1].yaw, pitch = turned[1].pitch;
-    turned[1].yaw = c * yaw + s * pitch, turned[1].pitch = c * pitch - s * yaw;
-    if (alikeness(halves, turned) < 0.8f * alikeness(halves, lenses)) {
-      turned[1].yaw = c * yaw - s * pitch, turned[1].pitch = c * pitch + s * yaw;
-    }
-    const float light = light_from_above(halves, turned);
-    if (light > lightest) lightest = light, best = turned;
-  }
-  lenses = best;
-}
-
-// Aligns the lenses where both see the same, and returns the best correlation.
-static float align(const Halves& halves, std::vector<FisheyeLens>& lenses) {
-  std::vector<FisheyeLens> best = lenses;
-  float maximum = -1.0f;
-  for (const float roll : {0.0f, 90.0f, 180.0f, 270.0f}) {
-    for (float fov = 184.0f; fov <= 230.0f; fov += 2.0f) {
-      std::vector<FisheyeLens> tried = lenses;
-      set_fov(tried, fov);
-      tried[1].roll = roll;
-      const float alike = alikeness(halves, tried);
-      if (alike > maximum) maximum = alike, best = tried;
-    }
-  }
-  if (maximum < 0.3f) return maximum;
-  lenses = best;
-  return refine(halves, lenses);
-}
-
-std::optional<SeenLenses> find_lenses(const Image& first, const Image& second, float fov) {
-  const std::optional<Rim> rims[] = {find_rim(first), find_rim(second)};
+std::optional<SeenLenses> find_lenses(const LensImages& images, std::optional<float> fov) {
+  const std::optional<Rim> rims[] = {find_rim(images.first), find_rim(images.second)};
   if (!rims[0] || !rims[1]) return std::nullopt;
   if (std::abs(rims[0]->radius / rims[1]->radius - 1.0f) > 0.08f) return std::nullopt;
   SeenLenses seen;
   for (const std::optional<Rim>& rim : rims) {
     FisheyeLens& lens = seen.lenses.emplace_back();
-    lens.center = rim->center, lens.radius = rim->radius, lens.fov = fov;
+    lens.center = rim->center, lens.radius = rim->radius, lens.fov = fov.value_or(180.0f);
   }
-  const Halves halves{first, second};
-  std::vector<FisheyeLens> aligned = seen.lenses;
-  seen.alike = align(halves, aligned);
-  const PointPairs pairs = find_pairs(first, second);
+  const Image detail[] = {lens_detail(images.first, seen.lenses[0], kCoarseDetail),
+                          lens_detail(images.second, seen.lenses[1], kCoarseDetail)};
+  const float same = sameness({detail[0], detail[1]}, seen.lenses);
+  const OppositeLenses opposite = align_front_and_back(images, seen.lenses, fov);
+  const PointPairs pairs = find_pairs(images.first, images.second);
   const bool is_stereo = (pairs.places > 0 && static_cast<double>(pairs.found.size()) > 0.3 * pairs.places) ||
-                         sameness(halves, seen.lenses) > std::max(seen.alike, kMinSame);
-  seen.front_and_back = !is_stereo && seen.alike > kMinAlike;
-  if (!seen.front_and_back && !is_stereo && pairs.places > 0) return std::nullopt;
-  if (!seen.front_and_back) return seen;
-  turn_upright(halves, aligned);
-  seen.lenses = aligned;
+                         (same > kMinSame && (opposite.source != FovSource::kOverlap || same > opposite.alike));
+  seen.around = std::max(rims[0]->around, rims[1]->around);
+  if (is_stereo) return seen;
+  const bool is_opposite = opposite.source == FovSource::kOverlap || opposite.alike > kMinAlike;
+  if (!is_opposite) return pairs.places > 0 ? std::nullopt : std::optional(seen);
+  seen.lenses = opposite.lenses, seen.front_and_back = true;
+  seen.alike = opposite.alike, seen.fov_source = opposite.source;
   return seen;
 }
 
@@ -247,6 +108,32 @@ static std::optional<ProjectionSetting> known_projection(const FormatHint& known
   return named ? std::optional(named->setting) : std::nullopt;
 }
 
+// The field of view that the caller or the name specifies. 180 degrees is also the usual value of a fisheye, so it is
+// measured all the same.
+static std::optional<float> told_fov(const std::optional<ProjectionSetting>& told) {
+  return told && told->fov != 180.0f ? std::optional(told->fov) : std::nullopt;
+}
+
+static std::string opposite_text(const SeenLenses& seen) {
+  std::string why;
+  switch (seen.fov_source) {
+    case FovSource::kTold:
+      why = "as specified";
+      break;
+    case FovSource::kOverlap:
+      why = fmt::format("they agree by {:.2f} where both see", seen.alike);
+      break;
+    case FovSource::kRims:
+      why = fmt::format("nothing is seen by both, and their rims agree by {:.2f}", seen.alike);
+      break;
+    case FovSource::kNothing:
+      why = "a usual angle, because their pictures are too smooth to show it: specify it with `input-fov`";
+      break;
+  }
+  return fmt::format("two fisheyes that look ahead and back, {:.1f} degrees each (`circle` {},{}): {}",
+                     seen.lenses[0].fov, lens_text(seen.lenses[0]), lens_text(seen.lenses[1]), why);
+}
+
 static std::optional<Layout> known_layout(const FormatHint& known, const std::string& path) {
   return known.layout ? known.layout : read_name(path).layout;
 }
@@ -264,7 +151,7 @@ static Image around_circle(const Image& image, const FisheyeLens& lens, int side
 }
 
 // Returns whether the parallax shows that the first half is the right eye's, as Canon's dual fisheye lens stores it.
-static bool is_right_first(const Halves& halves, const std::vector<FisheyeLens>& lenses) {
+static bool is_right_first(const LensImages& halves, const std::vector<FisheyeLens>& lenses) {
   constexpr float kSure = 0.5f;
   const int side = 2 * static_cast<int>(lenses[0].radius);
   ProjectionSetting projection = find_projection("fisheye")->setting;
@@ -291,12 +178,13 @@ FormatHint with_lenses(const StoredPicture& whole, const std::string& path, cons
   if (!layout) layout = is_wide ? Layout::kSideBySide : Layout::kTopBottom;
   const std::optional<Extent> eye = unpacked_size(*layout, without_middle(*layout, whole.size));
   if (!eye) return known;
-  constexpr int kLongest = 1100;  // maximum side of a half, pixels
+  constexpr float kBlack = 0.05f;  // below it identify() recognises circles, and other projections, by themselves
+  constexpr int kLongest = 1100;   // maximum side of a half, pixels
   const int by = 1 + std::max(eye->width, eye->height) / kLongest;
   const Image grey = grey_eyes(whole)[0];
   const auto half = [&](int index) { return shown(reduced(cut(grey, eye_corner(*layout, *eye, index), *eye), by)); };
   const Image first = half(0), second = half(1);
-  std::optional<SeenLenses> seen = find_lenses(first, second, told ? told->fov : 180.0f);
+  std::optional<SeenLenses> seen = find_lenses({first, second}, told_fov(told));
   if (!seen) return known;
   const bool right_first =
       !seen->front_and_back && !known_layout(known, path) && is_right_first({first, second}, seen->lenses);
@@ -307,22 +195,20 @@ FormatHint with_lenses(const StoredPicture& whole, const std::string& path, cons
   all.layout = layout;
   if (seen->front_and_back) {
     all.front_and_back = true, all.lenses = seen->lenses, all.projection = find_projection("fisheye")->setting;
-    notes.push_back(
-        fmt::format("two fisheyes that look ahead and back, {:.1f} degrees each (`circle` {},{}): they agree by "
-                    "{:.2f} where both see",
-                    seen->lenses[0].fov, lens_text(seen->lenses[0]), lens_text(seen->lenses[1]), seen->alike));
+    notes.push_back(opposite_text(*seen));
     return all;
   }
-  if (is_inscribed(seen->lenses[0], *eye) && is_inscribed(seen->lenses[1], *eye)) return known;
+  const bool are_inscribed = is_inscribed(seen->lenses[0], *eye) && is_inscribed(seen->lenses[1], *eye);
+  if (are_inscribed && seen->around < kBlack) return known;
   all.lenses = seen->lenses, all.projection = told ? *told : find_projection("fisheye")->setting;
   for (FisheyeLens& lens : all.lenses) lens.kind = all.projection->kind;
   if (right_first) {
     std::swap(all.lenses[0], all.lenses[1]);
     all.layout = layout_with({arrangement_of(*layout).how, true});
   }
-  notes.push_back(fmt::format("a pair of fisheyes whose circles do not touch the edges{}: `circle` {},{}",
-                              right_first ? ", the right eye first" : "", lens_text(all.lenses[0]),
-                              lens_text(all.lenses[1])));
+  notes.push_back(fmt::format(
+      "a pair of fisheyes{}{}: `circle` {},{}", are_inscribed ? "" : " whose circles do not touch the edges",
+      right_first ? ", the right eye first" : "", lens_text(all.lenses[0]), lens_text(all.lenses[1])));
   return all;
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ods/image/image.h"
+#include "ods/identify/front_and_back.h"
 #include "ods/picture/stored_picture.h"
 
 namespace ods {
@@ -16,12 +16,14 @@ namespace ods {
 struct SeenLenses {
   std::vector<FisheyeLens> lenses;  // in pixels of the halves
   bool front_and_back = false;      // the second one looks back (its yaw is 0 all the same, as in FormatHint)
-  float alike = 0.0f;               // correlation where both lenses see the same, -1..1; only for front and back
+  float alike = 0.0f;               // as OppositeLenses::alike, only for front and back
+  FovSource fov_source = FovSource::kNothing;
+  float around = 0.0f;  // as Rim::around, of the brighter one
 };
 
-// The lenses of two halves, as a display shows them: 1 channel, 0..1. Front and back are aligned where they overlap:
-// field of view, roll, and the direction of the second one. Returns nullopt if the halves have no rims.
-std::optional<SeenLenses> find_lenses(const Image& first, const Image& second, float fov);
+// The lenses of two halves. Front and back are aligned. fov: degrees, if it is known. Returns nullopt if the halves
+// have no rims.
+std::optional<SeenLenses> find_lenses(const LensImages& halves, std::optional<float> fov);
 
 // Returns whether `known` and the name allow lenses. is_open: whether the metadata leave the format open.
 bool wants_lenses(const FormatHint& known, const std::string& path, bool is_open);

@@ -10,8 +10,9 @@
 namespace ods {
 
 // Sets the options so that the picture `to` keeps the Exif of the picture `from` (date, place, camera, author) and the
-// initial view of its GPano. Returns a note for users if the format of `to` has no place for the Exif, otherwise an
-// empty string. Throws Error(kInput) if `from` cannot be read.
+// initial view of its GPano. Returns a note for users about what is lost: the Exif, if the format of `to` has no place
+// for it; gain maps, depth maps and previews beside the eyes. Otherwise returns an empty string. Throws Error(kInput) if
+// `from` cannot be read.
 std::string keep_photo_metadata(const std::string& from, const std::string& to, SaveOptions& options);
 
 }  // namespace ods

@@ -14,25 +14,30 @@
 
 #include "ods/base/error.h"
 #include "ods/files/atomic_file.h"
+#include "ods/files/byte_sink.h"
 #include "ods/image/exif.h"
 #include "ods/image/format/image_limits.h"
+#include "ods/image/format/stereo_jpeg.h"
 #include "ods/image/format/xmp.h"
 #include "ods/image/image_file.h"
 #include "ods/picture/anaglyph.h"
 #include "ods/picture/metadata/metadata.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/metadata/vr_photo.h"
+#include "ods/picture/stereo_file.h"
 
 namespace ods {
 
 // --- checks ----------------------------------------------------------------------------------------------------------
 
-static bool is_photo_of(const std::string& path, size_t eye_count) {
-  return eye_count == 2 && names_photo(path) && !names_eye(path);
+// The kind of file if its name asks for one that is made for two eyes.
+static std::optional<StereoFile> stereo_file_of(const std::string& path, size_t eye_count) {
+  return eye_count == 2 && !names_eye(path) ? stereo_file(path) : std::nullopt;
 }
 
 static Layout layout_for(const std::string& path, const SaveOptions& options, size_t eye_count) {
-  return names_eye(path) || is_photo_of(path, eye_count) ? Layout::kSeparate : options.layout;
+  const std::optional<StereoFile> kind = stereo_file_of(path, eye_count);
+  return names_eye(path) || (kind && *kind != StereoFile::kJps) ? Layout::kSeparate : options.layout;
 }
 
 static Error unfit(const std::string& path, const std::string& why) {
@@ -49,8 +54,11 @@ static void check_layout(const std::string& path, FileFormat format, const SaveO
   if (is_anaglyph(layout) && is_scene_referred(format)) {
     throw unfit(path, "an anaglyph is display-referred, but this format is scene-linear; use .png");
   }
-  if (layout == Layout::kSeparate && stereo && !names_eye(path) && !names_photo(path)) {
+  if (layout == Layout::kSeparate && stereo && !names_eye(path) && !stereo_file(path)) {
     throw unfit(path, "separate eyes need %V (left, right) or %v (l, r) in the file name");
+  }
+  if (stereo_file_of(path, eyes.size()) == StereoFile::kJps && !make_jps("\xff\xd8", layout_name(layout))) {
+    throw unfit(path, fmt::format(".jps files cannot be {}: give another `layout`", layout_name(layout)));
   }
   if (names_eye(path) && eyes[0] == kMono) throw unfit(path, "%V and %v stand for an eye, but the picture is mono");
 
@@ -84,17 +92,20 @@ bool keeps_layers(const std::string& path) {
   return format_of_path(path) == FileFormat::kExr;
 }
 
-static void check_photo(const std::string& path, const ProjectionSetting& projection) {
-  if (fits_gpano(projection)) return;
-  throw unfit(path,
-              fmt::format("a .vr.jpg holds lat-long or a part of it, and this is {}", projection_name(projection)));
+// A VR photo has GPano, an MPO none or GPano: readers take it for a window or for what GPano says.
+static void check_stereo_file(const std::string& path, StereoFile kind, const ProjectionSetting& projection) {
+  const bool is_window = projection.kind == kPerspective && kind != StereoFile::kVrPhoto;
+  if (fits_gpano(projection) || is_window || kind == StereoFile::kJps) return;
+  throw unfit(path, fmt::format("{} files hold {}lat-long or a part of it, and this is {}", stereo_file_extension(kind),
+                                kind == StereoFile::kMpo ? "a window, " : "", projection_name(projection)));
 }
 
 void check_output(const std::string& path, const SaveOptions& options, const std::vector<int>& eyes, Extent eye,
                   const ProjectionSetting* projection) {
   assert(eyes.size() == 1 || eyes.size() == 2);
   check_layout(path, format_for(path), options, eyes, eye);
-  if (is_photo_of(path, eyes.size()) && projection != nullptr) check_photo(path, *projection);
+  const std::optional<StereoFile> kind = stereo_file_of(path, eyes.size());
+  if (kind && projection != nullptr) check_stereo_file(path, *kind, *projection);
   for (int each : eyes) check_writable(names_eye(path) ? path_for_eye(path, each) : path);
 }
 
@@ -355,11 +366,10 @@ static void write_picture(ByteSink& out, const File& file, const StereoCamera* c
 }
 
 // Writes both eyes as temporary JPEGs, then combines them.
-static void write_both_eyes(AtomicFile& out, const PictureRows& picture, const StereoCamera* camera,
-                            const SaveOptions& options) {
+static void write_vr_photo(AtomicFile& out, const PictureRows& picture, const StereoCamera* camera,
+                           const SaveOptions& options) {
   if (camera == nullptr)
     throw unfit(out.path(), "a .vr.jpg needs camera metadata, but this picture's camera is unknown");
-  check_photo(out.path(), camera->projection);
   std::list<AtomicFile> eyes;
   for (const int index : {0, 1}) {
     const File file{picture, {index}, FileFormat::kJpeg, Layout::kSeparate, options, count_channels(picture.layers),
@@ -369,6 +379,31 @@ static void write_both_eyes(AtomicFile& out, const PictureRows& picture, const S
   }
   const FileInput left(eyes.front().temporary()), right(eyes.back().temporary());
   write_photo(left, right.read(0, right.size()), *camera, picture.eye, out);
+}
+
+static void write_stereo_file(AtomicFile& out, StereoFile kind, const PictureRows& picture, const StereoCamera* camera,
+                              const SaveOptions& options) {
+  const auto jpeg_of = [&](const std::vector<int>& indices, Layout layout) {
+    MemorySink memory(out.path());
+    const Extent squeeze = squeeze_of(layout, static_cast<int>(indices.size()));
+    write_picture(memory,
+                  {picture, indices, FileFormat::kJpeg, layout, options, count_channels(picture.layers), squeeze},
+                  camera);
+    return memory.take();
+  };
+  if (camera != nullptr) check_stereo_file(out.path(), kind, camera->projection);
+  std::optional<std::string> bytes;
+  switch (kind) {
+    case StereoFile::kVrPhoto:
+      return write_vr_photo(out, picture, camera, options);
+    case StereoFile::kMpo:
+      bytes = make_mpo(jpeg_of({0}, Layout::kSeparate), jpeg_of({1}, Layout::kSeparate));
+      break;
+    case StereoFile::kJps:
+      bytes = make_jps(jpeg_of({0, 1}, options.layout), layout_name(options.layout));
+      break;
+  }
+  out.write(bytes->data(), bytes->size());
 }
 
 std::vector<std::string> save_picture(const PictureRows& picture, const StereoCamera* camera,
@@ -389,8 +424,8 @@ std::vector<std::string> save_picture(const PictureRows& picture, const StereoCa
   for (int i = 0; i < static_cast<int>(picture.eyes.size()); i++) all.push_back(i);
   if (names_eye(path)) {
     for (int i : all) write(path_for_eye(path, picture.eyes[static_cast<size_t>(i)]), {i});
-  } else if (is_photo_of(path, picture.eyes.size())) {
-    write_both_eyes(files.emplace_back(path), picture, camera, options);
+  } else if (const auto kind = stereo_file_of(path, picture.eyes.size())) {
+    write_stereo_file(files.emplace_back(path), *kind, picture, camera, options);
     names.push_back(path);
   } else {
     write(path, all);
@@ -415,66 +450,6 @@ std::string eye_bytes(const PictureRows& picture, int index, FileFormat format, 
   const File file{picture, {index}, format, Layout::kSeparate, options, count_channels(picture.layers), {1, 1}};
   write_picture(memory, file, nullptr);
   return memory.take();
-}
-
-// --- a picture in memory -------------------------------------------------------------------------------------------
-
-namespace {
-
-struct ImageLayer {
-  const Image EyeImage::*image;
-  RowLayer layer;
-};
-
-}  // namespace
-
-static const std::vector<ImageLayer>& image_layers() {
-  static const std::vector<ImageLayer> layers = {
-      {&EyeImage::radiance, {{"R", "G", "B"}, LayerRule::kLight, SampleType::kHalf}},
-      {&EyeImage::depth, {{"Z"}, LayerRule::kNearest, SampleType::kFloat}},
-      {&EyeImage::normal, {{"N.X", "N.Y", "N.Z"}, LayerRule::kMean, SampleType::kHalf}},
-      {&EyeImage::albedo, {{"albedo.R", "albedo.G", "albedo.B"}, LayerRule::kMean, SampleType::kHalf}},
-      {&EyeImage::variance, {{"variance.R", "variance.G", "variance.B"}, LayerRule::kNearest, SampleType::kFloat}},
-      {&EyeImage::raw, {{"raw.R", "raw.G", "raw.B"}, LayerRule::kMean, SampleType::kHalf}},
-      {&EyeImage::samples, {{"samples"}, LayerRule::kNearest, SampleType::kFloat}},
-  };
-  return layers;
-}
-
-PictureRows rows_of(const Picture& picture, bool all_layers) {
-  PictureRows rows;
-  rows.eye = {picture.eyes[0].radiance.width, picture.eyes[0].radiance.height};
-  std::vector<const Image EyeImage::*> images;
-  for (const ImageLayer& each : image_layers()) {
-    if ((picture.eyes[0].*each.image).pixels.empty() || !(all_layers || images.empty())) continue;
-    images.push_back(each.image);
-    rows.layers.push_back(each.layer);
-    if (images.size() > 1 || picture.eyes[0].alpha.pixels.empty()) continue;
-    images.push_back(&EyeImage::alpha);  // is the fourth channel of the colour
-    rows.layers[0].channels.push_back("A");
-  }
-  for (const EyeImage& eye : picture.eyes) rows.eyes.push_back(eye.eye);
-  rows.fill = [&picture, images, stride = count_channels(rows.layers)](int index, int y, std::span<float> row) {
-    float* out = row.data();
-    for (const Image EyeImage::*image : images) {
-      const Image& from = picture.eyes[static_cast<size_t>(index)].*image;
-      const float* in = from.at(0, y);
-      for (int x = 0; x < from.width; x++, in += from.channels) {
-        std::copy(in, in + from.channels, out + static_cast<size_t>(x) * stride);
-      }
-      out += from.channels;
-    }
-  };
-  return rows;
-}
-
-std::vector<std::string> save_picture(const Picture& picture, const StereoCamera& camera, const SaveOptions& options,
-                                      const std::string& path) {
-  return save_picture(rows_of(picture, keeps_layers(path)), &camera, options, path);
-}
-
-std::vector<std::string> save_picture(const Picture& picture, const SaveOptions& options, const std::string& path) {
-  return save_picture(rows_of(picture, keeps_layers(path)), nullptr, options, path);
 }
 
 }  // namespace ods

@@ -18,8 +18,8 @@
 // picture over black.
 //
 // A png, jpg or tif of one eye carries GPano. A stereo one does not, because GPano has no stereo and viewers would wrap
-// both eyes around one sphere. But NAME.vr.jpg with two eyes is a VR photo: the left eye with GPano and the right one
-// embedded (ods/picture/metadata/vr_photo.h), whatever the layout.
+// both eyes around one sphere. Two eyes in NAME.vr.jpg, NAME.mpo or NAME.jps become a file of that kind
+// (ods/picture/stereo_file.h): the first two hold the eyes as pictures of their own, whatever the layout.
 #pragma once
 #include <functional>
 #include <span>

@@ -145,7 +145,9 @@ WrittenVideo write_video(const NewVideo& video, const std::function<std::optiona
   written.frames = encode_frames(video, next, encoder, parts, progress);
   encoder.finish();
   SphericalMetadata metadata = video.metadata;
-  metadata.for_apple = metadata.for_apple || options.for_apple;
+  // Vision Pro reads no other metadata, and of these codecs it takes HEVC.
+  const bool may_be_apples = options.packing.codec == VideoCodec::kHevc && has_boxes(container) && fits_vexu(metadata);
+  metadata.for_apple = metadata.for_apple || options.for_apple || may_be_apples;
   const VideoFile made = read_video_file(untagged.temporary());
   written.tags =
       tag_video(untagged.temporary(), path, choose_track(made, {}, path).id, metadata, other_tags(options, container));

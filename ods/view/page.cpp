@@ -50,6 +50,8 @@ std::string_view media_type(std::string_view name) {
       {".svg", "image/svg+xml"},
       {".png", "image/png"},
       {".jpg", "image/jpeg"},
+      {".mpo", "image/jpeg"},
+      {".jps", "image/jpeg"},
       {".jpeg", "image/jpeg"},
       {".webp", "image/webp"},
       {".mp4", "video/mp4"},

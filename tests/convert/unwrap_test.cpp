@@ -275,7 +275,7 @@ TEST(Lenses, AheadAndBackAreFoundAndAligned) {
     FisheyeLens front = lens_at(150.0f, 140.0f, 136.0f, 195.0f), back = lens_at(147.0f, 141.0f, 136.0f, 195.0f);
     back.yaw = 181.0f, back.pitch = 0.6f, back.roll = 1.5f;
     const auto world = [&](vec3 d) { return lit(waves, d); };
-    const auto seen = find_lenses(image_of(front, kEye, world), image_of(back, kEye, world), 180.0f);
+    const auto seen = find_lenses({image_of(front, kEye, world), image_of(back, kEye, world)}, std::nullopt);
     ASSERT_TRUE(seen) << seed;
     EXPECT_TRUE(seen->front_and_back) << seed << " " << seen->alike;
     EXPECT_NEAR(seen->lenses[0].fov, 195.0f, 1.0f) << seed;
@@ -293,7 +293,7 @@ TEST(Lenses, TurnedOnesAreSetUpright) {
     FisheyeLens front = lens_at(150.0f, 140.0f, 136.0f, 200.0f), back = front;
     front.roll = roll, back.roll = -roll, back.yaw = 180.0f;
     const auto world = [&](vec3 d) { return lit(waves, d); };
-    const auto seen = find_lenses(image_of(front, kEye, world), image_of(back, kEye, world), 180.0f);
+    const auto seen = find_lenses({image_of(front, kEye, world), image_of(back, kEye, world)}, std::nullopt);
     ASSERT_TRUE(seen && seen->front_and_back) << roll;
     EXPECT_NEAR(std::remainder(seen->lenses[0].roll - roll, 360.0f), 0.0f, 1.0f) << roll;
     EXPECT_NEAR(std::remainder(seen->lenses[1].roll + roll, 360.0f), 0.0f, 1.0f) << roll;
@@ -307,7 +307,8 @@ TEST(Lenses, APairThatLooksAheadIsNotTakenForOneThatLooksBack) {
   const auto world = [&](float shift) {
     return [&waves, shift](vec3 d) { return lit(waves, normalize(d + vec3(d.z < -0.8f ? shift : 0.0f, 0.0f, 0.0f))); };
   };
-  const auto seen = find_lenses(image_of(left, kEye, world(0.01f)), image_of(right, kEye, world(-0.01f)), 180.0f);
+  const auto seen =
+      find_lenses({image_of(left, kEye, world(0.01f)), image_of(right, kEye, world(-0.01f))}, std::nullopt);
   ASSERT_TRUE(seen);
   EXPECT_FALSE(seen->front_and_back);
   EXPECT_NEAR(seen->lenses[0].center.x, 142.0f, 0.5f);

@@ -8,6 +8,7 @@
 #include "ods/image/exif.h"
 #include "ods/image/format/xmp.h"
 #include "ods/image/format/xmp_file.h"
+#include "tests/support/stereo_jpegs.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods::photo_metadata_test {
@@ -87,6 +88,18 @@ TEST(PhotoMetadata, IsKeptInJpegAndPng) {
     EXPECT_NE(keep_photo_metadata(folder.path(name), "c.webp", again).find("does not keep the Exif"),
               std::string::npos);
   }
+}
+
+TEST(PhotoMetadata, PicturesBesideTheEyesAreNamed) {
+  const TemporaryFolder folder;
+  save_picture(small_picture(), {}, folder.path("a.jpg"));
+  const std::string jpeg = folder.read("a.jpg");
+  constexpr uint32_t kUndefined = 0;  // as the type of gain maps
+  folder.write("b.jpg", made::mpo(jpeg, jpeg, kUndefined));
+  folder.write("c.jpg", made::mpo(jpeg, jpeg));
+  SaveOptions options;
+  EXPECT_NE(keep_photo_metadata(folder.path("b.jpg"), "d.jpg", options).find("gain map"), std::string::npos);
+  EXPECT_EQ(keep_photo_metadata(folder.path("c.jpg"), "d.jpg", options), "");
 }
 
 }  // namespace ods::photo_metadata_test

@@ -14,6 +14,7 @@
 #include "ods/base/error.h"
 #include "ods/image/format/file_format.h"
 #include "ods/image/image_file.h"
+#include "ods/picture/stored_picture.h"
 #include "tests/support/temporary_folder.h"
 
 namespace ods::save_test {
@@ -139,6 +140,34 @@ TEST(Save, EveryFormatInEveryLayout) {
     }
     EXPECT_EQ(folder.names().size(), 5u);  // nothing temporary is left
   }
+}
+
+// The kinds of files for two eyes are read as they were written.
+TEST(Save, FilesForTwoEyesAreReadAgain) {
+  const TemporaryFolder folder;
+  const Picture picture = stereo();
+  StereoCamera window;
+  window.projection = find_projection("perspective")->setting;
+  StereoCamera front;
+  front.projection = find_projection("vr180")->setting;
+  for (const StereoCamera& camera : {window, front}) {
+    save_picture(picture, camera, {}, folder.path("a.mpo"));
+    const StoredPicture pair = open_picture(folder.path("a.mpo"), {});
+    EXPECT_EQ(pair.eyes.size(), 2u);
+    EXPECT_EQ(pair.camera.projection.kind, camera.projection.kind);
+  }
+  for (const Layout layout : {Layout::kCrossEyed, Layout::kTopBottom, Layout::kRowInterleaved}) {
+    SaveOptions options;
+    options.layout = layout;
+    save_picture(picture, window, options, folder.path("a.jps"));
+    EXPECT_EQ(open_picture(folder.path("a.jps"), {}).layout, layout);
+  }
+  StereoCamera fisheye;
+  fisheye.projection = find_projection("fisheye")->setting;
+  EXPECT_THROW(save_picture(picture, fisheye, {}, folder.path("b.mpo")), Error);
+  SaveOptions checkerboard;
+  checkerboard.layout = Layout::kCheckerboard;
+  EXPECT_THROW(save_picture(picture, window, checkerboard, folder.path("b.jps")), Error);
 }
 
 TEST(Save, SqueezedPixelsAreTheMeanButOfDepthTheNearest) {

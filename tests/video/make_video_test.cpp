@@ -184,7 +184,11 @@ TEST_F(MadeVideo, ItSaysHowFarItsEyesAreApartWhereTheFramesDo) {
   files = find_frames(folder.path("b.#.exr"));
   video = plan_video(files, {}, {});
   make("video.mp4");
-  EXPECT_FALSE(read_video_file(folder.path("video.mp4")).tracks.at(0).vexu) << "only on request";
+  EXPECT_FALSE(read_video_file(folder.path("video.mp4")).tracks.at(0).vexu) << "only on request, or in HEVC";
+  options.packing.codec = VideoCodec::kHevc;
+  make("video.mp4");
+  EXPECT_EQ(read_video_file(folder.path("video.mp4")).tracks.at(0).vexu.value().ipd, 0.05);
+  options.packing.codec = VideoCodec::kH264;
   options.for_apple = true;
   make("video.mp4");
   EXPECT_EQ(read_video_file(folder.path("video.mp4")).tracks.at(0).vexu.value().ipd, 0.05);

@@ -23,11 +23,12 @@ struct Extension {
 
 }  // namespace
 static const Extension kExtensions[] = {
-    {"png", FileFormat::kPng},   {"jpg", FileFormat::kJpeg},  {"jpeg", FileFormat::kJpeg}, {"tif", FileFormat::kTiff},
-    {"tiff", FileFormat::kTiff}, {"webp", FileFormat::kWebp}, {"hdr", FileFormat::kHdr},   {"exr", FileFormat::kExr},
+    {"png", FileFormat::kPng},  {"jpg", FileFormat::kJpeg}, {"jpeg", FileFormat::kJpeg}, {"mpo", FileFormat::kJpeg},
+    {"jps", FileFormat::kJpeg}, {"tif", FileFormat::kTiff}, {"tiff", FileFormat::kTiff}, {"webp", FileFormat::kWebp},
+    {"hdr", FileFormat::kHdr},  {"exr", FileFormat::kExr},
 };
 
-constexpr std::string_view kOnlyRead[] = {"heic", "heif", "avif"};
+constexpr std::string_view kOnlyRead[] = {"pns", "heic", "heif", "avif"};
 
 static std::string extension_of(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension().native();

@@ -7,12 +7,15 @@
 #include <algorithm>
 #include <cctype>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "ods/base/error.h"
 #include "ods/image/format/file_format.h"
 #include "ods/image/format/inflate.h"
 #include "ods/image/format/jpeg_segments.h"
 #include "ods/image/format/png_chunks.h"
+#include "ods/image/format/stereo_jpeg.h"
 #include "ods/image/format/tiff_directory.h"
 
 namespace ods {
@@ -35,10 +38,15 @@ struct Cut {
 
 }  // namespace
 
-static void write_with(const FileInput& file, AtomicFile& to, const Cut& cut, const std::string& bytes) {
-  file.copy(0, cut.at, to);
-  append(to, bytes);
-  file.copy(cut.at + cut.size, file.size() - cut.at - cut.size, to);
+// The replacements are in the order of the file.
+static void write_with(const FileInput& file, AtomicFile& to, const std::vector<std::pair<Cut, std::string>>& changes) {
+  uint64_t at = 0;
+  for (const auto& [cut, bytes] : changes) {
+    file.copy(at, cut.at - at, to);
+    append(to, bytes);
+    at = cut.at + cut.size;
+  }
+  file.copy(at, file.size() - at, to);
 }
 
 // --- JPEG ------------------------------------------------------------------------------------------------------------
@@ -48,13 +56,25 @@ static Cut place_in_jpeg(const std::vector<JpegSegment>& segments) {
   return old == nullptr ? Cut{place_of_packet(segments), 0} : Cut{old->offset, old->size};
 }
 
+// A list of further pictures in the file (MPF) follows their new places.
 static void write_jpeg(const FileInput& file, AtomicFile& to, const std::string& packet) {
-  const Cut cut = place_in_jpeg(read_jpeg_headers(file));
+  const std::vector<JpegSegment> segments = read_jpeg_headers(file);
+  const Cut cut = place_in_jpeg(segments);
   if (packet.size() + kJpegXmp.size() > kLongestJpegSegment) {
     throw untaggable(file, fmt::format("its XMP would have {} bytes, but a JPEG has room for {}", packet.size(),
                                        kLongestJpegSegment - kJpegXmp.size()));
   }
-  write_with(file, to, cut, packet.empty() ? "" : jpeg_segment(kJpegApp1, std::string(kJpegXmp) + packet));
+  const std::string bytes = packet.empty() ? "" : jpeg_segment(kJpegApp1, std::string(kJpegXmp) + packet);
+  std::vector<std::pair<Cut, std::string>> changes{{cut, bytes}};
+  const int64_t growth = static_cast<int64_t>(bytes.size()) - static_cast<int64_t>(cut.size);
+  for (const JpegSegment& segment : segments) {
+    const bool is_behind = cut.at > segment.offset;
+    const std::optional<std::string> mpf = grown_mpf(segment, growth, is_behind);
+    if (!mpf) continue;
+    changes.insert(is_behind ? changes.end() - 1 : changes.end(),
+                   {{segment.offset, segment.size}, jpeg_segment(segment.marker, *mpf)});
+  }
+  write_with(file, to, changes);
 }
 
 // --- PNG -------------------------------------------------------------------------------------------------------------
@@ -123,7 +143,7 @@ static void write_png(const FileInput& file, AtomicFile& to, const std::string& 
   const std::optional<PngPacket> old = find_in_png(file);
   if (old && !old->is_plain) throw untaggable(file, "its XMP is compressed, which ods cannot change");
   const Cut place = old ? old->place : Cut{kPngAfterHeader, 0};
-  write_with(file, to, place, packet.empty() ? "" : xmp_chunk(packet));
+  write_with(file, to, {{place, packet.empty() ? "" : xmp_chunk(packet)}});
 }
 
 // --- all -------------------------------------------------------------------------------------------------------------

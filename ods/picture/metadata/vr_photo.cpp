@@ -9,7 +9,6 @@
 #include "ods/base/base64.h"
 #include "ods/base/bytes.h"
 #include "ods/base/error.h"
-#include "ods/base/text.h"
 #include "ods/files/md5.h"
 #include "ods/image/format/jpeg_segments.h"
 #include "ods/image/format/xmp.h"
@@ -21,10 +20,6 @@ namespace ods {
 constexpr size_t kId = 32;                  // characters of an MD5
 constexpr size_t kExtended = 35 + kId + 8;  // bytes of a segment before its part of the packet
 constexpr uint64_t kMaxRight = uint64_t{3} << 30;
-
-bool names_photo(const std::string& path) {
-  return small_letters(path).ends_with(".vr.jpg");
-}
 
 static Error damaged(const std::string& path, const std::string& why) {
   return Error(ErrorKind::kInput, fmt::format("cannot read the right eye in '{}': {}", path, why));

@@ -20,9 +20,6 @@
 
 namespace ods {
 
-// Returns whether the name is a VR photo's: it ends in .vr.jpg, in upper or lower case.
-bool names_photo(const std::string& path);
-
 // Returns whether the file is a VR photo according to its metadata: it embeds a JPEG, and its GPano specifies lat-long
 // or no projection. A photo of another focus or with a depth map (GFocus, GDepth) is not one. Throws Error(kInput) if
 // there is no such file.

@@ -9,8 +9,8 @@
 // stri: bits for 1 has a left eye, 2 has a right eye, 8 the right eye comes first; hero: 1 left, 2 right; blin: eye
 // distance in micrometres; prji: equi, hequ (the front half), rect; pkin: side, over; hfov: thousandths of a degree.
 //
-// Opt-in: FFmpeg 7.1 and later prefers vexu to V2 but does not read `pack`, so FFmpeg and programs based on it report
-// such a video as stereo of unknown layout.
+// New HEVC videos have vexu, others only on request: FFmpeg 7.1 and later prefers vexu to V2 but does not read `pack`,
+// so FFmpeg and programs based on it report such a video as stereo of unknown layout. hfov is updated, never added.
 #pragma once
 #include "ods/video/container/spherical.h"
 

@@ -270,7 +270,7 @@ static bool tag_vexu(Box& entry, const SphericalMetadata& metadata) {
   if (metadata.for_apple && fits_vexu(metadata)) {
     const Box* there = find_child(entry, box_type("vexu"));
     vexu = old ? updated_vexu(*there, metadata) : vexu_box(metadata);
-    hfov = hfov_box(metadata);
+    if (find_child(entry, box_type("hfov")) != nullptr) hfov = hfov_box(metadata);
   }
   put_child(entry, box_type("vexu"), vexu);
   put_child(entry, box_type("hfov"), hfov);

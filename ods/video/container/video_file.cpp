@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "ods/base/error.h"
+#include "ods/base/text.h"
 #include "ods/files/read_file.h"
 #include "ods/video/container/matroska_file.h"
 #include "ods/video/container/mp4_file.h"
@@ -63,7 +64,14 @@ const VideoTrack& choose_track(const VideoFile& video, std::optional<int> id, co
   const VideoTrack& largest = *std::max_element(video.tracks.begin(), video.tracks.end(), smaller);
   const auto as_large = [&](const VideoTrack& track) { return pixels(track) == pixels(largest); };
   if (std::count_if(video.tracks.begin(), video.tracks.end(), as_large) > 1) {
-    throw unusable(path, fmt::format("several tracks share the largest size, of {}: choose one with `track`", ids));
+    if (small_letters(path).ends_with(".360")) {
+      throw unusable(path,
+                     "a GoPro MAX keeps its six faces in two tracks, which ods does not join: GoPro's player "
+                     "exports them as one lat-long video");
+    }
+    throw unusable(path, fmt::format("several tracks share the largest size, of {}: choose one with `track`, or join "
+                                     "two eyes with ffmpeg -i VIDEO -lavfi '[0:v:0][0:v:1]vstack' EYES_TB.mp4",
+                                     ids));
   }
   return largest;
 }

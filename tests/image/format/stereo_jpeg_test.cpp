@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "ods/base/bytes.h"
+#include "ods/files/atomic_file.h"
 #include "ods/image/format/jpeg_segments.h"
+#include "ods/image/format/xmp_file.h"
 #include "tests/support/stereo_jpegs.h"
 #include "tests/support/temporary_folder.h"
 
@@ -81,6 +83,46 @@ TEST_F(StereoJpegs, AJpsNamesItsLayout) {
   }
   EXPECT_EQ(read(made::jps(jpeg, 0, 2, 0)).layout, "mono");
   EXPECT_EQ(read("\xff\xd8" + jpeg_segment(0xE3, "_JPSJPS_") + jpeg.substr(2)).layout, "");
+}
+
+TEST_F(StereoJpegs, AMadeMpoHasBothPictures) {
+  const std::string left = jpeg.substr(0, 2) + jpeg_segment(0xE0, "JFIF") + jpeg.substr(2);
+  const std::string file = make_mpo(left, jpeg);
+  const StereoJpeg stereo = read(file);
+  EXPECT_EQ(stereo.fault, "");
+  EXPECT_EQ(stereo.right.offset + stereo.right.size, file.size());
+  const std::string right = file.substr(stereo.right.offset);
+  EXPECT_EQ(right.substr(0, 4), "\xff\xd8\xff\xe2");
+  EXPECT_TRUE(right.ends_with(jpeg.substr(2)));
+  EXPECT_EQ(file.substr(2, 4), left.substr(2, 4)) << "JFIF comes first";
+}
+
+TEST_F(StereoJpegs, AMadeJpsHasItsLayout) {
+  for (const char* layout : {"side-by-side", "side-by-side-half", "cross-eyed", "top-bottom", "top-bottom-half",
+                             "bottom-top", "row-interleaved"}) {
+    EXPECT_EQ(read(make_jps(jpeg, layout).value()).layout, layout);
+  }
+  EXPECT_FALSE(make_jps(jpeg, "checkerboard"));
+}
+
+// XMP before or behind the list moves pictures: the list follows.
+TEST_F(StereoJpegs, TheListFollowsWhenXmpIsWritten) {
+  for (const bool big : {true, false}) {
+    folder.write("a.mpo", made::mpo(jpeg, jpeg, made::kDisparity, big));
+    for (const std::string packet : {"<x:xmpmeta>long enough</x:xmpmeta>", "<x:xmpmeta/>", ""}) {
+      AtomicFile to(folder.path("b.mpo"));
+      write_xmp(FileInput(folder.path("a.mpo")), to, packet);
+      to.commit();
+      const StereoJpeg stereo = read_stereo_jpeg(FileInput(folder.path("b.mpo")));
+      EXPECT_EQ(folder.read("b.mpo").substr(stereo.right.offset), jpeg) << big << packet;
+      EXPECT_EQ(stereo.right.size, jpeg.size());
+      const std::string file = folder.read("b.mpo");
+      const size_t entry = file.find("MPF") + 4 + 8 + 2 + 12 + 4;
+      EXPECT_EQ(get_number(file, entry + 4, 4, big ? std::endian::big : std::endian::little), stereo.right.offset)
+          << "the size of the first picture";
+      folder.write("a.mpo", file);
+    }
+  }
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ TEST_F(Mp4Video, BoxesStandWhereTheSpecificationsPutThem) {
   const std::string tagged = tag(made::mp4({}), metadata);
   const std::vector<std::string> entry = {"moov", "trak", "mdia", "minf", "stbl", "stsd", "avc1"};
   std::vector<size_t> places;
-  for (const char* type : {"avcC", "st3d", "sv3d", "vexu", "hfov", "pasp"}) {
+  for (const char* type : {"avcC", "st3d", "sv3d", "vexu", "pasp"}) {
     std::vector<std::string> path = entry;
     path.push_back(type);
     ASSERT_EQ(made::find(tagged, path).size(), 1u) << type;
