@@ -46,7 +46,7 @@ double plane_at(glm::dvec2 uv, int wrap_u, int wrap_v, bool nearest) {
 Scene textured(const GltfJson& sampler, const GltfJson& transform) {
   GltfBuilder file = make_triangle();
   file.json["images"] = {{{"bufferView", file.add_view(small_png())}, {"mimeType", "image/png"}}};
-  file.json["samplers"] = {sampler};
+  file.json["samplers"] = GltfJson::array({sampler});
   file.json["textures"] = GltfJson::parse(R"([{"source": 0, "sampler": 0}])");
   GltfJson slot = {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}};
   file.json["materials"] = {{{"pbrMetallicRoughness", {{"metallicRoughnessTexture", slot}}}}};
