@@ -38,8 +38,8 @@ TEST(WebPackage, IsSmall) {
              size_of("three.mjs"), size_of("aframe.js"));
   EXPECT_LE(size_of("stereo-360.mjs"), 70'000u);
   EXPECT_LE(size_of("stereo-360.js"), 70'000u);
-  EXPECT_LE(size_of("three.mjs"), 9'000u);
-  EXPECT_LE(size_of("aframe.js"), 9'500u);
+  EXPECT_LE(size_of("three.mjs"), 9'500u);
+  EXPECT_LE(size_of("aframe.js"), 10'000u);
 }
 
 // package.json names files that are there; the version is ours; the script is the one that exports have.
