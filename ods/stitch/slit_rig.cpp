@@ -176,8 +176,10 @@ std::string slit_fault(const StereoCamera& camera, Extent eye, const SlitOptions
     return "a view would have to cover more than 170 degrees: use more slits or pitches, or converge the eyes farther "
            "away";
   }
-  if (pixels_for(window.x, rig) > kMaxSide || pixels_for(window.y, rig) > kMaxSide) {
-    return fmt::format("views would have more than {} pixels per side", kMaxSide);
+  const int longer = std::max(pixels_for(window.x, rig), pixels_for(window.y, rig));
+  if (longer > kMaxSide) return fmt::format("views would have more than {} pixels per side", kMaxSide);
+  if (!(0.5 * longer * double{pixel_of(rig)} < kWidestTangent)) {
+    return "with their padding, views would cover more than 170 degrees: use less `padding`, or a larger `scale`";
   }
   return "";
 }

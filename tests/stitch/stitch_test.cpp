@@ -318,6 +318,14 @@ TEST(Stitch, CapsAreThePoles) {
   EXPECT_NE(slit_fault({}, {256, 128}, options), "");
 }
 
+TEST(Stitch, PaddingDoesNotWidenViewsToHalfTheWorld) {
+  for (const auto& [padding, scale] : {std::pair{4096, 1.0f}, {4, 0.01f}}) {
+    SlitOptions options;
+    options.padding = padding, options.scale = scale;
+    EXPECT_NE(slit_fault({}, {256, 128}, options).find("with their padding"), std::string::npos) << padding;
+  }
+}
+
 // Without a blend every pixel has one view, and those whose middles lie on borders have not none.
 TEST(Stitch, NothingIsLostOnSharpBorders) {
   SlitOptions options;
