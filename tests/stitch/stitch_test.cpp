@@ -321,7 +321,7 @@ TEST(Stitch, CapsAreThePoles) {
 TEST(Stitch, PaddingDoesNotWidenViewsToHalfTheWorld) {
   for (const auto& [padding, scale] : {std::pair{4096, 1.0f}, {4, 0.01f}}) {
     SlitOptions options;
-    options.padding = padding, options.scale = scale;
+    options.slits = 64, options.padding = padding, options.scale = scale;
     EXPECT_NE(slit_fault({}, {256, 128}, options).find("with their padding"), std::string::npos) << padding;
   }
 }
