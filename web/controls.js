@@ -200,7 +200,7 @@ export class Controls {
     if (picture?.video) this.film(picture);
   }
 
-  // What can be seen here, in a corner, also while the bar is gone.
+  // The mark in a corner, which stays when the bar fades.
   mark() {
     const { camera: { projection: { kind, span, angle } }, mono } = this.viewer.picture;
     const wide = Math.round(degrees(kind < 2 ? span[0] : kind > 4 && kind < 9 ? 2 * Math.PI : angle));

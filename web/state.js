@@ -31,7 +31,7 @@ export function readState(hash) {
   return { item: whole('item'), name: words.get('name') ?? '', frame: whole('frame'), layers: words.has('layers'), controls: words.get('controls') === 'all', look, choice: choiceOf(''), beside };
 }
 
-// The index of the item that an address names; of its number, if there is no such name.
+// Returns the index of the item that an address names, or of its number if the name is unknown.
 export function findItem(items, { item, name }) {
   const number = Math.min(item, items.length - 1);
   if (!name || items[number]?.name === name) return number;

@@ -18,7 +18,7 @@ void main() {
 }`;
 function named(what, rows, name) {
   const row = rows.find((each) => each.name === name);
-  if (!row) throw new Error(`There is no ${what} "${name}". There are: ${rows.map((each) => each.name).join(', ')}`);
+  if (!row) throw new Error(`"${name}" is not a ${what}. There are: ${rows.map((each) => each.name).join(', ')}`);
   return row;
 }
 

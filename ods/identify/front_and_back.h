@@ -18,7 +18,7 @@ struct LensImages {
   const Image& second;
 };
 
-// How the field of view of two lenses was found.
+// The source of the field of view of two lenses.
 enum class FovSource {
   kTold,     // specified by the caller
   kOverlap,  // both lenses see the same beside them

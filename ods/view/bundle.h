@@ -11,7 +11,7 @@ namespace ods {
 // The host that answers the page. Code that only other hosts need is left out of the script.
 enum class PageHost { kFolder, kView, kStudio };
 
-// What loads the script: <script src>, or import.
+// The way in which a page loads the script: <script src>, or import.
 enum class ScriptKind { kClassic, kModule };
 
 // entry: a module of the page, main.js. A folder's script has everything; a server's script has the code for the first

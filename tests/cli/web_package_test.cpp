@@ -31,7 +31,7 @@ const std::map<std::string, std::string>& our_files() {
   return files;
 }
 
-// What is sent to a visitor of a page, gzipped.
+// The size of each script as a page loads it, gzipped.
 TEST(WebPackage, IsSmall) {
   const auto size_of = [](const char* name) { return gzip(our_files().at(name)).size(); };
   fmt::print("gzipped: element {} bytes, mesh for three.js {}, for A-Frame {}\n", size_of("stereo-360.mjs"),
@@ -233,7 +233,7 @@ async function test() {
     makePanorama(THREE, { texture, layout: 'inside-out' });
     return 'it takes any layout';
   } catch (error) {
-    return error.message.startsWith('There is no layout "inside-out". There are: mono, top-bottom') ? 'ok' : error.message;
+    return error.message.startsWith('"inside-out" is not a layout. There are: mono, top-bottom') ? 'ok' : error.message;
   }
 }
 element.addEventListener('load', () => test().then(say, (error) => say(error.stack)), { once: true });

@@ -144,7 +144,7 @@ async function testUpright() {
   element.remove();
 }
 
-// Where the browser has no full screen, the element fills the window; in a frame that may not, there is no button.
+// Without a full screen in the browser, the element fills the window; in a frame without permission, the button is hidden.
 async function testFullscreen() {
   const allow = (is) => Object.defineProperty(Document.prototype, 'fullscreenEnabled', { get: () => is, configurable: true });
   allow(false);
@@ -213,7 +213,7 @@ async function testTranslations() {
   }
 }
 
-// What visitors see: an invitation until they drag, what it is, the bar until then, and no tools of makers.
+// Visitors see an invitation and the bar until they drag, a mark that says what it is, and none of the makers' tools.
 async function testVisitors() {
   document.documentElement.lang = 'de';
   localStorage.clear();
