@@ -4,6 +4,7 @@
 // ods view among strangers: their links, their damaged pictures, their messages, their odd disks.
 #include <nlohmann/json.hpp>
 
+#include "ods/view/page.h"
 #include "tests/outside/outside.h"
 
 namespace ods::hostile_pages_test {
@@ -94,6 +95,9 @@ TEST_F(HostilePages, AClockFarAheadStopsNoPage) {
   make_picture("a_360_TB.jpg");
   serve({folder.path("a_360_TB.jpg")});
   std::filesystem::copy(source_folder() + "/web", folder.path("web"), std::filesystem::copy_options::recursive);
+  for (const char* made : {"formats.js", "lookup.js", "player-style.js", "shader.js"}) {
+    folder.write(std::string("web/") + made, std::string(find_page_file(made)->data));
+  }
   folder.write("web/package.json", R"({"type": "module"})");
   const Ran ran = shell(fmt::format("node '{}/tests/outside/share_clock.mjs' '{}' http://127.0.0.1:{}/{}/",
                                     source_folder(), folder.path("web"), port, secret));

@@ -16,7 +16,7 @@ function openPage() {
   const viewer = {
     item: 0, choice: {}, session: null, picture: null, view: { items: [{}] },
     state: { swap: false, yaw: 0, pitch: 0, roll: 0 },
-    canvas: { addEventListener() {}, after() {} },
+    element: { addEventListener() {}, append() {}, after() {} }, canvas: { after() {} },
     set(changes) { Object.assign(this.state, changes); },
     open() {},
   };
