@@ -9,12 +9,13 @@ import { bendOf, raysOf } from './panorama.js';
 
 const columns = (rays) => [rays.slice(0, 3), rays.slice(3, 6), rays.slice(6, 9)];
 
-// The parts of the view, each with its eye and its box: left, top, width, height.
+// The parts of the view, each with its eye, its box: left, top, width, height, and its aspect as it is drawn: a canvas of
+// a lower resolution has whole pixels, too.
 export function partsOf({ canvas, element, state }) {
-  const scale = canvas.width / element.clientWidth;
+  const [wide, high] = [element.clientWidth / canvas.width, element.clientHeight / canvas.height];
   return modeOf(state.mode).parts(0).map(({ at, eye = 0 }) => {
     const [x, y, width, height] = boxOf(at, canvas);
-    return { eye: state.swap ? 1 - eye : eye, box: [x, canvas.height - y - height, width, height].map((pixels) => pixels / scale) };
+    return { eye: state.swap ? 1 - eye : eye, aspect: width / height, box: [x * wide, (canvas.height - y - height) * high, width * wide, height * high] };
   });
 }
 
@@ -23,7 +24,7 @@ export function directionAt(viewer, x, y) {
   const part = partsOf(viewer).find(({ box }) => x >= box[0] && x < box[0] + box[2] && y >= box[1] && y < box[1] + box[3]);
   if (!part) return null;
   const [left, top, width, height] = part.box;
-  const [right, up, ahead] = columns(raysOf(viewer.state, width / height));
+  const [right, up, ahead] = columns(raysOf(viewer.state, part.aspect));
   const [a, b] = [(2 * (x - left)) / width - 1, 1 - (2 * (y - top)) / height];
   const aside = right.map((value, i) => a * value + b * up[i]);
   const d = ahead.map((value, i) => aside[i] + value * (1 - bendOf(viewer.state) * dot(aside, aside)));
@@ -31,8 +32,8 @@ export function directionAt(viewer, x, y) {
 }
 
 // The position of a direction in a part of the view; null if it is outside.
-export function placeOf({ state }, { yaw, pitch }, { box: [left, top, width, height] }) {
-  const axes = columns(raysOf(state, width / height));
+export function placeOf({ state }, { yaw, pitch }, { aspect, box: [left, top, width, height] }) {
+  const axes = columns(raysOf(state, aspect));
   const d = raysOf({ yaw, pitch }, 1).slice(6, 9);
   const ahead = state.planet ? (1 + dot(d, axes[2])) / 2 : dot(d, axes[2]);
   if (ahead <= 0.01) return null;
