@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The next and the previous picture of a folder, fetched and decoded while the viewer rests, so that they open at once.
+import { decode } from './picture.js';
+
 const BYTES = 24e6; // of a file
 const TEXELS = 17e6; // of a picture: 4096 x 4096
 
 async function load(address) {
   const answer = await fetch(address, { priority: 'low' });
   if (!answer.ok || Number(answer.headers.get('content-length')) > BYTES) return null;
-  const image = await createImageBitmap(await answer.blob(), { premultiplyAlpha: 'none', colorSpaceConversion: 'default' });
+  const image = await decode(await answer.blob(), address);
   if (image.width * image.height <= TEXELS) return image;
   image.close();
   return null;
@@ -31,7 +33,7 @@ export class Ahead {
     }
   }
 
-  // Hands out an image, which the caller closes; null if there is none.
+  // Removes an image and returns it, for the caller to close; null if it is not kept.
   async take(address) {
     const image = this.kept.get(address);
     this.kept.delete(address);

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The panoramas (panorama.js) of a page, each with a WebGL context. Browsers end the oldest context when a page has more
-// than about 16, and an unused one lives until its memory is collected; so at most MOST are made, and lent. A borrower
+// than about 16, and an unused one lives until its memory is collected; so at most MAX are made, and lent. A borrower
 // { isSeen, isBusy(), wake(panorama), sleep() } claims one while it is near the window; sleep() returns it. If there are
 // too many borrowers, one that is not seen falls asleep, else the one that was used least recently; only one that is seen
 // makes another sleep that is seen.
 import { Panorama } from './panorama.js';
 
-export const MOST = 8;
+const MAX = 8;
 
 const awake = new Set(); // the one used least recently first
 const waiting = new Set();
@@ -28,7 +28,7 @@ function idleFor(one) {
 
 function serve() {
   for (const one of [...waiting].sort((a, b) => b.isSeen - a.isSeen)) {
-    if (awake.size >= MOST) {
+    if (awake.size >= MAX) {
       const idle = idleFor(one);
       if (!idle) continue;
       giveBack(idle);

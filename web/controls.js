@@ -4,7 +4,7 @@
 // The bar, the settings and the help: they follow the viewer and control it.
 import { ACTIONS, applies, keysOf } from './actions.js';
 import { make } from './elements.js';
-import { hasOtherLayouts } from './form.js';
+import { angleOf, hasOtherLayouts } from './form.js';
 import { degrees } from './geometry.js';
 import { LAYOUTS, PROJECTIONS, TONES } from './formats.js';
 import { followDevice, hasDevice } from './look.js';
@@ -202,8 +202,8 @@ export class Controls {
 
   // The mark in a corner, which stays when the bar fades.
   mark() {
-    const { camera: { projection: { kind, span, angle } }, mono } = this.viewer.picture;
-    const wide = Math.round(degrees(kind < 2 ? span[0] : kind > 4 && kind < 9 ? 2 * Math.PI : angle));
+    const { camera, mono } = this.viewer.picture;
+    const wide = Math.round(degrees(angleOf(camera)));
     this.find('mark').textContent = `${Math.min(wide, 360)}°${mono ? '' : ' 3D'}`;
     this.find('mark').hidden = !this.player.isVisitors;
   }

@@ -22,9 +22,19 @@ export function hasOtherLayouts(view, item) {
   return Boolean(item.image) || ((view.live || item.light) && item.kind === 'picture' && !['separate', 'multiview'].includes(item.layout));
 }
 
-// Returns whether the right edge of a picture continues at its left one. A lat-long or a cylinder's span is in radians.
+// Kinds of ods/kernel/camera/projection.h: a lat-long and a cylinder have a span, in radians; the cubes are all around.
+const hasSpan = ({ kind }) => kind < 2;
+const isCube = ({ kind }) => kind > 4 && kind < 9;
+
+// Returns whether the right edge of a picture continues at its left one.
 export function isRound({ projection }) {
-  return projection.kind < 2 && projection.span[0] > 2 * Math.PI - 1e-4;
+  return hasSpan(projection) && projection.span[0] > 2 * Math.PI - 1e-4;
+}
+
+// Returns the horizontal angle of a picture, radians.
+export function angleOf({ projection }) {
+  if (hasSpan(projection)) return projection.span[0];
+  return isCube(projection) ? 2 * Math.PI : projection.angle;
 }
 
 // Fractions of a file -> whole pixels.

@@ -7,7 +7,7 @@
 import { clamp, radians } from './geometry.js';
 import { TEXT, WIDE, controlsOf, paint } from './headset-controls.js';
 import { HeadsetSubtitles } from './headset-subtitles.js';
-import { Sheets, facing, headingOf, meet, plus, poseOf, sheetAhead, thread } from './headset-room.js';
+import { Sheets, facing, headingOf, meet, plus, poseOf, sheetAhead, thread, turnBetween } from './headset-room.js';
 import { directionAt } from './places.js';
 
 export const DISTANCE = 1.2; // metres: a headset focuses at about 1.3, so eyes that converge on the panel see it sharply
@@ -100,7 +100,7 @@ export class HeadsetPanel {
       if (!this.isSought || !this.from) Object.assign(this, { heading: headingOf(head), from: head.at });
       return this.place();
     }
-    const by = ((headingOf(head) - this.heading + 3 * Math.PI) % (2 * Math.PI)) - Math.PI;
+    const by = turnBetween(this.heading, headingOf(head));
     const way = Math.hypot(...plus(head.at, this.from, -1));
     const isLost = Math.abs(by) > LOST || way > LEFT;
     if (!isLost && !this.isComing) this.lostSince = now;

@@ -19,6 +19,9 @@ export function headingOf({ up, back }) {
   return Math.atan2(ahead[0], -ahead[2]);
 }
 
+// The turn from one heading to another, -pi..pi.
+export const turnBetween = (from, to) => ((to - from + 3 * Math.PI) % (2 * Math.PI)) - Math.PI;
+
 // A sheet that faces `from`, at a distance, lower by the angle `below`. Radians.
 export function sheetAhead(from, heading, below, distance, [width, height]) {
   const [s, c, sb, cb] = [Math.sin(heading), Math.cos(heading), Math.sin(below), Math.cos(below)];

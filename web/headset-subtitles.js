@@ -4,7 +4,7 @@
 // The subtitle of a video in the headset: a sheet below the middle of the view, which stays in the room until the next
 // text, or until the wearer has turned away.
 import { radians } from './geometry.js';
-import { headingOf, sheetAhead } from './headset-room.js';
+import { headingOf, sheetAhead, turnBetween } from './headset-room.js';
 
 const WIDE = 1400; // pixels
 const LINE = 64;
@@ -15,7 +15,7 @@ const BELOW = radians(22);
 const LOST = radians(40);
 
 // The lines of a text, broken at spaces where it is too wide.
-export function linesOf(text, fits) {
+function linesOf(text, fits) {
   return text.split('\n').flatMap((line) => {
     const lines = [''];
     for (const word of line.split(' ')) {
@@ -40,8 +40,7 @@ export class HeadsetSubtitles {
   // head: its pose in the room.
   update(text, head) {
     const heading = headingOf(head);
-    const by = ((heading - this.heading + 3 * Math.PI) % (2 * Math.PI)) - Math.PI;
-    if (text === this.text && !(this.sheet && Math.abs(by) > LOST)) return;
+    if (text === this.text && !(this.sheet && Math.abs(turnBetween(this.heading, heading)) > LOST)) return;
     if (text && text !== this.text) this.paint(text);
     Object.assign(this, { text, heading });
     const { width, height } = this.canvas;

@@ -3,29 +3,25 @@
 //
 // Adapts the resolution of a moving view to the duration of its frames: lower if they are late, and higher again if
 // there is time. A reduction that does not help is undone, because then the GPU is not the bottleneck.
+import { keep, recall } from './storage.js';
+
 const LEVELS = [{ scale: 1 }, { scale: 1, cheap: true }, { scale: 0.7, cheap: true }, { scale: 0.5, cheap: true }];
 const COUNT = 4; // frames that are evaluated together
 const FIRST = 2; // frames that are evaluated at first
 const PATIENCE = 2000; // milliseconds from a reduction to the next attempt; doubled each time
 
-const KEY = 'stereo-360 pace'; // of the browser's storage, which may be forbidden
+const KEY = 'stereo-360 pace'; // of storage.js
 const SOFTWARE = /swiftshader|llvmpipe|softpipe|basic render/i;
 
 // Returns the level that this device ended with the last time; at first, software GPUs do not begin with the best one.
 export function firstLevel(gl) {
-  try {
-    const kept = Number(localStorage.getItem(KEY) ?? NaN);
-    if (LEVELS[kept]) return kept;
-  } catch { /* begin without it */ }
+  const kept = Number(recall(KEY) ?? NaN);
+  if (LEVELS[kept]) return kept;
   const about = gl.getExtension('WEBGL_debug_renderer_info');
   return about && SOFTWARE.test(gl.getParameter(about.UNMASKED_RENDERER_WEBGL)) ? 1 : 0;
 }
 
-export function keepLevel(level) {
-  try {
-    localStorage.setItem(KEY, level);
-  } catch { /* the next visit begins again */ }
-}
+export const keepLevel = (level) => keep(KEY, level);
 
 export class Pace {
   // period: the target duration of a frame, milliseconds. level: of LEVELS, to begin with.

@@ -33,7 +33,7 @@ async function download(url, name, signal, progress) {
   return new Blob(parts, { type: answer.headers.get('content-type') ?? '' });
 }
 
-async function decode(blob, name, colorSpaceConversion = 'default') {
+export async function decode(blob, name, colorSpaceConversion = 'default') {
   try {
     return await createImageBitmap(blob, { premultiplyAlpha: 'none', colorSpaceConversion });
   } catch {
@@ -152,17 +152,16 @@ function addressOf(path, base, query = {}) {
   return address;
 }
 
-// The addresses of a picture's file or of its eyes' files, as openPicture() loads them; none for videos and for light.
+// The addresses of a picture's file or of its eyes' files, as openPicture() loads them.
 export function imageAddresses(view, item, base, choice = {}) {
-  if (item.kind === 'video' || item.light) return [];
   const layout = !item.image && hasOtherLayouts(view, item) ? choice.layout : undefined;
   const { exposure, tone } = item.live ? choice : {};
   return (item.image ? [item.image] : eyeFiles(item, layout)).map((path) => addressOf(path, base, { layout, exposure, tone }));
 }
 
 // base: the address that the item's addresses are relative to. choice: { layout, projection, exposure, tone }, all
-// optional. early(picture): receives a preview of the picture. ahead: ahead.js, or missing. paging: whether to use pages.js, by default depending on
-// the picture's size. Throws an Error with one line for the user, or an AbortError if `signal` is aborted.
+// optional. early(picture): receives a preview of the picture. ahead: of ahead.js, or missing. paging: whether to use
+// pages.js, by default depending on the picture's size. Throws an Error with one line for the user, or an AbortError if `signal` is aborted.
 export async function openPicture(panorama, view, item, { base, choice = {}, ...how } = {}) {
   const form = formOf(item, choice);
   const url = (path) => addressOf(path, base);
@@ -171,5 +170,5 @@ export async function openPicture(panorama, view, item, { base, choice = {}, ...
     return openVideo(panorama.gl, item, form, url(item.image), how.signal);
   }
   if (item.light && panorama.hasLight) return openLight(panorama, item, form, url, choice, how);
-  return openImage(panorama, item, form, imageAddresses(view, { ...item, light: null }, base, choice), url, how);
+  return openImage(panorama, item, form, imageAddresses(view, item, base, choice), url, how);
 }

@@ -10,6 +10,7 @@ import { followPointer } from './look.js';
 import { makeMarkup } from './markup.js';
 import { watchTips } from './tips.js';
 import { Viewer } from './viewer.js';
+import { keep, recall } from './storage.js';
 import { t } from './translate.js';
 
 const IDLE = 3000; // milliseconds until the bar fades
@@ -24,20 +25,7 @@ const EXTRAS = {
 const GREETED = 'omnistereo-greeted';
 let greeted = false; // where the browser stores nothing
 
-function wasGreeted() {
-  try {
-    return greeted || Boolean(localStorage.getItem(GREETED));
-  } catch {
-    return greeted;
-  }
-}
-
-function remember() {
-  greeted = true;
-  try {
-    localStorage.setItem(GREETED, '1');
-  } catch { /* then it will be there again */ }
-}
+const wasGreeted = () => greeted || Boolean(recall(GREETED));
 
 const hasHeadset = async () => Boolean(await navigator.xr?.isSessionSupported('immersive-vr').catch(() => false));
 
@@ -205,7 +193,8 @@ export class Player {
     const end = () => {
       viewer.removeEventListener('open', show);
       this.isTouched = hint.hidden = true;
-      remember();
+      greeted = true;
+      keep(GREETED, '1');
     };
     viewer.addEventListener('open', show);
     const heard = this.isPage ? document : element;

@@ -261,7 +261,7 @@ export class Stereo360 extends Base {
   startAgain() {
     this.shadowRoot.getElementById('message').hidden = true;
     release(this);
-    this.view = this.player ? this.view : undefined;
+    if (!this.player) this.view = undefined;
     this.approach();
   }
 

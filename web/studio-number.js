@@ -37,7 +37,7 @@ export function textOf(value, step) {
   return String(Number(value.toFixed(fine)));
 }
 
-// Returns the number that a text has, in a unit of UNITS; NaN if there is none.
+// Returns the number in a text, converted to a unit of UNITS; NaN for any other text.
 export function numberOf(text, unit) {
   const found = /^([-+]?[\d.]+(?:e[-+]?\d+)?)\s*(\S*)$/i.exec(text.trim().replace('−', '-').replace(',', '.'));
   const factor = found?.[2] ? UNITS[unit]?.[found[2].toLowerCase()] : 1;
@@ -47,7 +47,7 @@ export function numberOf(text, unit) {
 // spec: { label, name (of the row in messages, by default the label), unit, step, scale (shown = value * scale), and for the displayed number its range [low, high] for
 // dragging and its limits for typing }.
 // change(value, gesture, dragging), reset() and complain(text) are called; update(value, standard) shows a value.
-export function numberRow(spec, change, reset, complain = () => {}) {
+export function numberRow(spec, change, reset, complain) {
   const { scale = 1, step, limits: [low, high] } = spec;
   const reach = [Math.max(low, spec.range[0]), Math.min(high, spec.range[1])];
   const field = make('input', { type: 'text', inputMode: 'decimal', autocomplete: 'off', spellcheck: false, role: 'spinbutton' });

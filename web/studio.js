@@ -124,10 +124,7 @@ class Studio {
 
   tell({ state, done, fault, side, isOthers, ...frame }) {
     this.takeTurns(done, side);
-    if (frame.samples && this.page.viewer.isProvisional === done) {
-      this.page.viewer.isProvisional = !done;
-      if (done) this.page.viewer.redraw();
-    }
+    if (frame.samples) this.page.viewer.expectBetter(!done);
     if (fault) this.page.fail(fault);
     const name = !this.comparing || !side ? '' : `${SIDES[this.session.sides.indexOf(side)]}: `;
     if (isOthers) this.status.textContent = 'Another tab has changed the scene. What you change here counts again.';

@@ -25,7 +25,7 @@ function named(what, rows, name) {
 // Cameras of right eyes see layer 2 and not layer 1.
 const isRight = ({ layers }) => (layers.mask & 6) === 4;
 
-// A map of the camera as a texture; an empty one where there is none.
+// Returns a map of the camera as a texture; null for a camera without that map.
 function mapTexture(THREE, { width, height, texels }) {
   if (!texels) return null;
   const texture = new THREE.DataTexture(new Float32Array(texels), width, height, THREE.RedFormat, THREE.FloatType);

@@ -5,7 +5,6 @@
 // It draws on the canvas of a panorama (panorama.js), which it has while it is awake; asleep, it shows its last frame.
 // Events: `change` (the state, or the video's), `loading` (detail: 0..1, null at the end), `open`, `failed` (detail:
 // one line for users), `sleep`.
-import { Ahead } from './ahead.js';
 import { clamp, radians, wrapDegrees } from './geometry.js';
 import { boxOf, modeOf } from './modes.js';
 import { Pace, firstLevel, keepLevel } from './pace.js';
@@ -31,7 +30,7 @@ export class Viewer extends EventTarget {
     this.scene = null; // the studio's live scene, shown instead of an item
     this.choice = {}; // layout, projection, exposure, tone, if they differ from the item
     this.pace = null; // since the first panorama
-    this.ahead = new Ahead();
+    this.ahead = null; // ahead.js, once there are pictures to fetch
     this.waiting = false;
     this.isProvisional = false; // better pictures follow soon: a slow GPU does not draw this one exactly
     this.settling = null; // a token of the exact drawing in progress
@@ -76,7 +75,7 @@ export class Viewer extends EventTarget {
     this.loading?.abort();
     clearTimeout(this.rest);
     this.settling = null;
-    this.ahead.keep([]);
+    this.ahead?.keep([]);
     this.compare?.end();
     if (picture) this.keepFrame();
     this.close();
@@ -185,6 +184,13 @@ export class Viewer extends EventTarget {
     }).filter(({ box }) => box[2] > 0 && box[3] > 0);
   }
 
+  // is: whether better pictures follow soon. The last one is drawn exactly.
+  expectBetter(is) {
+    if (is === this.isProvisional) return;
+    this.isProvisional = is;
+    if (!is) this.redraw();
+  }
+
   // Draws exactly, strip by strip: a slow GPU is never busy for long, and movements need not wait for the rest.
   async settle() {
     const { panorama, canvas } = this;
@@ -215,15 +221,18 @@ export class Viewer extends EventTarget {
     if (!goesOn()) return;
     if (isBetter) return this.redraw();
     keepLevel(this.pace.level);
-    this.fetchAhead();
+    this.fetchAhead().catch((error) => console.warn(error.message));
     this.say('settled');
   }
 
   // Fetches the pictures beside the open one, unless the visitor saves data.
-  fetchAhead() {
+  async fetchAhead() {
     const { items } = this.view;
     if (this.scene || this.session || items.length < 2 || navigator.connection?.saveData) return;
-    const beside = [1, -1].map((by) => items[(this.item + by + items.length) % items.length]);
+    const { Ahead } = await import('./ahead.js');
+    if (!this.panorama) return;
+    this.ahead ??= new Ahead();
+    const beside = [1, -1].map((by) => items[(this.item + by + items.length) % items.length]).filter(({ kind, light }) => kind !== 'video' && !light);
     this.ahead.keep(beside.flatMap((item) => imageAddresses(this.view, item, this.base)).map(({ href }) => href));
   }
 

@@ -50,14 +50,9 @@ std::string number(size_t value) {
   return {reinterpret_cast<const char*>(&bits), sizeof(bits)};
 }
 
-std::string contents(const std::string& path) {
-  const std::vector<unsigned char> bytes = ods::read_file(path, kMaxBytes);
-  return {bytes.begin(), bytes.end()};
-}
-
 // Assimp writes names as it finds them, in Latin-1 too.
 Glb read_glb(const std::string& path) {
-  const std::string bytes = contents(path);
+  const std::string bytes = ods::read_text(path, kMaxBytes);
   Glb glb;
   for (size_t at = 12; at + 8 <= bytes.size(); at += 8 + size_t{number_at(bytes, at)}) {
     const std::string chunk = bytes.substr(at + 8, number_at(bytes, at));
@@ -158,7 +153,7 @@ json take_pictures(Glb& glb, const std::string& scene) {
     if (path.starts_with("data:")) continue;
     const std::string file = path.empty() ? "" : find_picture(folder, path);
     std::string bytes;
-    if (!file.empty()) bytes = contents(file), answer["reads"].push_back(state_of(file));
+    if (!file.empty()) bytes = ods::read_text(file, kMaxBytes), answer["reads"].push_back(state_of(file));
     if (path.empty() && image.contains("bufferView")) bytes = bytes_of_view(glb, image);
     if (is_picture(bytes)) {
       if (!file.empty()) add_picture(glb, image, bytes);

@@ -41,13 +41,13 @@ std::map<std::string, ods::SlurmArray> sent_arrays(const std::string& folder) {
   const std::string path = folder + "/jobs.txt";
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return arrays;
-  const std::vector<unsigned char> bytes = ods::read_file(path, size_t{64} << 20);
-  if (bytes.empty() || bytes.back() != '\n') {
+  const std::string text = ods::read_text(path, size_t{64} << 20);
+  if (!text.ends_with('\n')) {
     throw ods::Error(
         ods::ErrorKind::kInput,
         fmt::format("'{}' is damaged: remove it, and the job is read from its folder and the queue", path));
   }
-  std::istringstream file(std::string(bytes.begin(), bytes.end()));
+  std::istringstream file(text);
   for (std::string id, script, comment; file >> id >> script >> comment;) {
     if (const auto array = ods::array_of_comment(comment + ":" + folder)) arrays[id] = *array;
   }

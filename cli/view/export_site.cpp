@@ -121,9 +121,10 @@ std::string with_final_names(const ods::AtomicFolder& site, std::string text) {
 }  // namespace
 
 std::vector<std::string> page_languages() {
+  constexpr std::string_view kTranslations = "translations-";  // and the language: translations-de.js
   std::vector<std::string> languages = {"en"};
   for (const ods::PageFile& file : ods::page_files()) {
-    if (file.name.starts_with("translations-")) languages.emplace_back(file.name.substr(13, 2));
+    if (file.name.starts_with(kTranslations)) languages.emplace_back(file.name.substr(kTranslations.size(), 2));
   }
   std::ranges::sort(languages);
   return languages;

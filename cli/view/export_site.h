@@ -14,7 +14,7 @@ struct PageTexts {
   std::string language = "en";  // of the page's own texts: web/translations-*.js
 };
 
-// Returns the languages that the page speaks: de, en, fr.
+// Returns the languages of the page, sorted.
 std::vector<std::string> page_languages();
 
 // Writes the page, view.json and the items' files into the folder, as a whole or not at all

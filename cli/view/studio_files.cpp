@@ -107,9 +107,8 @@ void Studio::keep(Drop& drop) {
 }
 
 WebAnswer Studio::drop_camera(const std::string& name, const std::string& path) {
-  const std::vector<unsigned char> bytes = ods::read_file(path, kMaxCameraBytes);
   std::vector<std::string> warnings;
-  const ods::Sidecar sidecar = ods::read_sidecar(std::string(bytes.begin(), bytes.end()), name, warnings);
+  const ods::Sidecar sidecar = ods::read_sidecar(ods::read_text(path, kMaxCameraBytes), name, warnings);
   const std::string fault = camera_fault(sidecar.camera);
   if (!fault.empty()) throw UsageError("the camera's " + fault);
   for (const auto& map : {sidecar.camera.merge_map, sidecar.camera.head_tilt_map}) {

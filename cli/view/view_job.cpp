@@ -98,7 +98,9 @@ ViewJob parse_view(Options& options) {
   options.text("--export", ValueKind::output_folder(), job.folder,
                "write the viewer and the files into this folder instead");
   options.text("--title", "TEXT", job.texts.title, "with --export: what the page and links to it are called");
-  options.text("--lang", "LANGUAGE", job.texts.language, "with --export: the page's language: en, de or fr");
+  const std::vector<std::string> languages = page_languages();
+  options.text("--lang", "LANGUAGE", job.texts.language,
+               fmt::format("with --export: the page's language: {}", fmt::join(languages, ", ")));
   options.group("Console");
   add_console_options(options);
   options.parse();
@@ -109,7 +111,6 @@ ViewJob parse_view(Options& options) {
   }
   const bool has_texts = !job.texts.title.empty() || job.texts.language != PageTexts().language;
   if (has_texts && job.folder.empty()) throw UsageError("--title and --lang are for --export");
-  const std::vector<std::string> languages = page_languages();
   if (std::ranges::find(languages, job.texts.language) == languages.end()) {
     throw UsageError(fmt::format("--lang must be one of {}", fmt::join(languages, ", ")));
   }

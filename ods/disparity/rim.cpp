@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ods/base/median.h"
+#include "ods/image/block_means.h"
 
 namespace ods {
 
@@ -33,25 +34,12 @@ static bool is_in(const Image& image, vec2 at) {
 
 // --- a first circle --------------------------------------------------------------------------------------------------
 
-// Averages whole blocks of pixels, so that positions do not move.
-static Image reduced(const Image& image, int by) {
-  Image small(image.width / by, image.height / by, 1);
-  for (int y = 0; y < small.height; y++) {
-    for (int x = 0; x < small.width; x++) {
-      float sum = 0.0f;
-      for (int i = 0; i < by * by; i++) sum += *image.at(x * by + i % by, y * by + i / by);
-      *small.at(x, y) = sum / static_cast<float>(by * by);
-    }
-  }
-  return small;
-}
-
 // The mean drop of brightness across a circle, outwards, and more the longer its part in the image. A bright light
 // counts no more than any other drop, and a glow around the circle, which fades slowly, hardly at all.
 // Source: J. Daugman, "How Iris Recognition Works", the integro-differential operator.
 static float drop_across(const Image& image, const Rim& rim) {
   constexpr int kPlaces = 96;
-  constexpr float kMost = 0.08f;
+  constexpr float kMaxDrop = 0.08f;
   const float step = std::max(1.5f, 0.02f * rim.radius);
   float sum = 0.0f;
   int inside = 0;
@@ -61,7 +49,7 @@ static float drop_across(const Image& image, const Rim& rim) {
     const vec2 out = rim.center + (rim.radius + step) * way;
     if (!is_in(image, out)) continue;
     inside++;
-    sum += std::clamp(sample(image, rim.center + (rim.radius - step) * way) - sample(image, out), -kMost, kMost);
+    sum += std::clamp(sample(image, rim.center + (rim.radius - step) * way) - sample(image, out), -kMaxDrop, kMaxDrop);
   }
   if (static_cast<float>(inside) < kMinShare * kPlaces) return 0.0f;
   return sum / std::sqrt(static_cast<float>(kPlaces * inside));
@@ -70,7 +58,7 @@ static float drop_across(const Image& image, const Rim& rim) {
 // The circle of the largest drop: all centres near the middle and all radii in a small image, then smaller steps.
 static Rim rough_rim(const Image& image) {
   const vec2 size(static_cast<float>(image.width), static_cast<float>(image.height));
-  const float least = kMinRadius * std::min(size.x, size.y), most = 0.6f * length(size), far = 0.25f;
+  const float min_radius = kMinRadius * std::min(size.x, size.y), max_radius = 0.6f * length(size), far = 0.25f;
   Rim best;
   float largest = 0.0f;
   const auto attempt = [&](const Rim& rim) {
@@ -79,7 +67,7 @@ static Rim rough_rim(const Image& image) {
   };
   for (float y = (0.5f - far) * size.y; y <= (0.5f + far) * size.y; y += 2.0f) {
     for (float x = (0.5f - far) * size.x; x <= (0.5f + far) * size.x; x += 2.0f) {
-      for (float radius = least; radius <= most; radius += 1.0f) attempt({vec2(x, y), radius});
+      for (float radius = min_radius; radius <= max_radius; radius += 1.0f) attempt({vec2(x, y), radius});
     }
   }
   for (float step = 1.0f; step > 0.1f; step *= 0.5f) {
@@ -112,11 +100,11 @@ static float mean_on(const Image& image, vec2 from, vec2 way, float start, float
 static std::optional<vec2> border_on(const Image& image, const Rim& rim, vec2 way, float reach) {
   const float wide = std::max(1.0f, 0.015f * rim.radius);
   if (!is_in(image, rim.center + way * (rim.radius + 0.5f))) return std::nullopt;
-  float most = kMinDrop, at = 0.0f;
+  float largest = kMinDrop, at = 0.0f;
   for (float t = rim.radius - reach; t <= rim.radius + reach; t += 0.5f) {
     if (!is_in(image, rim.center + way * (t + 0.5f))) break;
     const float drop = mean_on(image, rim.center, way, t - wide, t) - mean_on(image, rim.center, way, t, t + wide);
-    if (drop > most) most = drop, at = t;
+    if (drop > largest) largest = drop, at = t;
   }
   if (at <= 0.0f) return std::nullopt;
   float steepest = 0.0f, best = at;
@@ -209,7 +197,7 @@ std::optional<Rim> find_rim(const Image& image) {
   const int shorter = std::min(image.width, image.height);
   if (shorter < 32) return std::nullopt;
   const int by = std::max(1, shorter / kSmall);
-  Rim rim = rough_rim(reduced(image, by));
+  Rim rim = rough_rim(block_means(image, by));
   if (rim.radius <= 0.0f) return std::nullopt;
   rim.center *= static_cast<float>(by), rim.radius *= static_cast<float>(by);
   size_t on = 0;

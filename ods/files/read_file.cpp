@@ -62,4 +62,9 @@ std::vector<unsigned char> read_file(const std::string& path, size_t maximum) {
   return read_start(path, size);
 }
 
+std::string read_text(const std::string& path, size_t maximum) {
+  const std::vector<unsigned char> bytes = read_file(path, maximum);
+  return {bytes.begin(), bytes.end()};
+}
+
 }  // namespace ods

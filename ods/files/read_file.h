@@ -22,9 +22,12 @@ size_t file_size(const std::string& path);
 // Empty if there is no such file.
 std::string file_identity(const std::string& path);
 
-// Returns the whole file. Throws Error(kInput) before reading if it has more than `most` bytes, Error(kMemory) if it
+// Returns the whole file. Throws Error(kInput) before reading if it has more than `maximum` bytes, Error(kMemory) if it
 // does not fit in memory.
 std::vector<unsigned char> read_file(const std::string& path, size_t maximum);
+
+// Returns the whole file as text. Throws as read_file().
+std::string read_text(const std::string& path, size_t maximum);
 
 // Returns the first `count` bytes, or the whole file if it is shorter. Throws as read_file().
 std::vector<unsigned char> read_start(const std::string& path, size_t count);

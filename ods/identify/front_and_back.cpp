@@ -13,7 +13,7 @@ namespace ods {
 namespace {
 
 constexpr float kUsualFov = 195.0f;  // degrees: of cameras that look ahead and back
-constexpr float kLeastFov = 183.0f, kLargestFov = 240.0f;
+constexpr float kMinFov = 183.0f, kMaxFov = 240.0f;
 
 // The samples of a zone beside the camera, where both lenses look.
 struct Zone {
@@ -39,7 +39,7 @@ std::vector<std::shared_ptr<const DirectionMap>> maps_of(const LensImages& image
   return {make_map(lenses[0], size), make_map(lenses[1], size)};
 }
 
-// The correlation of the images in the zone that both lenses see; -1 if there is none.
+// The correlation of the images in the zone that both lenses see; -1 if they see none.
 float alikeness(const LensImages& images, const std::vector<FisheyeLens>& lenses) {
   const Zone zone = zone_of(lenses);
   const auto maps = maps_of(images, lenses);
@@ -91,7 +91,7 @@ float refine(const LensImages& detail, std::vector<FisheyeLens>& lenses, float f
         for (const float by : {step, -step}) {
           std::vector<FisheyeLens> tried = lenses;
           change(tried, by);
-          if (!(tried[0].fov > kLeastFov - 2.0f && tried[0].fov < 280.0f)) continue;
+          if (!(tried[0].fov > kMinFov - 2.0f && tried[0].fov < 280.0f)) continue;
           const float alike = alikeness(detail, tried);
           if (alike > best) best = alike, lenses = tried;
         }
@@ -112,7 +112,7 @@ RoughFit roughly_aligned(const LensImages& detail, const std::vector<FisheyeLens
   constexpr float kStep = 1.5f, kApart = 8.0f;  // degrees
   std::vector<RoughFit> all;
   for (const float roll : kRolls) {
-    for (float angle = fov.value_or(kLeastFov); angle <= fov.value_or(kLargestFov); angle += kStep) {
+    for (float angle = fov.value_or(kMinFov); angle <= fov.value_or(kMaxFov); angle += kStep) {
       RoughFit& tried = all.emplace_back(RoughFit{lenses});
       set_fov(tried.lenses, angle);
       tried.lenses[1].roll = roll;
@@ -195,27 +195,27 @@ void turn_upright(const LensImages& images, std::vector<FisheyeLens>& lenses) {
 
 }  // namespace
 
-OppositeLenses align_front_and_back(const LensImages& images, const std::vector<FisheyeLens>& lenses,
-                                    std::optional<float> fov) {
+OppositeLenses align_front_and_back(const LensImages& images, const LensImages& coarse,
+                                    const std::vector<FisheyeLens>& lenses, std::optional<float> fov) {
   constexpr float kMinAlike = 0.35f, kMinLead = 0.1f, kMinDetail = 0.1f;
-  const bool may_overlap = !fov || *fov > kLeastFov;
-  const Image coarse[] = {lens_detail(images.first, lenses[0], kCoarseDetail),
-                          lens_detail(images.second, lenses[1], kCoarseDetail)};
-  const Image fine[] = {lens_detail(images.first, lenses[0], kFineDetail),
-                        lens_detail(images.second, lenses[1], kFineDetail)};
+  const bool may_overlap = !fov || *fov > kMinFov;
   OppositeLenses found{.lenses = lenses};
   bool overlaps = false;
   if (may_overlap) {
-    const RoughFit rough = roughly_aligned({coarse[0], coarse[1]}, lenses, fov);
+    const RoughFit rough = roughly_aligned(coarse, lenses, fov);
     found.lenses = rough.lenses;
-    found.alike = refine({coarse[0], coarse[1]}, found.lenses, 1.0f, !fov);
+    found.alike = refine(coarse, found.lenses, 1.0f, !fov);
     // A pattern that repeats itself agrees at several angles.
     overlaps = found.alike > kMinAlike && (fov || rough.alike > rough.other + kMinLead);
-    if (overlaps) found.alike = refine({fine[0], fine[1]}, found.lenses, 0.25f, !fov);
+    if (overlaps) {
+      const Image first = lens_detail(images.first, lenses[0], kFineDetail),
+                  second = lens_detail(images.second, lenses[1], kFineDetail);
+      found.alike = refine({first, second}, found.lenses, 0.25f, !fov);
+    }
     found.source = fov ? FovSource::kTold : FovSource::kOverlap;
   }
   if (!overlaps || found.alike < kMinAlike) {
-    const bool shows = detail_beside({coarse[0], coarse[1]}, lenses) > kMinDetail;
+    const bool shows = detail_beside(coarse, lenses) > kMinDetail;
     found = {lenses, fov ? FovSource::kTold : shows ? FovSource::kRims : FovSource::kNothing, -1.0f};
     for (const float roll : kRolls) {
       std::vector<FisheyeLens> tried = lenses;

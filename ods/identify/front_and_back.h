@@ -32,9 +32,9 @@ struct OppositeLenses {
   float alike = -1.0f;  // correlation of what both see, or of both rims, -1..1
 };
 
-// Aligns lenses whose circles are known. fov: degrees, measured if not set. Most cameras store the upper side up; if
-// not, light comes from there.
-OppositeLenses align_front_and_back(const LensImages& images, const std::vector<FisheyeLens>& lenses,
-                                    std::optional<float> fov);
+// Aligns lenses whose circles are known. coarse: lens_detail() of both images with kCoarseDetail. fov: degrees, measured
+// if not set. Most cameras store the upper side up; if not, light comes from there.
+OppositeLenses align_front_and_back(const LensImages& images, const LensImages& coarse,
+                                    const std::vector<FisheyeLens>& lenses, std::optional<float> fov);
 
 }  // namespace ods

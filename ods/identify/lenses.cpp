@@ -14,6 +14,7 @@
 #include "ods/identify/lens_detail.h"
 #include "ods/identify/pairs.h"
 #include "ods/identify/thumbnail.h"
+#include "ods/image/block_means.h"
 #include "ods/picture/load_eyes.h"
 
 namespace ods {
@@ -50,7 +51,7 @@ std::optional<SeenLenses> find_lenses(const LensImages& images, std::optional<fl
   const Image detail[] = {lens_detail(images.first, seen.lenses[0], kCoarseDetail),
                           lens_detail(images.second, seen.lenses[1], kCoarseDetail)};
   const float same = sameness({detail[0], detail[1]}, seen.lenses);
-  const OppositeLenses opposite = align_front_and_back(images, seen.lenses, fov);
+  const OppositeLenses opposite = align_front_and_back(images, {detail[0], detail[1]}, seen.lenses, fov);
   const PointPairs pairs = find_pairs(images.first, images.second);
   const bool is_stereo = (pairs.places > 0 && static_cast<double>(pairs.found.size()) > 0.3 * pairs.places) ||
                          (same > kMinSame && (opposite.source != FovSource::kOverlap || same > opposite.alike));
@@ -65,23 +66,14 @@ std::optional<SeenLenses> find_lenses(const LensImages& images, std::optional<fl
 
 // --- files -----------------------------------------------------------------------------------------------------------
 
+// A part of an image; negative light is black.
 static Image cut(const Image& image, EyeCorner corner, Extent size) {
   Image part(size.width, size.height, 1);
-  for (int y = 0; y < size.height; y++) std::copy_n(image.at(corner.x, corner.y + y), size.width, part.at(0, y));
-  return part;
-}
-
-// Averages whole blocks of pixels, so that positions do not move.
-static Image reduced(const Image& image, int by) {
-  Image small(image.width / by, image.height / by, 1);
-  for (int y = 0; y < small.height; y++) {
-    for (int x = 0; x < small.width; x++) {
-      float sum = 0.0f;
-      for (int i = 0; i < by * by; i++) sum += std::max(0.0f, *image.at(x * by + i % by, y * by + i / by));
-      *small.at(x, y) = sum / static_cast<float>(by * by);
-    }
+  for (int y = 0; y < size.height; y++) {
+    const float* const row = image.at(corner.x, corner.y + y);
+    std::transform(row, row + size.width, part.at(0, y), [](float light) { return std::max(0.0f, light); });
   }
-  return small;
+  return part;
 }
 
 static bool is_inscribed(const FisheyeLens& lens, Extent eye) {
@@ -182,7 +174,9 @@ FormatHint with_lenses(const StoredPicture& whole, const std::string& path, cons
   constexpr int kLongest = 1100;   // maximum side of a half, pixels
   const int by = 1 + std::max(eye->width, eye->height) / kLongest;
   const Image grey = grey_eyes(whole)[0];
-  const auto half = [&](int index) { return shown(reduced(cut(grey, eye_corner(*layout, *eye, index), *eye), by)); };
+  const auto half = [&](int index) {
+    return shown(block_means(cut(grey, eye_corner(*layout, *eye, index), *eye), by));
+  };
   const Image first = half(0), second = half(1);
   std::optional<SeenLenses> seen = find_lenses({first, second}, told_fov(told));
   if (!seen) return known;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "ods/image/block_means.h"
+
 namespace ods {
 
 namespace {
@@ -23,18 +25,6 @@ struct Shift {
   double x = 0.0, y = 0.0;
   double correlation = -1.0;
 };
-
-Image smaller(const Image& image, int by) {
-  Image small(image.width / by, image.height / by, 1);
-  for (int y = 0; y < small.height; y++) {
-    for (int x = 0; x < small.width; x++) {
-      float sum = 0.0f;
-      for (int i = 0; i < by * by; i++) sum += *image.at(x * by + i % by, y * by + i / by);
-      *small.at(x, y) = sum / static_cast<float>(by * by);
-    }
-  }
-  return small;
-}
 
 // A tile of one image, and the search for it in another.
 class Tile {
@@ -122,7 +112,7 @@ PointPairs find_pairs(const Image& left, const Image& right) {
   PointPairs pairs;
   pairs.size = {left.width, left.height};
   if (std::min(left.width, left.height) < 12 * kCoarse) return pairs;
-  const Pyramid a{left, smaller(left, kCoarse)}, b{right, smaller(right, kCoarse)};
+  const Pyramid a{left, block_means(left, kCoarse)}, b{right, block_means(right, kCoarse)};
   for (int y = 0; y + kTile <= left.height; y += kTile) {
     for (int x = 0; x + kTile <= left.width; x += kTile) {
       if (!Tile(left, x, y, kTile).has_detail()) continue;

@@ -28,8 +28,7 @@ std::string text_beside(const std::string& path, const char* end, size_t maximum
   name = std::filesystem::path(path).replace_extension(end).native();
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(name, ignored)) return "";
-  const std::vector<unsigned char> bytes = read_file(name, maximum);
-  return {bytes.begin(), bytes.end()};
+  return read_text(name, maximum);
 }
 
 std::string text_of(JsonReader& reader, const std::string& key, size_t maximum, bool is_needed) {

@@ -87,18 +87,19 @@ Modules first_of(const std::string& entry, PageHost host) {
 
 }  // namespace
 
+constexpr std::string_view kNotice = "// Made by Omnistereo from its modules.\n";
+
 std::string bundle(const std::string& entry, PageHost host, ScriptKind kind) {
   Modules all = first_of(entry, host);
   if (host == PageHost::kFolder) add_later(host, all);
   const std::string script = std::string(find_page_file("bundle.js")->data) + all.script;
-  constexpr std::string_view kMade = "// Made by Omnistereo from its modules.\n";
   if (kind == ScriptKind::kClassic) {
-    return fmt::format("{}(() => {{\n'use strict';\nconst $base = document.currentScript?.src;\n{}}})();\n", kMade,
+    return fmt::format("{}(() => {{\n'use strict';\nconst $base = document.currentScript?.src;\n{}}})();\n", kNotice,
                        script);
   }
   const std::string exported =
       fmt::format("{}", fmt::join(names_in(std::string(find_page_file(entry)->data), kExport, 3), ", "));
-  return fmt::format("{}const $base = import.meta.url;\n{}export const {{ {} }} = $modules['{}'];\n", kMade, script,
+  return fmt::format("{}const $base = import.meta.url;\n{}export const {{ {} }} = $modules['{}'];\n", kNotice, script,
                      exported, entry);
 }
 
@@ -106,10 +107,8 @@ std::string bundle_later(PageHost host) {
   Modules modules = first_of("main.js", host);
   modules.script.clear();
   add_later(host, modules);
-  return fmt::format(
-      "// Made by Omnistereo from its modules.\nwindow.omnistereoLater = ($modules, $load, $base, fetch) => {{\n"
-      "'use strict';\n{}}};\n",
-      modules.script);
+  return fmt::format("{}window.omnistereoLater = ($modules, $load, $base, fetch) => {{\n'use strict';\n{}}};\n", kNotice,
+                     modules.script);
 }
 
 std::string script_of_file(std::string_view name, std::string_view bytes) {

@@ -11,19 +11,15 @@ namespace ods {
 
 namespace fs = std::filesystem;
 
-static std::string text_of(const fs::path& path) {
-  constexpr size_t kMax = size_t{16} << 20;  // bytes
-  const std::vector<unsigned char> bytes = read_file(path.native(), kMax);
-  return {bytes.begin(), bytes.end()};
-}
+constexpr size_t kMaxFile = size_t{16} << 20;  // bytes
 
 std::map<std::string, std::string> package_files(const std::string& folder) {
   std::map<std::string, std::string> files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
     if (!entry.is_regular_file() || entry.path().extension() == ".cpp") continue;
-    files[fs::relative(entry.path(), folder).generic_string()] = text_of(entry.path());
+    files[fs::relative(entry.path(), folder).generic_string()] = read_text(entry.path().native(), kMaxFile);
   }
-  files["LICENSE"] = text_of(fs::path(folder) / "../../LICENSE");
+  files["LICENSE"] = read_text(folder + "/../../LICENSE", kMaxFile);
   files["index.d.ts"] = element_types(files["README.md"]);
   files["custom-elements.json"] = element_manifest(files["README.md"]);
   files["stereo-360.js"] = bundle("stereo-360.js");

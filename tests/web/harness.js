@@ -231,7 +231,7 @@ function testPace() {
 async function testAhead(viewer, item) {
   viewer.view = { ...viewer.view, items: [item, { ...item }] };
   viewer.item = 1;
-  viewer.fetchAhead();
+  await viewer.fetchAhead();
   const addresses = imageAddresses(viewer.view, item, viewer.base).map(({ href }) => href);
   for (const address of addresses) {
     if (!(await viewer.ahead.kept.get(address))) throw new Error('ahead: the next picture is not fetched');

@@ -439,7 +439,7 @@ function testFields() {
   expect(fields.length > 8 && edges.size === 1, `fields end at ${[...edges]}`);
 }
 
-// Numbers may have units; what is not a number, or beyond the limits, is told.
+// Numbers may have units. The panel says which number is invalid, or beyond its limits.
 function testNumbers({ session, panel }) {
   const field = panel.rows.find(({ spec }) => spec.path === 'sidecar.position.0').control.element.querySelector('input');
   const x = () => session.settings.sidecar.position[0];

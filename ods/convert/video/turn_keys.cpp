@@ -52,8 +52,7 @@ static std::optional<TurnKey> parse_key(const std::vector<std::string>& words) {
 constexpr size_t kMaxBytes = 16 << 20;
 
 std::vector<TurnKey> read_turn_keys(const std::string& path) {
-  const std::vector<unsigned char> bytes = read_file(path, kMaxBytes);
-  std::istringstream lines(std::string(bytes.begin(), bytes.end()));
+  std::istringstream lines(read_text(path, kMaxBytes));
   std::vector<TurnKey> keys;
   int number = 0;
   for (std::string line; std::getline(lines, line);) {

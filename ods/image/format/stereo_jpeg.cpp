@@ -133,7 +133,7 @@ class MpfDirectory {
 }  // namespace
 
 constexpr uint64_t kUndefinedType = 7, kLong = 4, kFirstDirectory = 8;
-const std::string kBigEndian{"MM\0*\0\0\0\x8", kFirstDirectory};
+constexpr std::string_view kBigEndian{"MM\0*\0\0\0\x8", kFirstDirectory};
 
 static std::string four_bytes(uint64_t value) {
   std::string bytes;
@@ -162,7 +162,7 @@ static std::string mpf_index(uint64_t first_size, uint64_t second_size, uint64_t
   index.add(0xB000, kUndefinedType, 4, "0100");
   index.add(0xB001, kLong, 1, four_bytes(2));
   index.add(kEntries, kUndefinedType, entries.size(), entries);
-  return kBigEndian + index.bytes(index.end()) + attributes_of(1, index.end()).bytes(0);
+  return std::string(kBigEndian) + index.bytes(index.end()) + attributes_of(1, index.end()).bytes(0);
 }
 
 // --- JPS -------------------------------------------------------------------------------------------------------------
@@ -230,8 +230,8 @@ static std::string with_segment(std::string_view jpeg, size_t place, const std::
 
 std::string make_mpo(std::string_view left, std::string_view right) {
   const auto segment = [](const std::string& mpf) { return jpeg_segment(kApp2, std::string(kMpf) + mpf); };
-  const std::string second =
-      with_segment(right, place_of_segment(right), segment(kBigEndian + attributes_of(2, kFirstDirectory).bytes(0)));
+  const std::string second = with_segment(
+      right, place_of_segment(right), segment(std::string(kBigEndian) + attributes_of(2, kFirstDirectory).bytes(0)));
   const size_t place = place_of_segment(left), first_size = left.size() + segment(mpf_index(0, 0, 0)).size();
   const size_t start = place + 4 + kMpf.size();  // of the index
   return with_segment(left, place, segment(mpf_index(first_size, second.size(), first_size - start))) + second;
