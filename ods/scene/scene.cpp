@@ -120,6 +120,10 @@ bool is_hidden(const Scene& scene, size_t instance) {
   return !scene.hidden.empty() && scene.hidden[instance] != 0;
 }
 
+bool has_absences(const Instance& instance) {
+  return instance.role == kUnseen || instance.role == kPureLight || instance.role == kOutline;
+}
+
 bool is_anything_visible(const Scene& scene) {
   for (size_t i = 0; i < scene.instances.size(); i++) {
     if (!is_hidden(scene, i)) return true;

@@ -136,6 +136,9 @@ TextureSlot no_texture();
 bool is_hidden(const Scene& scene, size_t instance);
 bool is_anything_visible(const Scene& scene);
 
+// Returns whether some rays do not meet an instance (PathLight::is_absent).
+bool has_absences(const Instance& instance);
+
 // Appends a mesh and returns its index. Precondition: every corner < vertices.size(), material >= 0.
 int add_mesh(Scene& scene, std::vector<Vertex> vertices, std::vector<uvec3> triangles, int material);
 

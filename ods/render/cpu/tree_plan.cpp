@@ -2,13 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/render/cpu/tree_plan.h"
 
-#include "ods/render/cpu/doubled_faces.h"
+#include "ods/scene/doubled_faces.h"
 
 namespace ods {
-
-bool has_absences(const Instance& instance) {
-  return instance.role == kUnseen || instance.role == kPureLight || instance.role == kOutline;
-}
 
 static std::vector<char> moving_instances(const Scene& scene) {
   std::vector<char> moves(scene.instances.size());

@@ -22,7 +22,4 @@ struct TreePlan {
 // max_copied_triangles: as in EmbreeScene.
 TreePlan plan_trees(const Scene& scene, size_t max_copied_triangles);
 
-// Returns whether some rays do not meet an instance.
-bool has_absences(const Instance& instance);
-
 }  // namespace ods

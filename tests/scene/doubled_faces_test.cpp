@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/render/cpu/doubled_faces.h"
+#include "ods/scene/doubled_faces.h"
 
 #include <gtest/gtest.h>
 
