@@ -9,6 +9,7 @@
 #include "cli/options/camera_options.h"
 #include "cli/options/scene_source.h"
 #include "cli/render/info_report.h"
+#include "ods/render/cpu/render.h"
 #include "ods/stage/judge_scene.h"
 #include "ods/stage/light/supply.h"
 

@@ -15,6 +15,7 @@
 #include "ods/comfort/merge_from_depth.h"
 #include "ods/files/atomic_file.h"
 #include "ods/picture/save.h"
+#include "ods/render/cpu/render.h"
 #include "ods/stage/judge_scene.h"
 
 namespace {

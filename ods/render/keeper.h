@@ -29,10 +29,10 @@ class Keeper {
     took_ = kept_ - began;
   }
 
-  // Stores the samples if the last time was 25 seconds ago, or ten times as long as storing took.
-  void keep_if_due(const PictureSamples& samples) {
+  // Returns whether the last time was 25 seconds ago, or ten times as long as storing took.
+  bool is_due() const {
     constexpr double kKeepSeconds = 25.0;
-    if (seconds() - kept_ > std::max(kKeepSeconds, 10.0 * took_)) keep(samples);
+    return seconds() - kept_ > std::max(kKeepSeconds, 10.0 * took_);
   }
 
  private:

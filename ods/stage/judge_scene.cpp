@@ -25,7 +25,7 @@ SeenDepth seen_by(const std::vector<Hit>& hits, const StereoCamera& camera, int 
   return seen;
 }
 
-std::vector<SeenDepth> eyes_in_scene(const CpuRenderer& renderer, const Things& things, const StereoCamera& camera,
+std::vector<SeenDepth> eyes_in_scene(const Renderer& renderer, const Things& things, const StereoCamera& camera,
                                      const RenderOptions& options) {
   const std::vector<int> eyes = eye_list(options.eyes);
   const std::vector<std::vector<Hit>> hits = renderer.center_hits(camera, options);
@@ -41,7 +41,7 @@ std::vector<SeenDepth> eyes_in_scene(const CpuRenderer& renderer, const Things& 
 }
 
 // The things that rays from the circle's middle meet before they leave it.
-std::vector<std::string> hidden_in_circle(const CpuRenderer& renderer, const Things& things, const StereoCamera& camera,
+std::vector<std::string> hidden_in_circle(const Renderer& renderer, const Things& things, const StereoCamera& camera,
                                           int width) {
   RenderOptions options;
   options.width = std::min(width, kMiddleWidth);
@@ -64,7 +64,7 @@ std::vector<std::string> hidden_in_circle(const CpuRenderer& renderer, const Thi
 
 }  // namespace
 
-JudgedPicture judge_scene(const CpuRenderer& renderer, const Scene& scene, const StereoCamera& camera, int width,
+JudgedPicture judge_scene(const Renderer& renderer, const Scene& scene, const StereoCamera& camera, int width,
                           const ComfortOptions& comfort) {
   RenderOptions options;
   options.width = width;
@@ -85,7 +85,7 @@ JudgedPicture judge_scene(const CpuRenderer& renderer, const Scene& scene, const
   return judged;
 }
 
-std::vector<float> shares_seen(const CpuRenderer& renderer, const StereoCamera& camera, float limit) {
+std::vector<float> shares_seen(const Renderer& renderer, const StereoCamera& camera, float limit) {
   StereoCamera middle;
   middle.position = camera.position;
   middle.yaw = camera.yaw;

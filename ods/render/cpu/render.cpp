@@ -15,15 +15,14 @@
 #include <span>
 #include <vector>
 
-#include "ods/base/error.h"
 #include "ods/kernel/counterpart.h"
+#include "ods/render/center_hit.h"
 #include "ods/render/cpu/fill_light_cache.h"
 #include "ods/render/cpu/job.h"
-#include "ods/render/keeper.h"
 #include "ods/render/lights.h"
 #include "ods/render/media_at.h"
-#include "ods/render/passes.h"
 #include "ods/render/picture_samples.h"
+#include "ods/render/render_passes.h"
 #include "ods/render/render_target.h"
 #include "ods/render/sampling_plan.h"
 #include "ods/scene/catchers.h"
@@ -32,32 +31,9 @@
 namespace ods {
 namespace {
 
-vec2 pixel_center(const Job& job, int x, int y) {
-  return {(static_cast<float>(x) + 0.5f) / static_cast<float>(job.options.width),
-          (static_cast<float>(y) + 0.5f) / static_cast<float>(job.options.height)};
-}
-
-uint pixel_seed(const Job& job, int eye, int x, int y) {
-  const uint pixel = static_cast<uint>(y * job.options.width + x);
-  return hash_pair(hash_pair(job.options.seed, static_cast<uint>(eye)), pixel);
-}
-
-// The hit of the ray through the pixel's centre, with its depth as t; negative if there is none.
 Hit center_hit(Job& job, int eye, int x, int y) {
-  Hit hit{-1.0f, 0.0f, 0.0f, -1, -1};
-  const Ray ray = camera_ray(job.camera, eye, pixel_center(job, x, y));
-  if (ray.direction == vec3(0.0f)) return hit;
-  PathSettings first_hit_only = job.settings;
-  first_hit_only.bounces = 0;
-  PathTracer& tracer = job.tracer;
-  tracer.ray_time = 0.5f;
-  tracer.start_path(ray, job.media, pixel_seed(job, eye, x, y), 0u);
-  while (tracer.path.alive && !tracer.path.caught) {
-    hit = job.embree.closest_hit(tracer, tracer.path.ray, kHalfAlphaRay);
-    tracer.shade(hit, first_hit_only);
-  }
-  hit.t = tracer.path.depth;
-  return hit;
+  return center_hit(job.tracer, job.camera, job.media, job.options, eye, x, y,
+                    [&](PathTracer& tracer) { return job.embree.closest_hit(tracer, tracer.path.ray, kHalfAlphaRay); });
 }
 
 // Depths are not averaged: a depth belongs to the ray through the pixel's centre.
@@ -66,25 +42,10 @@ float center_depth(Job& job, int eye, int x, int y) {
   return depth < 0.0f ? kFarDepth : job.tracer.path.caught ? -depth : depth;
 }
 
-// Adds the samples from..to - 1 of all noisy pixels, or each block's share of them.
-struct Pass {
-  const SamplingPlan& plan;
-  const std::vector<uint8_t>& noisy;
-  int from;
-  int to;
-  SampleRange whole;  // range over which shared paths are balanced: this pass, or all samples if no pixel stops early
-};
-
-bool is_noisy(const Pass& pass, size_t block, int x, int y) {
-  return pass.noisy[block] >> class_of(x, y) & 1;
-}
-
 // The weight of a pixel's samples in the pass; 0 if it is clean.
 float weight_in(const Pass& pass, int x, int y) {
   const size_t block = block_at(pass.plan, x, y);
-  if (!is_noisy(pass, block, x, y)) return 0.0f;
-  return static_cast<float>(samples_of(pass.plan, block, pass.whole.end) -
-                            samples_of(pass.plan, block, pass.whole.begin));
+  return is_noisy(pass, block, x, y) ? block_weight(pass, block) : 0.0f;
 }
 
 // NaN counts as 0.
@@ -159,10 +120,10 @@ struct FirstHits {
 
 // Returns false if the picture is empty at the pixel.
 [[gnu::flatten]] bool trace_first_rays(Job& job, int eye, int x, int y, int first, FirstHits& out) {
-  const vec2 home = pixel_center(job, x, y);
+  const vec2 home = pixel_center(job.options, x, y);
   RayPacket& packet = out.packet;
   packet.count = std::min(RayPacket::kMax, job.options.samples - first);
-  packet.seed = pixel_seed(job, eye, x, y);
+  packet.seed = pixel_seed(job.options, eye, x, y);
   packet.index = static_cast<uint>(first);
   for (int i = 0; i < packet.count; i++) {
     const uint index = packet.index + static_cast<uint>(i);
@@ -254,8 +215,8 @@ void render_block(Job job, const Pass& pass, int block, Target target) {
     for (int x = x0; x < std::min(x0 + kBlockSize, job.options.width); x++) {
       if (!is_noisy(pass, b, x, y)) continue;
       const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(job.options.width) + static_cast<size_t>(x);
-      const bool is_first = pass.from == samples_of_part(job.options).begin;
-      if (is_first && !target.eye.depth.empty()) target.eye.depth[pixel] = center_depth(job, target.eye.eye, x, y);
+      if (is_first(pass, job.options) && !target.eye.depth.empty())
+        target.eye.depth[pixel] = center_depth(job, target.eye.eye, x, y);
       for (int i = first / RayPacket::kMax; i * RayPacket::kMax < last; i++) {
         if (!trace_packet(job, pass, x, y, i, {first, last}, target)) break;
       }
@@ -264,88 +225,37 @@ void render_block(Job job, const Pass& pass, int block, Target target) {
   }
 }
 
-constexpr double kSliceSeconds = 2.0;  // seconds of work after which the samples can be stored
+class CpuPasses : public PassDevice {
+ public:
+  CpuPasses(const Job& job, PictureSamples& samples) : job_(job), samples_(samples) {}
 
-// Renders the blocks begin .. end - 1 of a pass, of both eyes. The thread that finishes a block reports the progress of
-// the pass. Cancellation is only checked between slices if the caller keeps the samples, because only whole slices are
-// useful then.
-void render_slice(const Job& job, const Pass& pass, int begin, int end, PictureSamples& samples,
-                  const Progress& progress, bool keeps) {
-  const int per_eye = static_cast<int>(samples.noisy.size());
-  const int total = per_eye * static_cast<int>(samples.eyes.size());
-  std::atomic<int> done = begin;
-  std::atomic<bool> stop = false;
-  std::mutex reporting;
-  tbb::parallel_for(begin, end, [&](int i) {
-    const int work = job.options.last_tile_first ? total - 1 - i : i;
-    if (stop || (!keeps && progress.cancelled && progress.cancelled())) {
-      stop = true;
-      return;
-    }
-    const size_t eye = static_cast<size_t>(work / per_eye);
-    render_block(job, pass, work % per_eye, {samples.eyes[eye], job.shares ? &samples.eyes[1 - eye] : nullptr});
-    done++;
-    if (!progress.report) return;
-    if (const std::unique_lock free(reporting, std::try_to_lock); free) {
-      progress.report(static_cast<double>(done) / total);
-    }
-  });
-  if (stop) throw Error(ErrorKind::kCancelled, "rendering was stopped");
-  samples.blocks_done = end;
-}
-
-// Renders the rest of a pass.
-void render_pass(const Job& job, const Pass& pass, PictureSamples& samples, const Progress& progress, Keeper& keeper) {
-  const int total = static_cast<int>(samples.noisy.size() * samples.eyes.size());
-  int slice = keeper.wanted() ? 16 : total;
-  while (samples.blocks_done < total) {
-    const double began = keeper.seconds();
-    const int end = std::min(samples.blocks_done + slice, total);
-    render_slice(job, pass, samples.blocks_done, end, samples, progress, keeper.wanted());
-    const double took = std::max(keeper.seconds() - began, 1e-6);
-    slice = std::clamp(static_cast<int>(slice * kSliceSeconds / took), 1 + slice / 2, 4 * slice);
-    if (progress.cancelled && progress.cancelled()) {
-      keeper.keep(samples);
-      throw Error(ErrorKind::kCancelled, "rendering was stopped");
-    }
-    keeper.keep_if_due(samples);
+  bool render_blocks(const Pass& pass, BlockRange blocks, const Progress& progress, bool whole) override {
+    const int per_eye = static_cast<int>(samples_.noisy.size());
+    const int total = per_eye * static_cast<int>(samples_.eyes.size());
+    std::atomic<int> done = blocks.begin;
+    std::atomic<bool> stop = false;
+    std::mutex reporting;
+    tbb::parallel_for(blocks.begin, blocks.end, [&](int i) {
+      const int work = job_.options.last_tile_first ? total - 1 - i : i;
+      if (stop || (!whole && progress.cancelled && progress.cancelled())) {
+        stop = true;
+        return;
+      }
+      const size_t eye = static_cast<size_t>(work / per_eye);
+      render_block(job_, pass, work % per_eye, {samples_.eyes[eye], job_.shares ? &samples_.eyes[1 - eye] : nullptr});
+      done++;
+      if (!progress.report) return;
+      if (const std::unique_lock free(reporting, std::try_to_lock); free) {
+        progress.report(static_cast<double>(done) / total);
+      }
+    });
+    return !stop;
   }
-  samples.done = samples.pass_to;
-  samples.blocks_done = 0;
-}
 
-// With depth of field a hit has no single pixel in the other eye, and a shadow catcher has no radiance to share.
-bool can_share(const StereoCamera& camera, const Scene& scene, const RenderOptions& options) {
-  return shares_paths(options) && camera.lens_radius == 0.0f && !has_catchers(scene);
-}
-
-// Renders passes until the picture is clean, has all samples or has no time left.
-void render_passes(const Job& job, const SamplingPlan& plan, PictureSamples& samples, const Progress& progress,
-                   const KeepSamples& keep) {
-  Keeper keeper(keep);
-  Passes passes(job.options, samples.done);
-  const auto judge = [&] {
-    if (passes.can_judge()) passes.expect(judge_noise(plan, job.options, samples));
-  };
-  const bool has_begun = samples.pass_to > samples.done;  // an interrupted pass goes to the same blocks as it began
-  if (!has_begun) judge();
-  const bool stops = job.options.noise > 0.0f || job.options.time_limit > 0.0;
-  while (samples.pass_to > samples.done || passes.next_step(keeper.seconds()) > 0) {
-    if (samples.pass_to > samples.done) {
-      passes.resume_step(samples.pass_to - samples.done);
-    } else {
-      samples.pass_to = samples.done + passes.step();
-    }
-    Progress part = progress;
-    if (progress.report) part.report = [&](double done) { progress.report(passes.fraction(done, keeper.seconds())); };
-    const double began = keeper.seconds();
-    const SampleRange whole = stops ? SampleRange{samples.done, samples.pass_to} : SampleRange{0, job.options.samples};
-    render_pass(job, {plan, samples.noisy, samples.done, samples.pass_to, whole}, samples, part, keeper);
-    passes.finish_step(keeper.seconds() - began);
-    judge();
-  }
-  if (progress.report) progress.report(1.0);
-}
+ private:
+  const Job& job_;
+  PictureSamples& samples_;
+};
 
 }  // namespace
 
@@ -386,7 +296,7 @@ struct CpuRenderer::Parts {
             cameras.size() > 1 || scene.motion_keys > 1,
             media,
             options,
-            {options.bounces, static_cast<int>(options.light_sampling), false, options.clamp},
+            path_settings(options),
             options.filter == PixelFilter::kBox ? kFilterBox : kFilterBlackmanHarris,
             layer_unit(options),
             can_share(stereo, scene, options)};
@@ -416,25 +326,6 @@ void CpuRenderer::update(const SceneChange& change) {
   });
 }
 
-Picture CpuRenderer::render(const StereoCamera& stereo, const RenderOptions& options, const Progress& progress) const {
-  return render(std::span(&stereo, 1), options, progress);
-}
-
-Picture CpuRenderer::render(std::span<const StereoCamera> path, const RenderOptions& wanted,
-                            const Progress& progress) const {
-  const RenderOptions options = with_height(wanted, path[path.size() / 2]);
-  check_picture_memory(options);
-  PictureSamples samples = no_samples(options);
-  sample(path, options, samples, progress);
-  return develop(std::move(samples), options);
-}
-
-static std::vector<Camera> cameras_of(std::span<const StereoCamera> path) {
-  std::vector<Camera> cameras;
-  for (const StereoCamera& each : path) cameras.push_back(make_camera(each));
-  return cameras;
-}
-
 void CpuRenderer::sample(std::span<const StereoCamera> path, const RenderOptions& options, PictureSamples& samples,
                          const Progress& progress, const KeepSamples& keep, const LightCells* cells) const {
   assert(path.size() % 2 == 1 && fit(samples, options));
@@ -446,7 +337,8 @@ void CpuRenderer::sample(std::span<const StereoCamera> path, const RenderOptions
     parts_->use_portals(job.tracer, stereo.position);
     const LightCells own = cells ? LightCells() : fill_light_cache(job, progress);
     show_light_cache(job, cells ? *cells : own);
-    render_passes(job, make_plan(stereo, options), samples, progress, keep);
+    CpuPasses device(job, samples);
+    render_passes(device, make_plan(stereo, options), options, samples, progress, keep);
   });
 }
 
