@@ -20,5 +20,6 @@ perspective cameras.")
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS "libvulkan1, mesa-vulkan-drivers")  # for graphics cards
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 include(CPack)

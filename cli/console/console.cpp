@@ -98,6 +98,7 @@ ExitCode exit_code(ods::ErrorKind kind) {
     case ods::ErrorKind::kOutput:
       return kExitOutput;
     case ods::ErrorKind::kMemory:
+    case ods::ErrorKind::kDevice:
     case ods::ErrorKind::kCancelled:  // cannot happen: interrupts end the process themselves
       return kExitFailure;
   }

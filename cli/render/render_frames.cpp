@@ -11,6 +11,7 @@
 #include "cli/options/disk_room.h"
 #include "cli/options/picture_options.h"
 #include "cli/options/waiting.h"
+#include "cli/render/device.h"
 #include "cli/render/first_look.h"
 #include "cli/render/plan.h"
 #include "cli/render/render_still.h"
@@ -90,6 +91,35 @@ void check_length(const ods::Scene& scene, const TimeOptions& time) {
       "the scene has no animation: add --duration SECONDS, or move the camera with --turntable or --fly-to");
 }
 
+// Renders the picture, or the frames, of a scene whose clock is set.
+void render_frames(const RenderJob& job, const TimeOptions& time, ods::Scene& scene, ProgressLines& lines) {
+  const bool is_video = makes_video(time);
+  ods::FrameRenderer renderer(plan(job, time).sequence, scene);
+  const std::vector<Frame> all = all_frames(job, time, renderer.options());
+  const std::vector<size_t> missing = choose_frames(time, all);
+  if (missing.empty()) return;
+  if (is_video) note_disk_space(job.output, missing.size(), largest_frame(job.output, job.render, job.save));
+  look_first(job, renderer, all);
+  const auto start = std::chrono::steady_clock::now();
+  std::string first;
+  double samples = 0.0;
+  ods::SequenceProgress progress;
+  progress.saved = [&](const ods::Rendered& frame) {
+    lines.clear();
+    first = frame.files.front();
+    samples += frame.samples;
+    for (const std::string& file : frame.files) announce_file(file);
+  };
+  progress.report = [&](double done, const ods::FrameAtWork& at) {
+    lines.report(done, seconds_since(start), {"render", at.place, is_video ? at.count : 0, at.path});
+  };
+  progress.waiting = note_waiting(is_video ? "frame" : "part");
+  const ods::Sink sink = time.skip_existing ? ods::Sink::kShared : ods::Sink::kFiles;
+  const size_t rendered = is_video ? ods::render_sequence(renderer, all, missing, sink, progress)
+                                   : render_picture(job, renderer, all.front(), progress);
+  if (rendered > 0) report_speed(job, rendered, first, samples, seconds_since(start));
+}
+
 }  // namespace
 
 void check_outputs(const RenderJob& job) {
@@ -116,34 +146,16 @@ std::vector<int> frames_of(const RenderJob& job) {
   return video_frames(video_time(job, scene));
 }
 
-void render_job(const RenderJob& job, ProgressLines& lines) {
-  check_outputs(job);
-  ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
+void render_job(const RenderJob& given, ProgressLines& lines) {
+  check_outputs(given);
+  ods::Scene scene = open_lit_scene(given.scene, given.render.transparent);
+  const RenderJob job = on_device(given, scene);
   TimeOptions time = job.time;
   start_clock(time, job.camera, scene);
-  const bool is_video = makes_video(time);
-  ods::FrameRenderer renderer(plan(job, time).sequence, scene);
-  const std::vector<Frame> all = all_frames(job, time, renderer.options());
-  const std::vector<size_t> missing = choose_frames(time, all);
-  if (missing.empty()) return;
-  if (is_video) note_disk_space(job.output, missing.size(), largest_frame(job.output, job.render, job.save));
-  look_first(job, renderer, all);
-  const auto start = std::chrono::steady_clock::now();
-  std::string first;
-  double samples = 0.0;
-  ods::SequenceProgress progress;
-  progress.saved = [&](const ods::Rendered& frame) {
-    lines.clear();
-    first = frame.files.front();
-    samples += frame.samples;
-    for (const std::string& file : frame.files) announce_file(file);
-  };
-  progress.report = [&](double done, const ods::FrameAtWork& at) {
-    lines.report(done, seconds_since(start), {"render", at.place, is_video ? at.count : 0, at.path});
-  };
-  progress.waiting = note_waiting(is_video ? "frame" : "part");
-  const ods::Sink sink = time.skip_existing ? ods::Sink::kShared : ods::Sink::kFiles;
-  const size_t rendered = is_video ? ods::render_sequence(renderer, all, missing, sink, progress)
-                                   : render_picture(job, renderer, all.front(), progress);
-  if (rendered > 0) report_speed(job, rendered, first, samples, seconds_since(start));
+  try {
+    render_frames(job, time, scene, lines);
+  } catch (const ods::Error& failure) {
+    if (!continues_on_cpu(job, failure)) throw;
+    render_frames(on_cpu(job, failure), time, scene, lines);
+  }
 }

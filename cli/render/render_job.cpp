@@ -8,6 +8,7 @@
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
+#include "cli/render/device.h"
 #include "ods/denoise/oidn.h"
 #include "ods/files/frames.h"
 #include "ods/stage/exposure.h"
@@ -89,7 +90,7 @@ void check_long_job(const Options& options, const RenderJob& job) {
 void check_rig(const Options& options, const RenderJob& job) {
   if (job.rig.empty()) return;
   options.refuse({"--width", "--height", "--size", "--eyes", "--layout", "--position", "--camera", "--yaw", "--pitch",
-                  "--roll", "--ipd", "--projection", "--frames", "--shutter"},
+                  "--roll", "--ipd", "--projection", "--frames", "--shutter", "--device"},
                  "cannot be used with --rig");
 }
 
@@ -132,6 +133,7 @@ RenderJob parse_render(Options& options) {
   add_camera_options(options, job.camera);
   add_time_options(options, job.time);
   add_quality_options(options, job);
+  add_device_option(options, job);
   add_long_options(options, job);
   options.group("Console");
   add_progress_options(options, job.progress);

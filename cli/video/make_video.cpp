@@ -13,6 +13,7 @@
 #include "cli/console/long_job.h"
 #include "cli/options/disk_room.h"
 #include "cli/options/waiting.h"
+#include "cli/render/device.h"
 #include "cli/render/first_look.h"
 #include "cli/render/forecast.h"
 #include "cli/render/plan.h"
@@ -78,15 +79,16 @@ void report_start(const RenderJob& job, const ods::VideoStart& start, size_t own
 
 void render_scene(const VideoJob& job, ProgressLines& lines) {
   const auto begin = Clock::now();
-  RenderJob render = job.render;
+  const RenderJob& given = job.render;
   ods::VideoOptions video;
   video.encode =
-      check_encoding(job, expect_video(render.save.layout, ods::eye_list(render.render.eyes).size(),
-                                       {render.render.width, render.render.height}, render.camera.stereo.projection));
+      check_encoding(job, expect_video(given.save.layout, ods::eye_list(given.render.eyes).size(),
+                                       {given.render.width, given.render.height}, given.camera.stereo.projection));
+  ods::Scene scene = open_lit_scene(given.scene, given.render.transparent);
+  RenderJob render = on_device(given, scene);
   ods::VideoJournal journal = open_journal(job, frame_identity(identified(render)));
   render.output = journal.pattern();
   check_outputs(render);
-  ods::Scene scene = open_lit_scene(render.scene, render.render.transparent);
   const TimeOptions time = video_time(render, scene);
   video.frames = video_frames(time);
   const std::vector<int> own = own_frames(time.only, video.frames);

@@ -7,6 +7,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/picture_options.h"
+#include "cli/render/device.h"
 #include "cli/render/plan.h"
 
 namespace {
@@ -48,11 +49,13 @@ VideoJob parse_video(Options& options) {
   add_camera_options(options, render.camera);
   add_time_options(options, render.time);
   add_quality_options(options, render);
+  add_device_option(options, render);
   options.group("Console");
   add_progress_options(options, render.progress);
   options.parse();
   if (render.time.time) throw UsageError("--time is for single pictures; choose a video's frames with --frames");
   if (render.save.sidecar) throw UsageError("--sidecar is for pictures; a video carries its own metadata");
+  if (!job.rig.empty()) options.refuse({"--device"}, "cannot be used with --rig");
   render.time.is_video = render.time.skip_existing = true;
   finish_render_options(options, render);
   if (!render.time.only.empty() && job.restart) {

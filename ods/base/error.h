@@ -14,6 +14,7 @@ enum class ErrorKind {
   kInput,      // a file is missing, malformed or unsupported
   kOutput,     // a file could not be written
   kMemory,     // not enough memory
+  kDevice,     // a graphics card is missing, or failed
   kCancelled,  // Progress::cancelled returned true
 };
 

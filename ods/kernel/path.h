@@ -404,7 +404,7 @@ struct PathTracer : LightCacheReader {
     path.shadow_pending = false;
     this_step.chosen_wave = -1;
     this_step.vertex_bounce = -1;
-    if (path.caught) {
+    if (kHasCatchers && path.caught) {
       go_to_light(hit);
       return;
     }
@@ -424,7 +424,7 @@ struct PathTracer : LightCacheReader {
       pass_through(surface, hit.t);
       return;
     }
-    if (path.bounce == 0 && role == kCatcher) {
+    if (kHasCatchers && path.bounce == 0 && role == kCatcher) {
       path.depth = path.travelled + hit.t;
       catch_shadows(surface, settings);
       return;

@@ -225,6 +225,38 @@ struct CacheCell {
   vec3 light;  // outgoing light over albedo
 };
 
+// The hits of a TreeTriangle that the kernel decides about, as a sum.
+const int kDecidesAll = 1;     // it has alpha, or is absent for some rays
+const int kDecidesShadow = 2;  // it may be clear glass
+const int kHasNoBack = 4;      // the file contains the face a second time, for this side
+const int kHasNoFront = 8;     // the same, in a mirrored instance
+
+// Maximum depth of a TreeNode.
+const int kTreeDepth = 64;
+
+// A node of the tree of boxes over the scene's triangles (ods/kernel/tree.h). Each of its two children is a node or a
+// run of triangles.
+struct TreeNode {
+  vec3 low_a;   // the first child's box
+  int first_a;  // its node, or its first triangle
+  vec3 high_a;
+  int count_a;  // its number of triangles; 0 for a node
+  vec3 low_b;   // the second child
+  int first_b;
+  vec3 high_b;
+  int count_b;
+};
+
+// A triangle of the tree, in the world.
+struct TreeTriangle {
+  vec3 a;
+  int instance;
+  vec3 b;
+  int triangle;  // of the instance's mesh
+  vec3 c;
+  int decides;  // the sum of these numbers; 0: it stops every ray
+};
+
 // The point where a ray hit the scene. (u, v) are the barycentric coordinates of the triangle's second and third
 // corner.
 struct Hit {
@@ -241,5 +273,6 @@ static_assert(sizeof(TextureSlot) == 32 && sizeof(Material) == 248 && sizeof(Lig
 static_assert(sizeof(MaterialLayers) == 88 + 12 * sizeof(TextureSlot));
 static_assert(sizeof(EnvironmentTexel) == 24 && sizeof(EnvironmentInfo) == 28 && sizeof(Hit) == 20);
 static_assert(sizeof(CacheCell) == 20 && sizeof(Portal) == 36);
+static_assert(sizeof(TreeNode) == 64 && sizeof(TreeTriangle) == 48);
 }  // namespace ods
 #endif

@@ -10,6 +10,11 @@
 namespace ods {
 #endif
 
+// A shader has its own value, for the scenes that it is for: drivers remove what a constant condition excludes.
+#ifdef __cplusplus
+const bool kHasCatchers = true;
+#endif
+
 // A node of the tree of lights (ods/kernel/light.h).
 struct LightNode {
   vec3 center;  // centre of a sphere around its lights

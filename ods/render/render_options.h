@@ -104,7 +104,9 @@ struct RenderOptions {
                              // required if the scene has catchers (ods/scene/catchers.h)
   bool statistics = false;   // variance and samples beside radiance
   uint32_t seed = 0;
-  int threads = 0;  // 0 for all processors
+  int threads = 0;           // 0 for all processors
+  int gpu = -1;              // number of the graphics card that renders (ods/render/gpu/gpu_device.h); -1 for the CPU
+  std::string shader_cache;  // folder for shaders compiled for that card; none if empty
   LightSampling light_sampling = LightSampling::kBoth;
   bool last_tile_first = false;  // renders the tiles in reverse, for tests that the order changes nothing
 };

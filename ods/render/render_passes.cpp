@@ -18,7 +18,7 @@ constexpr double kSliceSeconds = 2.0;  // seconds of work after which the sample
 void render_pass(PassDevice& device, const Pass& pass, PictureSamples& samples, const Progress& progress,
                  Keeper& keeper) {
   const int total = static_cast<int>(samples.noisy.size() * samples.eyes.size());
-  int slice = keeper.wanted() ? 16 : total;
+  int slice = keeper.wanted() ? device.blocks_at_once() : total;
   while (samples.blocks_done < total) {
     const double began = keeper.seconds();
     const int end = std::min(samples.blocks_done + slice, total);
@@ -28,6 +28,7 @@ void render_pass(PassDevice& device, const Pass& pass, PictureSamples& samples, 
     samples.blocks_done = end;
     const double took = std::max(keeper.seconds() - began, 1e-6);
     slice = std::clamp(static_cast<int>(slice * kSliceSeconds / took), 1 + slice / 2, 4 * slice);
+    slice = std::max(slice, device.blocks_at_once());
     if (progress.cancelled && progress.cancelled()) {
       device.fetch();
       keeper.keep(samples);

@@ -54,6 +54,9 @@ class PassDevice {
   // because samples of half a range cannot be kept. The thread that finishes a block reports the progress of the pass.
   virtual bool render_blocks(const Pass& pass, BlockRange blocks, const Progress& progress, bool whole) = 0;
 
+  // The number of blocks that keep the device busy: it is given so many at once, if there are.
+  virtual int blocks_at_once() const { return 16; }
+
   // Brings all samples so far to PictureSamples, for a device that keeps them elsewhere.
   virtual void fetch() {}
 };

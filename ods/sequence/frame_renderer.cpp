@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "ods/base/error.h"
+#include "ods/render/devices/devices.h"
 #include "ods/render/render_target.h"
 #include "ods/render/unfinished.h"
 #include "ods/scene/shutter.h"
@@ -50,7 +51,7 @@ Shot FrameRenderer::set(const SequenceFrame& frame) {
   if (renderer_) {
     renderer_->update(change_);
   } else {
-    renderer_.emplace(scene_, options_.render.threads);
+    renderer_ = make_renderer(scene_, options_.render);
   }
   change_ = {};
   shot.options = with_height(options_to_finish(options_.render, options_.finish.denoiser), shot.camera());

@@ -5,13 +5,14 @@
 // frames.
 #pragma once
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "ods/render/cpu/render.h"
+#include "ods/render/renderer.h"
 #include "ods/scene/motion.h"
 #include "ods/sequence/sequence.h"
 
@@ -35,7 +36,7 @@ struct RawFrame {
   double time = 0.0;
   StereoCamera camera;  // in the middle of the shutter
   Picture picture;
-  std::vector<std::vector<Hit>> hits;  // CpuRenderer::center_hits(); empty if only the camera moves
+  std::vector<std::vector<Hit>> hits;  // Renderer::center_hits(); empty if only the camera moves
 };
 
 class FrameRenderer {
@@ -56,7 +57,7 @@ class FrameRenderer {
   Shot set(const SequenceFrame& frame);
 
   // The scene as set. Precondition: set() has been called.
-  const CpuRenderer& renderer() const { return *renderer_; }
+  const Renderer& renderer() const { return *renderer_; }
 
   // Renders, denoises and saves. report: gets the fraction done, if it is set.
   Rendered render(const SequenceFrame& frame, const Report& report = {});
@@ -76,7 +77,7 @@ class FrameRenderer {
   SequenceOptions options_;
   Scene& scene_;
   SceneChange change_;  // since renderer_ was updated
-  std::optional<CpuRenderer> renderer_;
+  std::unique_ptr<Renderer> renderer_;
 };
 
 }  // namespace ods

@@ -146,6 +146,8 @@ constexpr std::tuple kRenderFields = {
     Field{&RenderOptions::statistics, "statistics", kSamples, kSums},
     Field{&RenderOptions::seed, "`seed`", kSamples, kPaths},
     Field{&RenderOptions::threads, "", kNothing, kSameBits},
+    Field{&RenderOptions::gpu, "", kNothing, "samples of devices can be mixed"},
+    Field{&RenderOptions::shader_cache, "", kNothing, kSameBits},
     Field{&RenderOptions::light_sampling, "light sampling", kSamples, kPaths},
     Field{&RenderOptions::last_tile_first, "", kNothing, kSameBits},
 };

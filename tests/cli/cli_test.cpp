@@ -109,6 +109,13 @@ TEST_F(Cli, SizesAreListed) {
   EXPECT_NE(err.find("did you mean 'tb-high-6480'?"), std::string::npos) << err;
 }
 
+TEST_F(Cli, DevicesAreListed) {
+  EXPECT_EQ(run("devices"), 0) << err;
+  EXPECT_TRUE(out.starts_with("cpu ")) << out;
+  EXPECT_NE(out.find("auto takes "), std::string::npos) << out;
+  EXPECT_EQ(err, "");
+}
+
 TEST_F(Cli, ANamedSizeSetsWidthAndLayout) {
   const std::string small = " --quality draft --samples 1 --eyes mono";
   EXPECT_EQ(run("render furnace -q --size tb-quick-test-512" + small + " -o " + folder.path("a.exr")), 0) << err;

@@ -16,7 +16,7 @@
 
 namespace ods::cli_errors_test {
 
-constexpr int kUsage = 2, kInput = 3, kOutput = 4;
+constexpr int kFailure = 1, kUsage = 2, kInput = 3, kOutput = 4;
 
 struct Fault {
   std::string words;  // a name that starts with @ is in the test's folder
@@ -78,6 +78,9 @@ TEST_F(Errors, OfTheCommandLine) {
           {"denoise @p.exr -o @a.exr --variance x --half-a x --half-b x", kUsage, "not both"},
           {"denoise @p.exr -o @a.xyz", kUsage, "a.xyz"},
           {"render furnace -o @a.png --statistics", kUsage, "--statistics"},
+          {"render furnace -o @a.png --device NoSuchCard", kFailure, "NoSuchCard"},
+          {"render furnace -o @v/#.png --rig @rig.json --device auto", kUsage, "--device"},
+          {"video @v/#/#.png -o @a.mp4 --rig @rig.json --device auto", kUsage, "--device"},
           {"compare @p.exr", kUsage, "B"},
           {"compare @p.exr @p.exr --max-rmse x", kUsage, "--max-rmse"},
           {"compare @p.exr @p.exr --diff @p.exr", kUsage, "p.exr"},

@@ -3,6 +3,7 @@
 //
 // The whole kernel as GLSL, in the order in which its headers build on each other.
 #define inline
+const bool kHasCatchers = true;
 #include "ods/kernel/camera/angles.h"
 #include "ods/kernel/camera/merge.h"
 #include "ods/kernel/camera/projection.h"
