@@ -31,7 +31,7 @@ void add_device_option(Options& options, RenderJob& job) {
 }
 
 RenderJob on_device(const RenderJob& job, const ods::Scene& scene) {
-  if (job.device == "cpu") return job;
+  if (job.device == kCpu) return job;
   const ods::DeviceChoice choice = ods::choose_device(job.device);
   if (choice.gpu < 0) {
     note(fmt::format("renders on the {}: {}", choice.name, choice.why));

@@ -16,6 +16,9 @@
 #include "ods/picture/save.h"
 #include "ods/render/render_options.h"
 
+// The word for the processor in RenderJob::device.
+inline constexpr const char* kCpu = "cpu";
+
 struct RenderJob {
   SceneSource scene;
   CameraOptions camera;
@@ -23,7 +26,7 @@ struct RenderJob {
   Quality quality;
   PictureForm form;
   ods::RenderOptions render;             // its size and eyes after settled()
-  std::string device = "cpu";            // on_device() sets the card in `render`
+  std::string device = kCpu;             // on_device() sets the card in `render`
   ods::SaveOptions save;                 // its layout after settled()
   std::optional<ods::Denoiser> denoise;  // absent: the default for all files but those that keep the scene's light
   std::optional<float> exposure;         // stops; none: ods::look_first() chooses

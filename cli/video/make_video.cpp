@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <optional>
 
 #include "cli/camera/stitch_frames.h"
 #include "cli/console/console.h"
@@ -84,11 +85,16 @@ void render_scene(const VideoJob& job, ProgressLines& lines) {
   video.encode =
       check_encoding(job, expect_video(given.save.layout, ods::eye_list(given.render.eyes).size(),
                                        {given.render.width, given.render.height}, given.camera.stereo.projection));
-  ods::Scene scene = open_lit_scene(given.scene, given.render.transparent);
-  RenderJob render = on_device(given, scene);
+  // What a card can render of the scene decides how frames are rendered. For the CPU, the frames of an earlier run are
+  // checked before the scene is opened.
+  std::optional<ods::Scene> opened;
+  if (given.device != kCpu) opened = open_lit_scene(given.scene, given.render.transparent);
+  RenderJob render = opened ? on_device(given, *opened) : given;
   ods::VideoJournal journal = open_journal(job, frame_identity(identified(render)));
   render.output = journal.pattern();
   check_outputs(render);
+  if (!opened) opened = open_lit_scene(given.scene, given.render.transparent);
+  ods::Scene& scene = *opened;
   const TimeOptions time = video_time(render, scene);
   video.frames = video_frames(time);
   const std::vector<int> own = own_frames(time.only, video.frames);

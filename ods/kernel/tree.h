@@ -31,7 +31,7 @@ inline int count_in_leaf(int child) {
   return -child % 16;
 }
 
-// What a ray with an end met.
+// The result of following a ray with an end.
 struct Passage {
   bool blocked;
   int clear;  // for a shadow ray: surfaces of clear glass that it met before something blocked it

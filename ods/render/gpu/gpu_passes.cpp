@@ -29,9 +29,10 @@ std::span<const std::byte> bytes_of(const T& value) {
 
 }  // namespace
 
-GpuStages make_stages(GpuDevice& device) {
-  const GpuStages stages{device.make_pipeline(trace_shader()), device.make_pipeline(begin_shader()),
-                         device.make_pipeline(shade_shader())};
+GpuStages make_stages(GpuDevice& device, bool whole) {
+  const GpuShaders shaders = gpu_shaders(whole);
+  const GpuStages stages{device.make_pipeline(shaders.trace), device.make_pipeline(shaders.begin),
+                         device.make_pipeline(shaders.shade)};
   device.store_pipelines();
   return stages;
 }

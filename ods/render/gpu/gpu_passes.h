@@ -20,8 +20,9 @@ struct GpuStages {
   size_t shade;
 };
 
-// Compiles the stages, or takes them from the device's cache.
-GpuStages make_stages(GpuDevice& device);
+// Compiles the stages, or takes them from the device's cache. whole: as for gpu_shaders()
+// (ods/render/gpu/shaders.h).
+GpuStages make_stages(GpuDevice& device, bool whole);
 
 class GpuPasses : public PassDevice {
  public:

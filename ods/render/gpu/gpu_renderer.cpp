@@ -4,6 +4,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "ods/render/gpu/gpu_scene.h"
 #include "ods/render/media_at.h"
 #include "ods/render/render_passes.h"
+#include "ods/scene/catchers.h"
 #include "ods/scene/portals.h"
 
 namespace ods {
@@ -24,6 +26,10 @@ namespace {
 // Pixels that are rendered at once: enough to fill the largest cards, 214 MB.
 constexpr int kSlots = 1 << 19;
 constexpr int kSoftwareSlots = 1 << 13;
+
+bool has_layers(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.layers >= 0; });
+}
 
 // A picture's camera, and the maps that it has, on the device.
 class GpuCamera {
@@ -62,7 +68,7 @@ struct GpuRenderer::Parts {
       : scene(wanted), device(std::move(on)), slots(wanted_slots) {
     world = make_world(scene);
     on_card.emplace(*device, scene, world);
-    stages = make_stages(*device);
+    stages = make_stages(*device, has_layers(scene) || has_catchers(scene));
     if (slots == 0) slots = device->info().kind == GpuKind::kSoftware ? kSoftwareSlots : kSlots;
   }
 

@@ -8,6 +8,7 @@
 #include "ods/picture/picture.h"
 
 namespace ods {
+
 namespace {
 
 // Returns whether the planes are more than zeros.
@@ -74,6 +75,10 @@ GpuSamples::GpuSamples(GpuDevice& device, const PictureSamples& samples, GpuView
   view.albedo = (albedo_ = put(device, samples, &EyeSamples::albedo)).address;
   view.depth = (depth_ = put(device, samples, &EyeSamples::depth)).address;
   view.hits = (hits_ = put(device, samples, &EyeSamples::hits)).address;
+  view.caught = (caught_ = put(device, samples, &EyeSamples::caught)).address;
+  view.light_with = (light_with_ = put(device, samples, &EyeSamples::light_with)).address;
+  view.light_without = (light_without_ = put(device, samples, &EyeSamples::light_without)).address;
+  view.far_depth = kFarDepth;
   const EyeSamples& eye = samples.eyes.front();
   view.has_squares = eye.squares.empty() ? 0 : 1;
   view.has_alone = eye.alone.empty() ? 0 : 1;
@@ -82,7 +87,8 @@ GpuSamples::GpuSamples(GpuDevice& device, const PictureSamples& samples, GpuView
 }
 
 GpuSamples::~GpuSamples() {
-  for (const GpuBuffer& buffer : {light_, squares_, alone_, weights_, normal_, albedo_, depth_, hits_}) {
+  for (const GpuBuffer& buffer :
+       {light_, squares_, alone_, weights_, normal_, albedo_, depth_, hits_, caught_, light_with_, light_without_}) {
     device_.free(buffer);
   }
 }
@@ -96,11 +102,9 @@ void GpuSamples::fetch(PictureSamples& samples) const {
   get(device_, albedo_, samples, &EyeSamples::albedo);
   get(device_, depth_, samples, &EyeSamples::depth);
   get(device_, hits_, samples, &EyeSamples::hits);
-  for (EyeSamples& eye : samples.eyes) {
-    for (float& depth : eye.depth) {
-      if (depth < 0.0f) depth = kFarDepth;  // the ray hit nothing
-    }
-  }
+  get(device_, caught_, samples, &EyeSamples::caught);
+  get(device_, light_with_, samples, &EyeSamples::light_with);
+  get(device_, light_without_, samples, &EyeSamples::light_without);
 }
 
 }  // namespace ods

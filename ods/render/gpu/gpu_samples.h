@@ -25,7 +25,7 @@ class GpuSamples {
 
  private:
   GpuDevice& device_;
-  GpuBuffer light_, squares_, alone_, weights_, normal_, albedo_, depth_, hits_;
+  GpuBuffer light_, squares_, alone_, weights_, normal_, albedo_, depth_, hits_, caught_, light_with_, light_without_;
 };
 
 }  // namespace ods

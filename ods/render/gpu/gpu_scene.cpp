@@ -33,6 +33,7 @@ GpuScene::GpuScene(GpuDevice& device, const Scene& scene, const GpuWorld& world)
   view_.meshes = all(scene.meshes);
   view_.instances = all(world.lights.instances);
   view_.materials = all(scene.materials);
+  view_.material_layers = all(scene.material_layers);
   view_.textures = all(scene.textures);
   view_.texels = all(scene.texels);
   const bool reduced = !scene.reduced_textures.empty();

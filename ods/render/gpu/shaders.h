@@ -8,8 +8,14 @@
 
 namespace ods {
 
-std::span<const uint32_t> trace_shader();
-std::span<const uint32_t> begin_shader();
-std::span<const uint32_t> shade_shader();
+struct GpuShaders {
+  std::span<const uint32_t> begin;
+  std::span<const uint32_t> trace;
+  std::span<const uint32_t> shade;
+};
+
+// whole: for scenes with layers of materials or shadow catchers. Drivers inline every function, and these are a third of
+// the kernel.
+GpuShaders gpu_shaders(bool whole);
 
 }  // namespace ods

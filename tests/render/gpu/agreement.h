@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <span>
 #include <string>
@@ -33,6 +34,12 @@ class OnCard : public testing::Test {
       return;
     }
     GTEST_SKIP() << "no Vulkan device can render: " << list.fault << "; the package mesa-vulkan-drivers has software";
+  }
+
+  // Skips a test of the whole kernel on software, which compiles it for minutes, unless ODS_WHOLE_KERNEL is set.
+  void skip_on_software() const {
+    if (card->info().kind != GpuKind::kSoftware || std::getenv("ODS_WHOLE_KERNEL") != nullptr) return;
+    GTEST_SKIP() << "skipped: software Vulkan compiles this for minutes; ODS_WHOLE_KERNEL=1 runs it";
   }
 
   int number = 0;  // of the first device that can render
@@ -124,6 +131,7 @@ inline void expect_same_first_hits(const PictureSamples& cpu, const PictureSampl
     EXPECT_LE(share_that_differs(a.normal, b.normal, 0.05), 4 * kGrazing);
     EXPECT_LE(share_that_differs(a.albedo, b.albedo, 0.05), 4 * kGrazing);
     EXPECT_LE(share_that_differs(a.hits, b.hits, 0.05), kGrazing);
+    EXPECT_LE(share_that_differs(a.caught, b.caught, 0.05), kGrazing);
   }
 }
 
@@ -139,6 +147,8 @@ inline void expect_same_statistics(const PictureSamples& cpu, const PictureSampl
     EXPECT_NEAR(sum_of(b.squares), sum_of(a.squares), 0.05 * sum_of(a.squares));
     EXPECT_NEAR(sum_of(b.alone), sum_of(a.alone), 0.02 * sum_of(a.alone));
     EXPECT_NEAR(sum_of(b.weights), sum_of(a.weights), 0.02 * sum_of(a.weights));
+    EXPECT_NEAR(sum_of(b.light_with), sum_of(a.light_with), 0.02 * sum_of(a.light_with));
+    EXPECT_NEAR(sum_of(b.light_without), sum_of(a.light_without), 0.02 * sum_of(a.light_without));
   }
 }
 

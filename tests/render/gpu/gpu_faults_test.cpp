@@ -47,11 +47,13 @@ std::array<int, kVulkanCalls> calls_of(const std::function<void()>& work) {
   return counts;
 }
 
-// The first and the middle call of each kind in some work fail. How many calls there are depends on the time.
+// The first call of each kind in some work fails, and a later one. How many calls there are depends on the time, more so
+// while shaders are compiled.
 void expect_one_line(const std::function<void()>& work) {
+  work();
   const std::array<int, kVulkanCalls> counts = calls_of(work);
   for (int call = 0; call < kVulkanCalls; call++) {
-    for (const int n : std::set{1, (counts[call] + 1) / 2}) {
+    for (const int n : std::set{1, (counts[call] + 2) / 3}) {
       if (n < 1 || n > counts[call]) continue;
       fail_vulkan(static_cast<VulkanCall>(call), n, kNoMemory);
       const std::string error = error_of(work);

@@ -9,6 +9,7 @@
 #include "ods/render/gpu/gpu_renderer.h"
 #include "ods/scene/reduced_textures.h"
 #include "tests/render/gpu/agreement.h"
+#include "tests/support/layered_scene.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 
@@ -102,6 +103,26 @@ TEST_F(GpuFeatures, VolumesAndTheViewerInOne) {
   expect_same(scene, options, "straight", card);
   add_sphere(scene, vec3(0.0f), 0.2f, material, 16);
   expect_same(scene, options, "from within", card);
+}
+
+TEST_F(GpuFeatures, LayersOfMaterials) {
+  skip_on_software();
+  if (IsSkipped()) return;
+  expect_same(layered_scene(), small_options(), "layers", card);
+}
+
+TEST_F(GpuFeatures, ShadowCatchers) {
+  skip_on_software();
+  if (IsSkipped()) return;
+  Scene scene = open_floor();
+  scene.instances.front().role = kCatcher;
+  PunctualLight lamp;
+  lamp.position = vec3(-1.0f, 2.0f, -1.0f);
+  lamp.intensity = vec3(6.0f);
+  scene.lights.push_back(lamp);
+  RenderOptions options = small_options();
+  options.transparent = true;
+  expect_same(scene, options, "catchers", card);
 }
 
 TEST_F(GpuFeatures, LightsOfEveryKind) {

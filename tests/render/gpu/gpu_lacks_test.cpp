@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "ods/scene/builtin/builtin.h"
-#include "ods/scene/catchers.h"
 #include "tests/support/scenes.h"
 
 namespace ods {
@@ -37,18 +36,6 @@ TEST(GpuLacks, TheLightCache) {
 
 TEST(GpuLacks, MotionBlur) {
   expect_lack(plain_scene(), {}, true, "`shutter` 0");
-}
-
-TEST(GpuLacks, LayersOfMaterials) {
-  Scene scene = plain_scene();
-  add_layered(scene, matte(vec3(0.5f)), default_layers());
-  expect_lack(scene, {}, false, "layers");
-}
-
-TEST(GpuLacks, ShadowCatchers) {
-  Scene scene = plain_scene();
-  ASSERT_TRUE(make_catchers(scene, "wall"));
-  expect_lack(scene, {}, false, "shadow catchers");
 }
 
 TEST(GpuLacks, TheSameBitsEverywhere) {

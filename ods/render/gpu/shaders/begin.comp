@@ -66,7 +66,7 @@ Status start_sample(uint slot, Place place, int eye, uint seed, Status status) {
   Ray ray = camera_ray(gpu_view.camera, eye, home, uv, lens);
   bool is_empty = ray.direction == vec3(0.0);
   if (is_empty && is_depth) {
-    gpu_view.depth.at[(place.eye_index * gpu_view.height + place.y) * gpu_view.width + place.x] = -1.0;
+    gpu_view.depth.at[(place.eye_index * gpu_view.height + place.y) * gpu_view.width + place.x] = gpu_view.far_depth;
   }
   if (is_empty || (!is_depth && index >= block.last)) {
     status.phase = kFinished;

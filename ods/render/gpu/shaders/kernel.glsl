@@ -2,9 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The whole kernel as GLSL, in the order in which its headers build on each other, over a scene in buffers, without
-// what gpu_lacks() (ods/render/gpu/gpu_lacks.h) refuses.
+// what gpu_lacks() (ods/render/gpu/gpu_lacks.h) refuses. ODS_WHOLE: materials may have layers, and
+// instances may be shadow catchers.
 #define inline
+#ifdef ODS_WHOLE
+const bool kHasCatchers = true;
+#else
 const bool kHasCatchers = false;
+#endif
 #include "ods/kernel/camera/angles.h"
 #include "ods/kernel/camera/merge.h"
 #include "ods/kernel/camera/projection.h"
@@ -20,9 +25,16 @@ const bool kHasCatchers = false;
 #include "ods/kernel/surface.h"
 #include "ods/kernel/microfacets.h"
 #include "ods/kernel/thin_film.h"
+#ifdef ODS_WHOLE
+#include "ods/kernel/surface_layers.h"
+#include "ods/kernel/albedo.h"
+#include "ods/kernel/layer_lobes.h"
+#include "ods/kernel/layered_bsdf.h"
+#else
 #include "ods/kernel/albedo.h"
 #include "ods/kernel/layer_lobes.h"
 #include "ods/render/gpu/shaders/no_layers.glsl"
+#endif
 #include "ods/kernel/bsdf.h"
 #include "ods/kernel/light.h"
 #include "ods/kernel/medium.h"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The lists of slots that the stages of a round read and fill (ods/render/gpu/shaders/shared.h). A stage has a thread for
-// each slot of its list, so that no thread of a card idles.
+// The lists of slots that the stages of a round read and fill (ods/render/gpu/shaders/shared.h). A stage has a thread
+// for each slot of its list, so that no thread of a card idles.
 const uint kListWords = 4u;
 
 layout(local_size_x = kGroupSize) in;
@@ -23,7 +23,9 @@ void empty_list(int list) {
 }
 
 // The slot of this thread.
-uint listed_slot(int list) { return gpu_view.slots_in_lists.at[uint(list) * gpu_view.slot_count + gl_GlobalInvocationID.x]; }
+uint listed_slot(int list) {
+  return gpu_view.slots_in_lists.at[uint(list) * gpu_view.slot_count + gl_GlobalInvocationID.x];
+}
 
 // Adds this thread's slot to a list, unless it is kNoList. All threads of the work group call it, once.
 void append(uint slot, int list) {

@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The shader's side of ods/kernel/scene_view.h: the same functions over buffers reached by their addresses. Nothing
-// moves, there is no light cache, and no material has layers: gpu_lacks() (ods/render/gpu/gpu_lacks.h) refuses scenes
-// that need them, and the driver removes their code because these functions return constants.
+// moves, and there is no light cache: gpu_lacks() (ods/render/gpu/gpu_lacks.h) refuses scenes that need them, and the
+// driver removes their code because these functions return constants. The same goes for the layers of materials, but
+// in the shaders for scenes that have some (ODS_WHOLE).
 layout(buffer_reference, scalar) readonly buffer Vertices { Vertex at[]; };
 layout(buffer_reference, scalar) readonly buffer Triangles { uvec3 at[]; };
 layout(buffer_reference, scalar) readonly buffer Meshes { Mesh at[]; };
 layout(buffer_reference, scalar) readonly buffer Instances { Instance at[]; };
 layout(buffer_reference, scalar) readonly buffer Materials { Material at[]; };
+layout(buffer_reference, scalar) readonly buffer LayersOfMaterials { MaterialLayers at[]; };
 layout(buffer_reference, scalar) readonly buffer Textures { Texture at[]; };
 layout(buffer_reference, scalar) readonly buffer Texels { uint at[]; };
 layout(buffer_reference, scalar) readonly buffer Lights { Light at[]; };
@@ -63,13 +65,12 @@ MotionVertex scene_motion_vertex(uint i) {
 int scene_motion_keys() { return 0; }
 Material scene_material(int i) {
   Material material = gpu_view.materials.at[i];
+#ifndef ODS_WHOLE
   material.layers = -1;
+#endif
   return material;
 }
-MaterialLayers scene_material_layers(int i) {
-  MaterialLayers none;
-  return none;
-}
+MaterialLayers scene_material_layers(int i) { return gpu_view.material_layers.at[i]; }
 Texture scene_texture(int i) { return gpu_view.textures.at[i]; }
 uint scene_texel(uint i) { return gpu_view.texels.at[i]; }
 Texture scene_reduced_texture(int i) { return gpu_view.reduced_textures.at[i]; }

@@ -56,11 +56,11 @@ Status advance(uint slot, Status status) {
     phase = is_depth ? kDepth : kWalking;
   }
   bool ends = !path.alive && !path.shadow_pending;
-  if (is_depth ? !path.alive : ends) {
+  if (is_depth ? !path.alive || path.depth >= 0.0 : ends) {
     Place place = place_of(slot);
     int at = (place.eye_index * gpu_view.height + place.y) * gpu_view.width + place.x;
     if (is_depth) {
-      gpu_view.depth.at[at] = path.depth;
+      gpu_view.depth.at[at] = path.depth < 0.0 ? gpu_view.far_depth : path.caught ? -path.depth : path.depth;
       phase = kDepthKnown;
     } else {
       if (status.other_pixel >= 0) add_shared(status.other_pixel);

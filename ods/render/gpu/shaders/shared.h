@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the host and its shaders share: the picture that is rendered, as a buffer, and the constants of a dispatch. The
+// The data that the host and its shaders share: the picture that is rendered, as a buffer, and the constants of a dispatch. The
 // same bytes on both sides (scalar layout); addresses are those of buffers on the device.
 #ifdef __cplusplus
 #pragma once
@@ -16,7 +16,7 @@ namespace ods {
 #endif
 
 const int kGroupSize = 64;   // invocations of a work group: the pixels of a block, one slot each
-const int kSlotChunks = 25;  // of 16 bytes (ods/render/gpu/shaders/slot.glsl)
+const int kSlotChunks = 26;  // of 16 bytes (ods/render/gpu/shaders/slot.glsl)
 
 // Lists of the slots that a stage has to serve. Each stage has two that take turns: one is filled while the other is
 // read. Add the round's parity for this round's list.
@@ -60,6 +60,7 @@ struct GpuView {
   int light_sampling;
   float clamp;
   float layer_unit;
+  float far_depth;  // of a pixel that shows no surface
   uint seed;
   int light_pick_count;
   int portal_count;
@@ -77,6 +78,7 @@ struct GpuView {
   ODS_ADDRESS(Meshes) meshes;
   ODS_ADDRESS(Instances) instances;
   ODS_ADDRESS(Materials) materials;
+  ODS_ADDRESS(LayersOfMaterials) material_layers;
   ODS_ADDRESS(Textures) textures;
   ODS_ADDRESS(Texels) texels;
   ODS_ADDRESS(Textures) reduced_textures;
@@ -104,6 +106,9 @@ struct GpuView {
   ODS_ADDRESS(Integers) albedo;
   ODS_ADDRESS(Floats) depth;
   ODS_ADDRESS(Words) hits;
+  ODS_ADDRESS(Words) caught;
+  ODS_ADDRESS(Words) light_with;
+  ODS_ADDRESS(Words) light_without;
 
   ODS_ADDRESS(Blocks) pass;  // of the current pass, by block
   ODS_ADDRESS(Slots) slots;

@@ -9,7 +9,7 @@ const int kFirstHit = 1;     // for trace, then begin: where path.ray ends, befo
 const int kAsking = 2;       // for trace: whether the other eye sees that place, to which path.shadow_ray leads
 const int kAnswered = 3;     // for shade: `blocked` is the answer
 const int kAlone = 4;        // for shade: the first hit has no counterpart
-const int kWalking = 5;      // for trace, then shade: where path.ray ends, and what the shadow ray meets, if there is one
+const int kWalking = 5;      // for trace, then shade: where path.ray ends, and what the shadow ray meets, if any
 const int kInGlass = 6;      // for trace, then shade: where the shadow ray meets its next surface of clear glass
 const int kDepth = 7;        // for trace: the ray through the pixel's centre, for its depth
 const int kDepthTraced = 8;  // for shade: where it ends
@@ -44,12 +44,14 @@ const int kOtherRadiance = 21;
 const int kAloneRadiance = 22;
 const int kNormal = 23;
 const int kAlbedo = 24;
+const int kCaught = 25;  // unblocked, light_with, light_without: of a path that a shadow catcher has met
 
 // The flags of a path.
 const uint kAlive = 1u;
 const uint kShadowPending = 2u;
 const uint kBothSee = 4u;
 const uint kMirrored = 8u;
+const uint kIsCaught = 16u;
 
 layout(buffer_reference, std430, buffer_reference_align = 16) buffer Slots { uvec4 at[]; };
 
@@ -136,7 +138,8 @@ void load_started_path(uint slot) {
 void store_path(uint slot, bool is_shared) {
   put_chunk(slot, kProgress, uvec4(uint(path.bounce), uint(path.passed), uint(path.wave),
                                    (path.alive ? kAlive : 0u) | (path.shadow_pending ? kShadowPending : 0u) |
-                                       (path.both_see ? kBothSee : 0u) | (path.mirrored ? kMirrored : 0u)));
+                                       (path.both_see ? kBothSee : 0u) | (path.mirrored ? kMirrored : 0u) |
+                                       (path.caught ? kIsCaught : 0u)));
   put_chunk(slot, kRayOrigin, packed(path.ray.origin, path.seed));
   put_chunk(slot, kRayWay, packed(path.ray.direction, path.index));
   put_chunk(slot, kThroughput, packed(path.throughput, path.pdf));
@@ -146,7 +149,10 @@ void store_path(uint slot, bool is_shared) {
   put_chunk(slot, kMedia, packed(path.media));
   put_chunk(slot, kCounts, uvec4(uint(path.media.count), uint(path.shadow_media.count), floatBitsToUint(path.depth),
                                  floatBitsToUint(path.alone_ratio)));
-  if (path.shadow_pending) {
+  if (kHasCatchers && path.caught) {
+    put_chunk(slot, kCaught, packed(vec3(path.unblocked, path.light_with, path.light_without), 0u));
+  }
+  if (path.shadow_pending || path.caught) {
     put_chunk(slot, kShadowOrigin, packed(path.shadow_ray.origin, path.shadow_length));
     put_chunk(slot, kShadowWay, packed(path.shadow_ray.direction, 0u));
     put_chunk(slot, kShadowMedia, packed(path.shadow_media));
@@ -176,6 +182,7 @@ void load_path(uint slot, bool is_shared) {
   path.shadow_pending = (progress.w & kShadowPending) != 0u;
   path.both_see = (progress.w & kBothSee) != 0u;
   path.mirrored = (progress.w & kMirrored) != 0u;
+  path.caught = kHasCatchers && (progress.w & kIsCaught) != 0u;
   vec4 four = floats_of(slot, kThroughput);
   path.throughput = four.xyz, path.pdf = four.w;
   four = floats_of(slot, kRadiance);
@@ -188,7 +195,11 @@ void load_path(uint slot, bool is_shared) {
   path.media = media_from(ivec4(chunk_of(slot, kMedia)), int(counts.x));
   path.depth = uintBitsToFloat(counts.z);
   path.alone_ratio = uintBitsToFloat(counts.w);
-  if (path.shadow_pending) {
+  if (path.caught) {
+    vec4 light = floats_of(slot, kCaught);
+    path.unblocked = light.x, path.light_with = light.y, path.light_without = light.z;
+  }
+  if (path.shadow_pending || path.caught) {
     path.shadow_ray = ray_of(slot, kShadowOrigin);
     path.shadow_length = floats_of(slot, kShadowOrigin).w;
     path.shadow_media = media_from(ivec4(chunk_of(slot, kShadowMedia)), int(counts.y));

@@ -61,6 +61,12 @@ void add_shared(int pixel) {
 // Adds the light that a path found for its own pixel.
 void add_own(int pixel) {
   if (gpu_view.is_transparent == 1 && path.depth < 0.0) return;
+  if (kHasCatchers && path.caught) {
+    gpu_view.caught.at[pixel] += 1u;
+    add_alone(gpu_view.light_with, pixel, light_units(path.light_with));
+    add_alone(gpu_view.light_without, pixel, light_units(path.light_without));
+    return;
+  }
   if (gpu_view.has_hits == 1) gpu_view.hits.at[pixel] += 1u;
   bool alone = gpu_view.has_alone == 1;
   for (int c = 0; c < 3; c++) {

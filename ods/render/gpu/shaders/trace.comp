@@ -19,7 +19,7 @@ Status trace(uint slot, Status status) {
   path.passed = int(progress.y);
   path.seed = chunk_of(slot, kRayOrigin).w;
   path.index = chunk_of(slot, kRayWay).w;
-  path.caught = false;
+  path.caught = kHasCatchers && (progress.w & kIsCaught) != 0u;
 
   uvec4 found = chunk_of(slot, kHitTriangles);
   bool has_shadow = asks || (phase == kWalking && (progress.w & kShadowPending) != 0u);
