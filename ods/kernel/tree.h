@@ -60,7 +60,7 @@ inline float inverse_of(float x) {
   return x < 0.0f ? -1.0f / size : 1.0f / size;
 }
 
-// The hit of a ray and a triangle nearer than `farthest`; t is negative if there is none.
+// Intersects a ray with a triangle up to the distance `farthest`; t is negative if the ray misses.
 inline Hit meet_triangle(TreeTriangle triangle, Ray ray, float farthest) {
   Hit hit;
   hit.t = -1.0f;

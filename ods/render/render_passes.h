@@ -45,7 +45,7 @@ struct BlockRange {
   int end;
 };
 
-// What a device does in a pass.
+// The work of a device in a pass.
 class PassDevice {
  public:
   virtual ~PassDevice() = default;

@@ -45,7 +45,7 @@ int rank_of(const GpuInfo& gpu) {
   return 4;
 }
 
-// The best card that can render; -1 if there is none.
+// Returns the index of the best card that can render, or -1.
 int best_gpu(const std::vector<GpuInfo>& gpus) {
   int best = -1;
   for (size_t i = 0; i < gpus.size(); i++) {

@@ -46,13 +46,25 @@ std::vector<VkPhysicalDevice> physical_devices(const VulkanInstance& vulkan) {
   return devices;
 }
 
-// Returns the family of a queue that computes; nullopt if there is none.
-std::optional<uint32_t> compute_family(const VulkanFunctions& vk, VkPhysicalDevice device) {
+std::vector<VkQueueFamilyProperties> queue_families(const VulkanFunctions& vk, VkPhysicalDevice device) {
   uint32_t count = 0;
   vk.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vk.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-  for (uint32_t i = 0; i < count; i++) {
+  return families;
+}
+
+VkPhysicalDeviceProperties properties_of(const VulkanFunctions& vk, VkPhysicalDevice device) {
+  VkPhysicalDeviceProperties2 properties{};
+  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  vk.vkGetPhysicalDeviceProperties2(device, &properties);
+  return properties.properties;
+}
+
+// Returns the index of the first queue family that supports compute; nullopt if none does.
+std::optional<uint32_t> compute_family(const VulkanFunctions& vk, VkPhysicalDevice device) {
+  const std::vector<VkQueueFamilyProperties> families = queue_families(vk, device);
+  for (uint32_t i = 0; i < families.size(); i++) {
     if (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) return i;
   }
   return {};
@@ -171,10 +183,7 @@ void GpuDevice::Vulkan::open(int number, std::string cache_folder) {
   }
   vk.vkGetPhysicalDeviceMemoryProperties(physical, &memory_properties);
   make_device(physical);
-  VkPhysicalDeviceProperties2 properties{};
-  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
-  vk.vkGetPhysicalDeviceProperties2(physical, &properties);
-  cache_file = PipelineCacheFile(std::move(cache_folder), properties.properties.pipelineCacheUUID);
+  cache_file = PipelineCacheFile(std::move(cache_folder), properties_of(vk, physical).pipelineCacheUUID);
   const std::vector<std::byte> known = cache_file.read();
   VkPipelineCacheCreateInfo cache_info{};
   cache_info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
@@ -262,15 +271,8 @@ void GpuDevice::Vulkan::make_commands(uint32_t family) {
 }
 
 void GpuDevice::Vulkan::make_clock(VkPhysicalDevice physical, uint32_t family) {
-  uint32_t count = 0;
-  vk.vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
-  std::vector<VkQueueFamilyProperties> families(count);
-  vk.vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
-  if (families[family].timestampValidBits < 64) return;
-  VkPhysicalDeviceProperties2 properties{};
-  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
-  vk.vkGetPhysicalDeviceProperties2(physical, &properties);
-  tick = 1e-9 * double{properties.properties.limits.timestampPeriod};
+  if (queue_families(vk, physical)[family].timestampValidBits < 64) return;
+  tick = 1e-9 * double{properties_of(vk, physical).limits.timestampPeriod};
   VkQueryPoolCreateInfo pool_info{};
   pool_info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
   pool_info.queryType = VK_QUERY_TYPE_TIMESTAMP;

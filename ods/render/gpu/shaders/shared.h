@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The data that the host and its shaders share: the picture that is rendered, as a buffer, and the constants of a dispatch. The
-// same bytes on both sides (scalar layout); addresses are those of buffers on the device.
+// The data that the host and its shaders share: the picture that is rendered, as a buffer, and the constants of a
+// dispatch. The same bytes on both sides (scalar layout); addresses are those of buffers on the device.
 #ifdef __cplusplus
 #pragma once
 #include <array>
