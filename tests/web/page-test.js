@@ -5,20 +5,7 @@
 // src/ has the page's own modules; the rest is an exported site.
 import { testElements } from './element-test.js';
 import { listen } from './src/ambisonics.js';
-
-const sleep = (time) => new Promise((done) => setTimeout(done, time));
-
-function expect(is, what) {
-  if (!is) throw new Error(what);
-}
-
-async function until(is, what) {
-  for (let i = 0; i < 1200; i++) {
-    if (is()) return;
-    await sleep(50);
-  }
-  throw new Error(`never ${what}`);
-}
+import { expect, sleep, until } from './wait.js';
 
 const load = (tag, properties) => new Promise((done, fail) => {
   const element = Object.assign(document.createElement(tag), properties);

@@ -28,7 +28,7 @@
 
 namespace ods::page_browser_test {
 
-constexpr auto kPatience = std::chrono::seconds(200);
+constexpr auto kPatience = std::chrono::seconds(600);
 
 class PageBrowser : public ::testing::Test {
  protected:
