@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "ods/camera/camera_fields.h"
+#include "ods/kernel/camera/texel_ray.h"
 
 namespace ods {
 
@@ -87,6 +89,23 @@ Camera make_camera(const StereoCamera& stereo) {
   };
   use(stereo.merge_map, camera.merge_map, camera.merge_texels);
   use(stereo.head_tilt_map, camera.head_tilt_map, camera.head_tilt_texels);
+  const TexelRays* table = stereo.texel_rays.get();
+  camera.texel_rays = table ? CameraMap{table->width, table->height} : CameraMap{0, 0};
+  camera.texel_table = table ? table->rays.data() : nullptr;
+  return camera;
+}
+
+StereoCamera texel_camera(std::shared_ptr<const TexelRays> rays, vec3 viewer) {
+  assert(rays && rays->width > 0 && rays->height > 0);
+  assert(rays->rays.size() == static_cast<size_t>(rays->width) * static_cast<size_t>(rays->height));
+  assert(rays->owners.size() == rays->rays.size());
+  StereoCamera camera;
+  camera.position = viewer;
+  camera.ipd = 0.0f;
+  camera.projection.kind = kPerspective;  // for the denoiser: a flat picture ends at its edges
+  camera.projection.fov = 90.0f;
+  camera.projection.aspect = static_cast<float>(rays->width) / static_cast<float>(rays->height);
+  camera.texel_rays = std::move(rays);
   return camera;
 }
 

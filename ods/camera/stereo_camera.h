@@ -12,6 +12,7 @@
 
 #include "ods/base/names.h"
 #include "ods/camera/projection.h"
+#include "ods/camera/texel_rays.h"
 #include "ods/image/image.h"
 #include "ods/kernel/camera/camera.h"
 
@@ -81,6 +82,7 @@ struct StereoCamera {
   float lens_radius = 0.0f;     // metres; 0 is a pinhole. There is no rolling shutter.
   float focus_distance = 2.0f;  // metres along the ray
   bool mirrored = false;        // front and back are swapped, as if a left-handed world were read as right-handed
+  std::shared_ptr<const TexelRays> texel_rays;  // see texel_camera()
 
   bool operator==(const StereoCamera&) const = default;
 };
@@ -102,6 +104,12 @@ bool same_eyes(const StereoCamera& a, const StereoCamera& b);
 // Precondition: every field is finite, ipd >= 0, the projection has no fault.
 // The result points into the maps of `stereo`.
 Camera make_camera(const StereoCamera& stereo);
+
+// The camera of a texture: a picture, for the renderers and the denoiser only, whose rays come from a table. It has one
+// eye and no lens, and the table's size (with_texels() in ods/render/render_target.h). viewer: the place from which the
+// texture is seen; rays start in the volumes that contain it. Precondition: the table has a ray and an owner for each
+// texel.
+StereoCamera texel_camera(std::shared_ptr<const TexelRays> rays, vec3 viewer);
 
 // Turns the camera in its own frame, by degrees relative to its orientation.
 void turn(StereoCamera& camera, float yaw, float pitch, float roll);

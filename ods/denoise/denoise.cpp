@@ -160,6 +160,12 @@ void denoise_here(Picture& picture, const StereoCamera& camera, const DenoiseOpt
 
 }  // namespace
 
+bool has_variance(const Picture& picture) {
+  return std::ranges::any_of(picture.eyes, [](const EyeImage& eye) {
+    return std::ranges::any_of(eye.samples.pixels, [](float samples) { return samples > 1.0f; });
+  });
+}
+
 void denoise(Picture& picture, const StereoCamera& camera, const DenoiseOptions& options, const Progress& progress) {
   assert(!picture.eyes.empty() && picture.eyes.size() <= 2);
   assert(!picture.eyes.front().variance.pixels.empty() && !picture.eyes.back().variance.pixels.empty());

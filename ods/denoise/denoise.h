@@ -19,6 +19,8 @@
 //
 // The picture converges to the truth: with more samples the variance decreases and more detail is restored. A pixel
 // whose variance is 0, like its neighbours', keeps its bits, and so does the bare sky (no hit, no normal).
+//
+// In a texture (texel_camera() in ods/camera/stereo_camera.h), light is only mixed among texels with one owner.
 #pragma once
 #include <span>
 #include <vector>
@@ -56,6 +58,10 @@ struct FrameBeside {
   // out.
   bool same_noise = false;
 };
+
+// Returns whether some pixel has the samples that its variance needs: a picture that was interrupted may have too few.
+// Precondition: the picture has the layers `variance` and `samples`.
+bool has_variance(const Picture& picture);
 
 struct DenoiseOptions {
   bool both_eyes = true;                  // if false, each eye is denoised separately

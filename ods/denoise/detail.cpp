@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "ods/denoise/membership.h"
-
 namespace ods {
 namespace {
 
@@ -20,8 +18,7 @@ struct DetailSums {
 void add_window(const RowPair& pair, const float* took, const float* share, float weight, int count, DetailSums& sums) {
   for (int x = 0; x < count; x++) {
     const float theirs = pair.next[kVariance][x];
-    const float alike = feature_weight(squared_distance(pair, kNormalX, x), squared_distance(pair, kAlbedoR, x));
-    const float used = theirs >= 0.0f ? weight * alike : 0.0f;
+    const float used = theirs >= 0.0f ? weight * alike_features(pair, x) : 0.0f;
     sums.found[x] += used * took[x];
     sums.variance[x] += used * 3.0f * theirs * share[x];
   }

@@ -59,6 +59,7 @@ void look_around(const Block& block, int at, int y, Neighbourhood& around) {
   for (int dy = -kEdgeReach; dy <= kEdgeReach; dy++) {
     for (int dx = -kEdgeReach; dx <= kEdgeReach; dx++) {
       if ((dx == 0 && dy == 0) || block.row(kVariance, y + dy)[at + dx] < 0.0f) continue;
+      if (block.row(kOwner, y + dy)[at + dx] != block.row(kOwner, y)[at]) continue;
       Neighbour& one = around.list[around.count++];
       const vec3 dn = three(block, kNormalX, at + dx, y + dy) - normal;
       const vec3 da = three(block, kAlbedoR, at + dx, y + dy) - albedo;

@@ -59,7 +59,7 @@ inline float alike_noise(float own, float theirs, bool is_wide, float alike) {
 void add_neighbours(const RowPair& pair, int count, float share, bool is_wide, Sums& sums) {
   for (int x = 0; x < count; x++) {
     const float own = pair.own[kVariance][x], theirs = pair.next[kVariance][x];
-    const float alike = feature_weight(squared_distance(pair, kNormalX, x), squared_distance(pair, kAlbedoR, x));
+    const float alike = alike_features(pair, x);
     const float noise = alike_noise(own, theirs, is_wide, alike);
     const float light = is_wide && theirs != 0.0f ? 1.0f : alike_light(squared_distance(pair, kRed, x), own, theirs);
     const float used = theirs >= 0.0f ? share * alike * light * noise : 0.0f;

@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "ods/denoise/denoise.h"
+#include "ods/denoise/membership.h"
 #include "ods/denoise/other_view.h"
 
 namespace ods {
@@ -63,6 +64,12 @@ inline float squared_distance(const RowPair& pair, Plane first, int x) {
   const float b = pair.own[first + 1][x] - pair.next[first + 1][x];
   const float c = pair.own[first + 2][x] - pair.next[first + 2][x];
   return a * a + b * b + c * c;
+}
+
+// The similarity of two pixels of one owner by their normals and albedos.
+inline float alike_features(const RowPair& pair, int x) {
+  const float alike = feature_weight(squared_distance(pair, kNormalX, x), squared_distance(pair, kAlbedoR, x));
+  return pair.own[kOwner][x] == pair.next[kOwner][x] ? alike : 0.0f;
 }
 
 // Another frame of the video. It must not be moved.

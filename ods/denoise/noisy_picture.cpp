@@ -31,6 +31,7 @@ void open_noisy(NoisyPicture& noisy, const Picture& picture, const StereoCamera&
   noisy.camera = make_camera(camera);
   noisy.cells = cells_of(noisy.camera.projection, noisy.shape.size);
   noisy.turns = wraps_around(noisy.camera.projection);
+  if (camera.texel_rays) noisy.owners = &camera.texel_rays->owners;
 }
 
 std::optional<Texel> neighbour_of(const NoisyPicture& noisy, int eye, const Cell& cell, int x, int y) {
@@ -154,7 +155,9 @@ void load_block(const NoisyPicture& noisy, const std::vector<Level>& levels, Blo
         continue;
       }
       const auto eye = static_cast<size_t>(from->source_eye);
-      put_pixel(levels[eye], noisy.eye(from->source_eye), noisy.index(from->x, from->y), features, block, to);
+      const size_t pixel = noisy.index(from->x, from->y);
+      put_pixel(levels[eye], noisy.eye(from->source_eye), pixel, features, block, to);
+      if (noisy.owners) block.planes[kOwner][to] = static_cast<float>((*noisy.owners)[pixel]);
     }
   }
 }

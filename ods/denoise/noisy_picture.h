@@ -37,13 +37,16 @@ struct NoisyPicture {
   Camera camera;
   std::vector<Cell> cells;
   const Picture* picture = nullptr;
-  bool turns = false;  // a row is a whole turn
+  bool turns = false;                        // a row is a whole turn
+  const std::vector<int>* owners = nullptr;  // of the pixels of a texture (ods/camera/texel_rays.h)
 
   int width() const { return shape.size.width; }
   int height() const { return shape.size.height; }
   size_t index(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(width()) + static_cast<size_t>(x);
   }
+  // Returns whether the light of two pixels may be mixed.
+  bool have_one_owner(size_t a, size_t b) const { return !owners || (*owners)[a] == (*owners)[b]; }
   const EyeImage& eye(int i) const { return picture->eyes[static_cast<size_t>(i)]; }
 };
 
@@ -84,6 +87,7 @@ enum Plane {
   kAlbedoG,
   kAlbedoB,
   kShare,
+  kOwner,  // 0 everywhere in a picture without owners
   kPlaneCount
 };
 

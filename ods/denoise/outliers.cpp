@@ -53,6 +53,7 @@ void each_neighbour(const NoisyPicture& noisy, const std::vector<Level>& levels,
       if (!texel) continue;
       const size_t pixel = noisy.index(texel->x, texel->y);
       const Level& level = levels[static_cast<size_t>(texel->source_eye)];
+      if (!noisy.have_one_owner(noisy.index(at.x, at.y), pixel)) continue;
       if (is_known(level, pixel) && !see(noisy.eye(texel->source_eye), level, pixel)) return;
     }
   }
@@ -170,6 +171,7 @@ vec3 add_splash(const NoisyPicture& noisy, const Splash& splash, Level& level) {
       if (!texel || texel->source_eye != splash.eye) continue;
       const size_t pixel = noisy.index(texel->x, texel->y);
       if (!(unpack_variance(level.variance[pixel]) > 0.0f)) continue;
+      if (!noisy.have_one_owner(noisy.index(splash.x, splash.y), pixel)) continue;
       const vec3 dn = normal_at(eye, pixel) - splash.normal;
       const float weight = taper(away) * feature_weight(dot(dn, dn), 0.0f);
       if (weight == 0.0f) continue;

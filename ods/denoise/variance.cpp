@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/denoise/filter.h"
-#include "ods/denoise/membership.h"
 
 namespace ods {
 
@@ -14,8 +13,7 @@ static float mean_around(const Block& block, int at, int y) {
       const RowPair pair = pair_rows(block, y, dx, dy);
       const float theirs = pair.next[kVariance][at];
       if (theirs < 0.0f) continue;
-      const float alike = feature_weight(squared_distance(pair, kNormalX, at), squared_distance(pair, kAlbedoR, at));
-      const float weight = alike * window_weight(dx, dy);
+      const float weight = alike_features(pair, at) * window_weight(dx, dy);
       sum += weight * theirs, weights += weight;
     }
   }

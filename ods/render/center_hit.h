@@ -3,6 +3,7 @@
 //
 // The hit of the ray through a pixel's centre: depth and objects are not averaged.
 #pragma once
+#include "ods/kernel/camera/texel_ray.h"
 #include "ods/kernel/path.h"
 #include "ods/render/render_options.h"
 #include "ods/render/render_passes.h"
@@ -19,7 +20,8 @@ template <typename Tracer, typename ClosestHit>
 Hit center_hit(Tracer& tracer, const Camera& camera, const Media& media, const RenderOptions& options, int eye, int x,
                int y, const ClosestHit& closest_hit) {
   Hit hit{-1.0f, 0.0f, 0.0f, -1, -1};
-  const Ray ray = camera_ray(camera, eye, pixel_center(options, x, y));
+  const vec2 center = pixel_center(options, x, y);
+  const Ray ray = sample_ray(camera, eye, center, center, vec2(0.0f));
   if (ray.direction == vec3(0.0f)) return hit;
   PathSettings first_hit_only = path_settings(options);
   first_hit_only.bounces = 0;

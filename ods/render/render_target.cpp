@@ -18,6 +18,20 @@ RenderOptions with_height(RenderOptions options, const StereoCamera& stereo) {
   return options;
 }
 
+RenderOptions with_texels(RenderOptions options, int width, int height) {
+  options.width = width, options.height = height;
+  options.eyes = Eyes::kMonoEye;
+  options.filter = PixelFilter::kBox;
+  return options;
+}
+
+bool fit_camera(const RenderOptions& options, const StereoCamera& stereo) {
+  if (!stereo.texel_rays) return true;
+  const RenderOptions needed = with_texels(options, stereo.texel_rays->width, stereo.texel_rays->height);
+  return options.width == needed.width && options.height == needed.height && options.eyes == needed.eyes &&
+         options.filter == needed.filter;
+}
+
 size_t picture_bytes(const RenderOptions& options) {
   const size_t radiance = 3, alpha = 1, depth = 1, normal = 3, albedo = 3, variance = 3, samples = 1;
   const size_t channels = radiance + (options.transparent ? alpha : 0) +

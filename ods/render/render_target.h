@@ -13,6 +13,14 @@ namespace ods {
 // RenderOptions' fields.
 RenderOptions with_height(RenderOptions options, const StereoCamera& stereo);
 
+// Returns the options for a picture of texel_camera(): the table's size, one eye, and the box filter, because texels do
+// not overlap.
+RenderOptions with_texels(RenderOptions options, int width, int height);
+
+// Returns whether a picture of this camera may have these options. If the camera has a table of rays, they have what
+// with_texels() sets.
+bool fit_camera(const RenderOptions& options, const StereoCamera& stereo);
+
 // The memory for rendering, bytes: the samples and the Picture. Precondition: options.height > 0.
 size_t picture_bytes(const RenderOptions& options);
 

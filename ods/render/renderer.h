@@ -42,7 +42,7 @@ class Renderer {
   // earlier call, and adds to them until develop() can compute the final picture. The result has the same bits wherever
   // it was interrupted. `keep` receives the samples at least every 30 seconds, or, if it takes longer than 2.5 seconds,
   // after ten times as long; and before kCancelled is thrown. cells: from fill_cells(), instead of a light cache of its
-  // own. Precondition: options.height > 0, fit(samples, options).
+  // own. Precondition: options.height > 0, fit(samples, options), fit_camera() (ods/render/render_target.h).
   virtual void sample(std::span<const StereoCamera> path, const RenderOptions& options, PictureSamples& samples,
                       const Progress& progress = {}, const KeepSamples& keep = {},
                       const LightCells* cells = nullptr) const = 0;

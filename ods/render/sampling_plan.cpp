@@ -37,7 +37,8 @@ SamplingPlan make_plan(const StereoCamera& camera, const RenderOptions& options)
   SamplingPlan plan;
   plan.columns = block_columns(options);
   plan.share.assign(block_count(options), 1.0f);
-  if (!options.even_noise) return plan;
+  plan.texels = camera.texel_rays;
+  if (!options.even_noise || plan.texels) return plan;
   const Projection projection = make_camera(camera).projection;
   for (size_t i = 0; i < plan.share.size(); i++) {
     const int block = static_cast<int>(i);
@@ -69,21 +70,16 @@ static double pixel_noise(const EyeSamples& eye, size_t pixel, double gain) {
   return deviation * gain / (1e-4 + (light < 1.0 ? std::sqrt(std::max(light, 0.0)) : light));
 }
 
+static bool is_empty(const SamplingPlan& plan, size_t pixel) {
+  return plan.texels && plan.texels->rays[pixel].direction == vec3(0.0f);
+}
+
 // The mean square of the noise of one class of a block's pixels, in both eyes, as if all pixels had the same size on
-// the sphere. The noise of a class that has stopped is scaled as if it had continued; otherwise it would stay, and the
-// other class would be sampled forever.
-static double block_noise(const PictureSamples& samples, const SamplingPlan& plan, double gain, size_t block,
-                          int wanted) {
+// the sphere, and `now` samples. Negative if no pixel of the class is in the picture.
+static double class_noise(const PictureSamples& samples, const SamplingPlan& plan, double gain, size_t block,
+                          int wanted, double now) {
   const int x0 = static_cast<int>(block) % plan.columns * kBlockSize;
   const int y0 = static_cast<int>(block) / plan.columns * kBlockSize;
-  const size_t first = static_cast<size_t>(y0) * static_cast<size_t>(samples.width) + static_cast<size_t>(x0);
-  size_t other = first;  // a pixel of the other class: a block begins with class 0; one of a single pixel has no other
-  if (wanted == 0 && x0 + 1 < samples.width) {
-    other = first + 1;
-  } else if (wanted == 0 && y0 + 1 < samples.height) {
-    other = first + static_cast<size_t>(samples.width);
-  }
-  const double now = samples.eyes[0].count[other];
   double sum = 0.0;
   int pixels = 0;
   for (const EyeSamples& eye : samples.eyes) {
@@ -91,13 +87,34 @@ static double block_noise(const PictureSamples& samples, const SamplingPlan& pla
       for (int x = x0; x < std::min(x0 + kBlockSize, samples.width); x++) {
         if (class_of(x, y) != wanted) continue;
         const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(samples.width) + static_cast<size_t>(x);
+        if (is_empty(plan, pixel)) continue;
         const double noise = pixel_noise(eye, pixel, gain);
         sum += noise * noise * eye.count[pixel] / now;
         pixels++;
       }
     }
   }
-  return pixels > 0 ? sum / pixels * static_cast<double>(plan.share[block]) : 0.0;
+  return pixels > 0 ? sum / pixels * static_cast<double>(plan.share[block]) : -1.0;
+}
+
+// The noise by which one class of a block is judged: that of the other class. The noise of a class that has stopped is
+// scaled as if it had continued; otherwise it would stay, and the other class would be sampled forever.
+static double noise_beside(const PictureSamples& samples, const SamplingPlan& plan, double gain, size_t block,
+                           int judged) {
+  const int x0 = static_cast<int>(block) % plan.columns * kBlockSize;
+  const int y0 = static_cast<int>(block) / plan.columns * kBlockSize;
+  const size_t first = static_cast<size_t>(y0) * static_cast<size_t>(samples.width) + static_cast<size_t>(x0);
+  size_t own = first;  // a pixel of the judged class: a block begins with class 0; one of a single pixel has no other
+  if (judged == 1 && x0 + 1 < samples.width) {
+    own = first + 1;
+  } else if (judged == 1 && y0 + 1 < samples.height) {
+    own = first + static_cast<size_t>(samples.width);
+  }
+  const double now = samples.eyes[0].count[own];
+  double noise = class_noise(samples, plan, gain, block, 1 - judged, now);
+  // A texture may have so few texels there that all are in one class.
+  if (noise < 0.0 && plan.texels) noise = class_noise(samples, plan, gain, block, judged, now);
+  return std::max(noise, 0.0);
 }
 
 double judge_noise(const SamplingPlan& plan, const RenderOptions& options, PictureSamples& samples) {
@@ -109,7 +126,7 @@ double judge_noise(const SamplingPlan& plan, const RenderOptions& options, Pictu
   tbb::parallel_for(size_t{0}, samples.noisy.size(), [&](size_t block) {
     for (int one : {0, 1}) {
       if (!(samples.noisy[block] >> one & 1)) continue;
-      const double noise = block_noise(samples, plan, gain, block, 1 - one) / clean;
+      const double noise = noise_beside(samples, plan, gain, block, one) / clean;
       if (noise <= 1.0) samples.noisy[block] = static_cast<uint8_t>(samples.noisy[block] & ~(1 << one));
       excess[block] += 0.5 * std::max(noise - 1.0, 0.0);
     }

@@ -10,6 +10,7 @@
 // classes, like the squares of a chessboard: each class of a block stops when the other class is clean.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "ods/camera/stereo_camera.h"
@@ -30,6 +31,7 @@ size_t block_count(const RenderOptions& options);
 struct SamplingPlan {
   int columns = 0;           // blocks across
   std::vector<float> share;  // per block: fraction of the samples of the pixels with the largest solid angle, 0..1
+  std::shared_ptr<const TexelRays> texels{};  // the camera's, whose pixels have equal shares; empty ones do not count
 };
 
 // Precondition: options.height > 0.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/sequence/finish_picture.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "ods/denoise/oidn.h"
@@ -10,13 +9,6 @@
 #include "ods/render/light_cache.h"
 
 namespace ods {
-
-// An interrupted picture may have too few samples.
-static bool has_variance(const Picture& picture) {
-  return std::ranges::any_of(picture.eyes, [](const EyeImage& eye) {
-    return std::ranges::any_of(eye.samples.pixels, [](float samples) { return samples > 1.0f; });
-  });
-}
 
 RenderOptions options_to_finish(RenderOptions wanted, Denoiser denoiser) {
   wanted.layers |= denoiser != Denoiser::kNone;

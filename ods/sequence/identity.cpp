@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cassert>
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
@@ -217,6 +218,7 @@ void add_map(Settings& settings, std::string_view name, const std::shared_ptr<co
 // The camera's place comes from the scene, or has rows of its own.
 void add_stereo(Settings& settings, const SequenceOptions& options) {
   const StereoCamera& stereo = options.camera.stereo;
+  assert(!stereo.texel_rays);  // textures are not frames
   add(settings, "`projection`", std::string(projection_name(stereo.projection)));
   for (const auto& [name, value] : camera_settings(stereo)) {
     if (name == "position" || name == "yaw" || name == "pitch" || name == "roll") continue;
@@ -253,6 +255,12 @@ Settings frame_identity(const SequenceOptions& options) {
 Settings sample_identity(const SequenceOptions& options, double seconds) {
   Settings settings = identity(options, Changes::kSamples);
   add(settings, "`time`", text_of(seconds));
+  return settings;
+}
+
+Settings render_settings(const RenderOptions& options) {
+  Settings settings = {{"version of ods", ODS_VERSION, ""}};
+  add_fields(settings, kRenderFields, options, {}, Changes::kSamples);
   return settings;
 }
 

@@ -21,6 +21,9 @@ Settings frame_identity(const SequenceOptions& options);
 Settings sample_identity(const SequenceOptions& options, double seconds);
 inline constexpr std::string_view kPartSetting = "`part`";
 
+// Returns the options that samples depend on: the part of sample_identity() for pictures that are not of a sequence.
+Settings render_settings(const RenderOptions& options);
+
 // The value of a setting that look_first() finds. For frames that depend on it, VideoJournal records the value found.
 inline constexpr std::string_view kByFirstLook = "by a first look";
 inline constexpr std::string_view kExposureSetting = "`exposure`", kMergeSetting = "merge by depth";

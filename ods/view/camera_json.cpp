@@ -54,7 +54,8 @@ Json camera_json(const Camera& camera) {
           {"bottom", merge_json(camera.bottom)},
           {"projection", projection_json(camera.projection)},
           {"merge_map", map_json(camera.merge_map, camera.merge_texels, has_toe_in)},
-          {"head_tilt_map", map_json(camera.head_tilt_map, camera.head_tilt_texels, has_toe_in)}};
+          {"head_tilt_map", map_json(camera.head_tilt_map, camera.head_tilt_texels, has_toe_in)},
+          {"texel_rays", map_json(camera.texel_rays, nullptr, false)}};  // none; three.js wants every member
 }
 
 }  // namespace ods

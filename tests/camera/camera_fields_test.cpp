@@ -110,11 +110,12 @@ TEST(CameraFields, EveryFieldHasItsOwnPlacesAndARange) {
 // A new member does not compile here: it gets a row or a place among those that have none.
 TEST(CameraFields, EveryMemberHasARow) {
   [[maybe_unused]] const auto& [position, yaw, pitch, roll, ipd, top, bottom, merge_map, head_tilt_map, projection,
-                                convergence, distance, neck, axis, lens_radius, focus_distance, mirrored] =
+                                convergence, distance, neck, axis, lens_radius, focus_distance, mirrored, texel_rays] =
       StereoCamera();
   [[maybe_unused]] const auto& [kind, longitude, latitude, fov, aspect, sensor, polynomial, pan, tilt] = projection;
   [[maybe_unused]] const auto& [mode, start, end, exponent] = top;
-  const size_t of_camera = 17 - std::size({"top", "bottom", "merge_map", "head_tilt_map", "projection", "mirrored"});
+  const size_t of_camera =
+      18 - std::size({"top", "bottom", "merge_map", "head_tilt_map", "projection", "mirrored", "texel_rays"});
   const size_t of_lens = 9 - std::size({"kind"}), of_merges = 2 * 4;
   EXPECT_EQ(camera_fields().size() + camera_modes().size(), of_camera + of_lens + of_merges);
 }

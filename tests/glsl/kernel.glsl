@@ -8,6 +8,7 @@ const bool kHasCatchers = true;
 #include "ods/kernel/camera/merge.h"
 #include "ods/kernel/camera/projection.h"
 #include "ods/kernel/camera/camera.h"
+#include "ods/kernel/camera/texel_ray.h"
 #include "ods/kernel/camera/line.h"
 #include "ods/kernel/camera/project.h"
 #include "ods/kernel/scene_data.h"

@@ -20,6 +20,7 @@ layout(buffer_reference, scalar) readonly buffer EnvironmentTexels { Environment
 layout(buffer_reference, scalar) readonly buffer EnvironmentRows { AliasEntry at[]; };
 layout(buffer_reference, scalar) readonly buffer Tables { float at[]; };
 layout(buffer_reference, scalar) readonly buffer Portals { Portal at[]; };
+layout(buffer_reference, scalar) readonly buffer TexelTable { TexelRay at[]; };
 layout(buffer_reference, scalar) readonly buffer CacheCells { CacheCell at[]; };
 
 struct View {
@@ -48,6 +49,7 @@ struct View {
   EnvironmentTexels environment_texels;
   EnvironmentRows environment_rows;
   Portals portals;
+  TexelTable texel_rays;
   int portal_count;
   Tables tables;
   CacheCells cache_cells;
@@ -62,6 +64,8 @@ float camera_map_texel(Camera camera, int which, int i) {
 }
 
 layout(binding = 2, scalar) uniform ViewBuffer { View view; };
+
+TexelRay camera_texel_ray(Camera camera, int i) { return view.texel_rays.at[i]; }
 
 Vertex scene_vertex(uint i) { return view.vertices.at[i]; }
 uvec3 scene_triangle(uint i) { return view.triangles.at[i]; }

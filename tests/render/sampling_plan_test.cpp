@@ -10,6 +10,7 @@
 #include "ods/camera/projection.h"
 #include "ods/kernel/camera/projection.h"
 #include "ods/render/render_target.h"
+#include "tests/support/texels.h"
 
 namespace ods {
 namespace {
@@ -97,6 +98,37 @@ TEST(SamplingPlan, EachClassIsJudgedByTheOther) {
   EXPECT_EQ(samples.noisy[0], 2);
   EXPECT_EQ(samples.noisy[1], 0);
   EXPECT_NEAR(more, std::min(0.5 * excess, 3.0) / 2.0, 1e-3);
+}
+
+// A texture's block of which only some texels have rays, all with the same noise: whatever number they are, and even if
+// all are in one class, they are as noisy as a full block. A block without rays has no noise.
+TEST(SamplingPlan, EmptyTexelsDoNotCount) {
+  const auto more_with = [](int count) {
+    TexelRays texels = empty_texels(8, 8);
+    RenderOptions options = with_texels({}, 8, 8);
+    options.samples = kMaxSamples, options.noise = 0.01f;
+    PictureSamples samples = no_samples(options);
+    samples.done = 16;
+    EyeSamples& eye = samples.eyes[0];
+    for (size_t i = 0; i < 64; i++) {
+      eye.count[i] = 16;
+      if (static_cast<int>(i) >= count) continue;
+      texels.rays[i].direction = vec3(0, 0, -1);
+      for (size_t c = 3 * i; c < 3 * i + 3; c++) {
+        eye.light[c] = static_cast<int64_t>(8 * kLightUnit), eye.squares[c] = 8.0;
+      }
+    }
+    return judge_noise(make_plan(camera_of(std::move(texels)), options), options, samples);
+  };
+  const double full = more_with(64);
+  EXPECT_GT(full, 1.0);
+  for (const int count : {1, 2, 3, 9, 40}) EXPECT_NEAR(more_with(count), full, 1e-9 * full) << count;
+  EXPECT_EQ(more_with(0), 0.0);
+}
+
+TEST(SamplingPlan, TexelsHaveEqualShares) {
+  const SamplingPlan plan = make_plan(camera_of(empty_texels(64, 32)), with_texels({}, 64, 32));
+  for (const float share : plan.share) EXPECT_EQ(share, 1.0f);
 }
 
 // Noise is judged as it is seen: a sixteenth of the light, shown with four stops, is as noisy as all of it.

@@ -31,6 +31,10 @@ const int kToeIn = 1;  // the rays of both eyes in one direction meet at the dis
 const int kShift = 2;  // the eyes' pictures are rotated against each other: no parallax at the distance
 const int kConvergenceCount = 3;
 
+#ifdef __cplusplus
+struct TexelRay;
+#endif
+
 // The size of a lat-long picture of values 0..1 in the camera's frame, rows from the top.
 struct CameraMap {
   int width;  // 0 if there is no map
@@ -57,11 +61,13 @@ struct Camera {
   Projection projection;
   CameraMap merge_map;      // for kMergeMap
   CameraMap head_tilt_map;  // 0.5 is level
+  CameraMap texel_rays;     // the size of a table of rays, one for each pixel (ods/kernel/camera/texel_ray.h)
 #ifdef __cplusplus
-  // The values of the maps, beside the camera: a shader has them in a buffer or a texture. All fields above have the
-  // same bytes in a shader, kCameraBytes in total.
+  // The values of the maps and the table, beside the camera: a shader has them in a buffer or a texture. All fields
+  // above have the same bytes in a shader, kCameraBytes in total.
   const float* merge_texels = nullptr;
   const float* head_tilt_texels = nullptr;
+  const TexelRay* texel_table = nullptr;
 #endif
 };
 
@@ -71,7 +77,7 @@ struct Ray {
 };
 
 #ifdef __cplusplus
-inline constexpr size_t kCameraBytes = offsetof(Camera, head_tilt_map) + sizeof(CameraMap);
+inline constexpr size_t kCameraBytes = offsetof(Camera, texel_rays) + sizeof(CameraMap);
 
 inline float camera_map_texel(const Camera& camera, int which, int i) {
   return (which == kMapOfMerge ? camera.merge_texels : camera.head_tilt_texels)[i];

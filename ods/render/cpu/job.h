@@ -5,6 +5,7 @@
 #pragma once
 #include <span>
 
+#include "ods/kernel/camera/texel_ray.h"
 #include "ods/kernel/path.h"
 #include "ods/render/cpu/embree_scene.h"
 #include "ods/render/moving_camera.h"
@@ -40,8 +41,8 @@ struct FirstRay {
 inline FirstRay first_ray(const Job& job, int eye, vec2 home, vec2 uv, uint seed, uint index) {
   const vec2 lens = job.camera.lens_radius > 0.0f ? random_pair(seed, index, kLensPair) : vec2(0.0f);
   const float time = job.shutter ? random_pair(seed, index, kTimePair).x : 0.5f;
-  if (job.cameras.size() > 1) return {camera_ray(camera_at(job.cameras, time), eye, home, uv, lens), time};
-  return {camera_ray(job.camera, eye, home, uv, lens), time};
+  if (job.cameras.size() > 1) return {sample_ray(camera_at(job.cameras, time), eye, home, uv, lens), time};
+  return {sample_ray(job.camera, eye, home, uv, lens), time};
 }
 
 // The render loop, from the first hit on. Calls shaded(step) after each surface. Inlining the whole kernel here, and

@@ -331,6 +331,7 @@ void CpuRenderer::sample(std::span<const StereoCamera> path, const RenderOptions
   assert(path.size() % 2 == 1 && fit(samples, options));
   assert(options.transparent || !has_catchers(parts_->scene));
   const StereoCamera& stereo = path[path.size() / 2];
+  assert(fit_camera(options, stereo));
   const std::vector<Camera> cameras = cameras_of(path);
   parts_->arena.execute([&] {
     Job job = parts_->make_job(stereo, cameras, options);

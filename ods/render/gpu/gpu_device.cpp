@@ -349,6 +349,7 @@ void GpuDevice::Vulkan::submit() {
   check(vk.vkQueueSubmit(queue, 1, &submit_info, fence), "take commands");
   VkResult result = VK_TIMEOUT;
   while (result == VK_TIMEOUT) result = vk.vkWaitForFences(device, 1, &fence, VK_TRUE, kWaitAtOnce);
+  if (result != VK_SUCCESS) vk.vkDeviceWaitIdle(device);  // it may still use memory that is freed after this failure
   check(result, "compute");
   check(vk.vkResetFences(device, 1, &fence), "take commands");
 }

@@ -17,6 +17,7 @@
 #include "ods/render/gpu/gpu_scene.h"
 #include "ods/render/media_at.h"
 #include "ods/render/render_passes.h"
+#include "ods/render/render_target.h"
 #include "ods/scene/catchers.h"
 #include "ods/scene/portals.h"
 
@@ -31,26 +32,30 @@ bool has_layers(const Scene& scene) {
   return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return m.layers >= 0; });
 }
 
-// A picture's camera, and the maps that it has, on the device.
+// A picture's camera, and the maps and rays that it has, on the device.
 class GpuCamera {
  public:
   GpuCamera(GpuDevice& device, const Camera& camera, GpuView& view)
       : device_(device),
         merge_(put(camera.merge_map, camera.merge_texels)),
-        head_tilt_(put(camera.head_tilt_map, camera.head_tilt_texels)) {
+        head_tilt_(put(camera.head_tilt_map, camera.head_tilt_texels)),
+        texel_rays_(put(camera.texel_rays, camera.texel_table)) {
     std::memcpy(view.camera.data(), &camera, kCameraBytes);
     view.merge_map = merge_.address;
     view.head_tilt_map = head_tilt_.address;
+    view.texel_rays = texel_rays_.address;
   }
   ~GpuCamera() {
     device_.free(merge_);
     device_.free(head_tilt_);
+    device_.free(texel_rays_);
   }
   GpuCamera(const GpuCamera&) = delete;
   GpuCamera& operator=(const GpuCamera&) = delete;
 
  private:
-  GpuBuffer put(const CameraMap& map, const float* texels) {
+  template <typename Value>
+  GpuBuffer put(const CameraMap& map, const Value* texels) {
     const std::span values(texels, static_cast<size_t>(map.width) * static_cast<size_t>(map.height));
     const GpuBuffer buffer = device_.make_buffer(values.size_bytes());
     device_.upload(buffer, 0, std::as_bytes(values));
@@ -58,7 +63,7 @@ class GpuCamera {
   }
 
   GpuDevice& device_;
-  GpuBuffer merge_, head_tilt_;
+  GpuBuffer merge_, head_tilt_, texel_rays_;
 };
 
 }  // namespace
@@ -150,6 +155,7 @@ void GpuRenderer::sample(std::span<const StereoCamera> path, const RenderOptions
   const std::string lacks = gpu_lacks(parts_->scene, options, is_blurred);
   if (!lacks.empty()) throw Error(ErrorKind::kUsage, lacks);
   const StereoCamera& stereo = path.front();
+  assert(fit_camera(options, stereo));
   GpuView view = parts_->view_of(stereo, options);
   const GpuCamera camera(*parts_->device, make_camera(stereo), view);
   GpuPasses passes(*parts_->device, parts_->stages, view, parts_->slots, options, samples);

@@ -12,6 +12,7 @@
 #include "tests/support/layered_scene.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
+#include "tests/support/texels.h"
 
 namespace ods::gpu_features_test {
 
@@ -228,6 +229,15 @@ TEST_F(GpuFeatures, AProjectionWithEmptyCorners) {
   RenderOptions options = small_options();
   options.height = 0;
   expect_same(lit_box(), with_height(options, camera), "fisheye", card, camera);
+}
+
+TEST_F(GpuFeatures, RaysFromATable) {
+  TexelRays texels = texels_of(StereoCamera{}, 32, 16);
+  for (size_t i = 0; i < texels.rays.size(); i++) {
+    texels.rays[i].across = vec3(0.2f, 0.0f, 0.1f), texels.rays[i].down = vec3(0.0f, 0.3f, 0.0f);
+    if (i % 5 == 0) texels.rays[i].direction = vec3(0.0f);
+  }
+  expect_same(lit_box(), with_texels(small_options(), 32, 16), "texels", card, camera_of(texels));
 }
 
 // Blocks stop at their noise: about as many samples, and the same picture.

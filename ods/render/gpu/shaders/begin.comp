@@ -63,7 +63,7 @@ Status start_sample(uint slot, Place place, int eye, uint seed, Status status) {
     uv = sample_position(place, seed, uint(index));
     if (gpu_view.camera.lens_radius > 0.0) lens = random_pair(seed, uint(index), kLensPair);
   }
-  Ray ray = camera_ray(gpu_view.camera, eye, home, uv, lens);
+  Ray ray = sample_ray(gpu_view.camera, eye, home, uv, lens);
   bool is_empty = ray.direction == vec3(0.0);
   if (is_empty && is_depth) {
     gpu_view.depth.at[(place.eye_index * gpu_view.height + place.y) * gpu_view.width + place.x] = gpu_view.far_depth;

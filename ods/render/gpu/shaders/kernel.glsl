@@ -14,6 +14,7 @@ const bool kHasCatchers = false;
 #include "ods/kernel/camera/merge.h"
 #include "ods/kernel/camera/projection.h"
 #include "ods/kernel/camera/camera.h"
+#include "ods/kernel/camera/texel_ray.h"
 #include "ods/kernel/camera/line.h"
 #include "ods/kernel/camera/project.h"
 #include "ods/kernel/scene_data.h"

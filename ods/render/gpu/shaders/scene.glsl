@@ -20,6 +20,7 @@ layout(buffer_reference, scalar) readonly buffer LightWays { LightWay at[]; };
 layout(buffer_reference, scalar) readonly buffer EnvironmentTexels { EnvironmentTexel at[]; };
 layout(buffer_reference, scalar) readonly buffer EnvironmentRows { AliasEntry at[]; };
 layout(buffer_reference, scalar) readonly buffer Portals { Portal at[]; };
+layout(buffer_reference, scalar) readonly buffer TexelTable { TexelRay at[]; };
 // As vectors of 16 bytes, which one instruction reads.
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer TreeNodes { vec4 at[]; };
 layout(buffer_reference, std430, buffer_reference_align = 16) readonly buffer TreeTriangles { vec4 at[]; };
@@ -41,6 +42,7 @@ float camera_map_texel(Camera camera, int which, int i) {
   if (which == kMapOfMerge) return gpu_view.merge_map.at[i];
   return gpu_view.head_tilt_map.at[i];
 }
+TexelRay camera_texel_ray(Camera camera, int i) { return gpu_view.texel_rays.at[i]; }
 
 Vertex scene_vertex(uint i) { return gpu_view.vertices.at[i]; }
 uvec3 scene_triangle(uint i) { return gpu_view.triangles.at[i]; }

@@ -95,6 +95,7 @@ struct GpuView {
   ODS_ADDRESS(TreeTriangles) tree_triangles;
   ODS_ADDRESS(Floats) merge_map;
   ODS_ADDRESS(Floats) head_tilt_map;
+  ODS_ADDRESS(TexelTable) texel_rays;
 
   // The planes of PictureSamples, one eye after the other. Whole numbers of 64 bits are two of 32, the low one first;
   // squares are pairs of floats whose sum they are.
