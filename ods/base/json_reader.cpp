@@ -52,8 +52,9 @@ void JsonReader::version(const std::string& mark, int newest) {
   integer(mark, version, 1, 1 << 30);
   if (version == 0) fail("", fmt::format("lacks \"{}\": 1", mark));
   if (version <= newest) return;
-  throw Error(ErrorKind::kInput, fmt::format("'{}' was written by a newer ods ({} version {}, this one reads {})",
-                                             file_, noun_, version, newest));
+  throw Error(ErrorKind::kInput,
+              fmt::format("'{}' was written by a newer ods ({} version {}, this one reads {}); update ods", file_,
+                          noun_, version, newest));
 }
 
 const Json* JsonReader::find(const std::string& key) {

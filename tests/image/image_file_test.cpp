@@ -101,6 +101,25 @@ TEST(ImageBytes, AreThoseOfTheFile) {
   }
 }
 
+// A texture that is drawn between two texels mixes a transparent one into the other.
+TEST(WriteImage, KeepsTheColorsOfTransparentPixels) {
+  const auto value = [](int x, int y, int c) {
+    if (c == 3) return x < 16 ? 1.0f : 0.0f;
+    return static_cast<float>(c == 0 ? x : y) / 64.0f;
+  };
+  for (const FileFormat format : {FileFormat::kPng, FileFormat::kTiff, FileFormat::kWebp}) {
+    const CodeImage image =
+        decode_image(bytes_of(make_file(format, 64, 64, "RGBA", SampleType::kUint8, value)), "a file");
+    for (int y = 0; y < 64; y++) {
+      for (int x = 0; x < 64; x++) {
+        const uint32_t texel = image.pixels[static_cast<size_t>(64 * y + x)];
+        ASSERT_NEAR(static_cast<int>(texel & 255), 4 * x, 12) << extension_of(format);
+        ASSERT_NEAR(static_cast<int>(texel >> 8 & 255), 4 * y, 12) << extension_of(format);
+      }
+    }
+  }
+}
+
 TEST(DecodeImage, GivesTheCodesOfEveryChannelCount) {
   const auto value = [](int x, int y, int c) { return static_cast<float>(40 * x + 10 * y + c + 1) / 255.0f; };
   const auto code = [](int x, int y, int c) { return static_cast<uint32_t>(40 * x + 10 * y + c + 1); };

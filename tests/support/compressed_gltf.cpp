@@ -142,6 +142,8 @@ void compress_meshopt(GltfBuilder& file, int index, const std::string& mode, siz
   plain.resize((plain.size() + stride - 1) / stride * stride);
   const size_t count = plain.size() / stride;
   Binary packed(1024 + 2 * plain.size() + 16 * count);  // sufficient for every codec
+  meshopt_encodeVertexVersion(0);                       // those of the extension
+  meshopt_encodeIndexVersion(1);
   if (mode == "ATTRIBUTES") {
     packed.resize(meshopt_encodeVertexBuffer(packed.data(), packed.size(), plain.data(), count, stride));
   } else {

@@ -136,6 +136,7 @@ void WebpEncoder::finish() {
   if (!WebPConfigInit(&config)) throw std::bad_alloc();
   config.quality = static_cast<float>(header_.quality);
   config.method = 6;  // the slowest, with the best compression
+  config.exact = 1;   // keeps the colours of transparent pixels, which textures mix into those beside them
   WebpPicture picture;
   picture.width = header_.width, picture.height = header_.height;
   picture.custom_ptr = &sink_;

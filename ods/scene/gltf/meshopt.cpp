@@ -3,14 +3,20 @@
 //
 // https://github.com/KhronosGroup/glTF/tree/main/extensions/2.0/Vendor/EXT_meshopt_compression. The Khronos extension
 // of that name contains the same streams, and newer ones (version 1) if the installed library decodes them.
+#include "ods/scene/gltf/meshopt.h"
+
 #include <fmt/core.h>
 #include <meshoptimizer.h>
 #include <tbb/parallel_for.h>
+
+#include <algorithm>
 
 #include "ods/base/memory.h"
 #include "ods/scene/gltf/parts.h"
 
 namespace ods {
+
+// --- reading ---------------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -118,6 +124,52 @@ void decode_views(GltfFile& file) {
     if (stream.fails) fail(file, fault_of(stream));
   }
   file.budget += total;
+}
+
+// --- writing ---------------------------------------------------------------------------------------------------------
+
+MeshOrder drawing_order(std::span<const uvec3> triangles, size_t vertex_count) {
+  MeshOrder order;
+  order.corners.resize(3 * triangles.size());
+  meshopt_optimizeVertexCache(order.corners.data(), &triangles[0].x, order.corners.size(), vertex_count);
+  std::vector<uint> places(vertex_count);  // of the old vertices; ~0u without one
+  order.vertices.resize(
+      meshopt_optimizeVertexFetchRemap(places.data(), order.corners.data(), order.corners.size(), vertex_count));
+  for (uint& corner : order.corners) corner = places[corner];
+  for (uint old = 0; old < vertex_count; old++) {
+    if (places[old] != ~0u) order.vertices[places[old]] = old;
+  }
+  return order;
+}
+
+// The extension has the vertices of version 0 and the indices of version 1; newer libraries default to others.
+static void choose_versions() {
+  [[maybe_unused]] static const bool are_chosen = [] {
+    meshopt_encodeVertexVersion(0);
+    meshopt_encodeIndexVersion(1);
+    return true;
+  }();
+}
+
+std::string compress_vertices(std::span<const std::byte> vertices, size_t stride) {
+  choose_versions();
+  const size_t count = vertices.size() / stride;
+  std::string bytes(meshopt_encodeVertexBufferBound(count, stride), '\0');
+  bytes.resize(meshopt_encodeVertexBuffer(reinterpret_cast<unsigned char*>(bytes.data()), bytes.size(), vertices.data(),
+                                          count, stride));
+  return bytes;
+}
+
+std::string compress_triangles(std::span<const uint> corners, size_t vertex_count) {
+  choose_versions();
+  std::string bytes(meshopt_encodeIndexBufferBound(corners.size(), vertex_count), '\0');
+  bytes.resize(meshopt_encodeIndexBuffer(reinterpret_cast<unsigned char*>(bytes.data()), bytes.size(), corners.data(),
+                                         corners.size()));
+  return bytes;
+}
+
+uint32_t exponential_bits(int mantissa, int exponent) {
+  return static_cast<uint32_t>(exponent) << 24 | (static_cast<uint32_t>(mantissa) & 0xffffff);
 }
 
 }  // namespace ods
