@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/layers/build_layers.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <numeric>
+#include <unordered_map>
+
+#include "ods/base/error.h"
+#include "ods/layers/light_rays.h"
+
+namespace ods {
+
+namespace {
+
+constexpr double kShareOfProbe = 0.4;  // of the time
+constexpr float kEyeRoom = 0.1f;       // metres: the smallest distance between the box and a surface
+
+// Half the side of the largest cube around the middle without a surface in it. Nothing in such a cube is hidden from the
+// middle, so its own map is enough.
+float free_half(const Probe& probe) {
+  const DistanceMap& map = probe.maps[kMiddle];
+  const size_t size = static_cast<size_t>(map.grid.size());
+  float half = kFarAway;
+  for (size_t row = 0; row < map.distances.size() / size; row++) {
+    for (size_t x = 0; x < size; x++) {
+      const vec3 ray =
+          abs(map.grid.texel_ray(static_cast<int>(row / size), static_cast<int>(x), static_cast<int>(row % size)));
+      half = std::min(half, map.distances[row * size + x] * std::max({ray.x, ray.y, ray.z}));
+    }
+  }
+  return half;
+}
+
+// Throws if a surface is in the box or too near.
+void check_room(const Probe& probe) {
+  const vec3 half = 0.5f * probe.box.size;
+  const float free = free_half(probe), largest = std::floor(200.0f * (free - kEyeRoom)) / 100.0f;
+  if (free >= std::max({half.x, half.y, half.z}) + kEyeRoom) return;
+  if (largest <= 0.0f) {
+    throw Error(
+        ErrorKind::kUsage,
+        fmt::format("the head box has no room: a surface is {:.2f} m from its middle; choose another `position`",
+                    free));
+  }
+  throw Error(
+      ErrorKind::kUsage,
+      fmt::format("the head box is too large: a surface is {:.2f} m from its middle, and the eyes need {:.1f} m "
+                  "in front of them; choose a `box` of at most {:.2f}, or another `position`",
+                  free, kEyeRoom, largest));
+}
+
+// Collects the vertices of one texture's mesh.
+class MeshBuilder {
+ public:
+  explicit MeshBuilder(LayerMesh& mesh) : mesh_(mesh) {}
+
+  // key: of the vertex among those of the mesh.
+  uint vertex(uint64_t key, vec3 position, vec2 uv) {
+    const auto [found, is_new] = index_.try_emplace(key, static_cast<uint>(mesh_.positions.size()));
+    if (is_new) {
+      mesh_.positions.push_back(position);
+      mesh_.uvs.push_back(uv);
+    }
+    return found->second;
+  }
+  void triangle(uvec3 corners) { mesh_.triangles.push_back(corners); }
+
+ private:
+  LayerMesh& mesh_;
+  std::unordered_map<uint64_t, uint> index_;
+};
+
+std::vector<PieceMesh> make_pieces(const Scene& scene, const PanoramaPages& pages, float pixel, LayerCounts& counts,
+                                   const Progress& progress) {
+  std::vector<SeenSurface> surfaces = seen_surfaces(scene, pages.probe(), pixel);
+  for (const SeenSurface& surface : surfaces) counts.simplified_triangles += surface.triangles.size();
+  std::vector<PieceMesh> meshes(surfaces.size());
+  tbb::parallel_for(size_t{0}, surfaces.size(), [&](size_t i) {
+    if (progress.cancelled && progress.cancelled()) return;
+    meshes[i] = cut_to_pages(std::move(surfaces[i]), pages.grid());
+    decide_pieces(pages, meshes[i], pixel);
+  });
+  if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
+  return meshes;
+}
+
+// The texture of each page: those that nothing shows have none (-1).
+std::vector<int> textures_of_pages(const PageGrid& grid, const std::vector<PieceMesh>& meshes, int& count) {
+  std::vector<int> texture_of(static_cast<size_t>(grid.pages()), -1);
+  for (const PieceMesh& mesh : meshes) {
+    for (const Piece& piece : mesh.pieces) {
+      if (piece.state == PieceState::kPage) texture_of[static_cast<size_t>(piece.page)] = 0;
+    }
+  }
+  for (int& texture : texture_of) texture = texture < 0 ? -1 : count++;
+  return texture_of;
+}
+
+void add_page_meshes(const PageGrid& grid, const std::vector<PieceMesh>& meshes, const std::vector<int>& texture_of,
+                     LayeredScene& scene) {
+  std::vector<MeshBuilder> builders;
+  for (LayerMesh& mesh : scene.meshes) builders.emplace_back(mesh);
+  for (size_t m = 0; m < meshes.size(); m++) {
+    for (const Piece& piece : meshes[m].pieces) {
+      if (piece.state != PieceState::kPage) continue;
+      MeshBuilder& builder = builders[static_cast<size_t>(texture_of[static_cast<size_t>(piece.page)])];
+      uvec3 corners;
+      for (int i = 0; i < 3; i++) {
+        const vec3 position = meshes[m].positions[piece.corners[i]];
+        const vec2 uv = to_page(grid, piece.page, position) / static_cast<float>(grid.size());
+        corners[i] = builder.vertex(uint64_t{m} << 32 | piece.corners[i], position + scene.box.center, uv);
+      }
+      builder.triangle(corners);
+    }
+  }
+}
+
+void add_chart_meshes(const std::vector<PieceMesh>& meshes, const std::vector<Chart>& charts, int size,
+                      LayeredScene& scene) {
+  for (size_t c = 0; c < charts.size(); c++) {
+    const Chart& chart = charts[c];
+    MeshBuilder builder(scene.meshes[static_cast<size_t>(chart.texture)]);
+    for (const size_t piece : chart.pieces) {
+      uvec3 corners;
+      for (int i = 0; i < 3; i++) {
+        const uint corner = meshes[chart.mesh].pieces[piece].corners[i];
+        const vec3 position = meshes[chart.mesh].positions[corner];
+        corners[i] =
+            builder.vertex(corner, position + scene.box.center, in_chart(chart, position) / static_cast<float>(size));
+      }
+      builder.triangle(corners);
+    }
+  }
+}
+
+// Packs opaque and masked charts in textures of their own.
+void pack(const std::vector<PieceMesh>& meshes, std::vector<Chart>& charts, int size, LayeredScene& scene) {
+  for (const bool masked : {false, true}) {
+    std::vector<Chart*> some;
+    for (Chart& chart : charts) {
+      if (meshes[chart.mesh].masked == masked) some.push_back(&chart);
+    }
+    const int first = static_cast<int>(scene.meshes.size());
+    LayerMesh mesh;
+    mesh.kind = masked ? LayerKind::kMasked : LayerKind::kOpaque;
+    mesh.noun = masked ? "masked charts" : "charts";
+    scene.meshes.resize(scene.meshes.size() + static_cast<size_t>(pack_charts(std::move(some), size, first)), mesh);
+  }
+}
+
+}  // namespace
+
+LayerGeometry build_layers(const Scene& scene, const HeadBox& box, int width, LayerCounts* report,
+                           const Progress& progress) {
+  LayerCounts counts;
+  LayerGeometry geometry;
+  geometry.scene.box = box;
+  geometry.scene.width = width;
+  const FirstHits hits(scene);
+  Progress probing = progress;
+  if (progress.report) probing.report = [&](double done) { progress.report(kShareOfProbe * done); };
+  const Probe probe = probe_scene(hits, box, width, probing);
+  check_room(probe);
+  geometry.sees_sky = probe.sees_sky;
+  for (const uint8_t side : probe.sides) counts.seen_triangles += side != 0 ? 1 : 0;
+  const PanoramaPages pages(probe);
+  const float pixel = pixel_angle(width);
+  const std::vector<PieceMesh> meshes = make_pieces(scene, pages, pixel, counts, progress);
+
+  const int size = geometry.texture_size = probe.grid.size();
+  int page_count = 0;
+  const std::vector<int> texture_of = textures_of_pages(probe.grid, meshes, page_count);
+  geometry.scene.meshes.resize(static_cast<size_t>(page_count));
+  add_page_meshes(probe.grid, meshes, texture_of, geometry.scene);
+  std::vector<Chart> charts = make_charts(probe, meshes, pixel, size);
+  pack(meshes, charts, size, geometry.scene);
+  add_chart_meshes(meshes, charts, size, geometry.scene);
+  counts.charts = charts.size();
+  for (const LayerMesh& mesh : geometry.scene.meshes) counts.triangles += mesh.triangles.size();
+
+  geometry.rays.width = size;
+  geometry.rays.height = size * static_cast<int>(geometry.scene.meshes.size());
+  const size_t texels = static_cast<size_t>(size) * static_cast<size_t>(geometry.rays.height);
+  geometry.rays.rays.resize(texels);
+  geometry.rays.owners.assign(texels, -1);
+  geometry.claims.assign(texels, -1);
+  if (std::any_of(meshes.begin(), meshes.end(), [](const PieceMesh& mesh) { return mesh.masked; })) {
+    geometry.coverage.resize(texels);
+  }
+  std::vector<char> read(probe.instances.size());
+  for (const PieceMesh& mesh : meshes) mark_read(probe.grid, mesh, read);
+  add_page_rays(pages, read, texture_of, geometry);
+  const int first_owner = 2 * static_cast<int>(scene.instances.size());
+  tbb::parallel_for(size_t{0}, charts.size(), [&](size_t i) {
+    add_chart_rays(hits, probe, meshes[charts[i].mesh], charts[i], first_owner + static_cast<int>(i), geometry);
+  });
+  const size_t in_pages = static_cast<size_t>(page_count) * static_cast<size_t>(size) * static_cast<size_t>(size);
+  for (size_t i = 0; i < texels; i++) {
+    if (geometry.rays.owners[i] >= 0) (i < in_pages ? counts.page_texels : counts.chart_texels)++;
+  }
+  if (progress.report) progress.report(1.0);
+  if (report) *report = counts;
+  return geometry;
+}
+
+}  // namespace ods

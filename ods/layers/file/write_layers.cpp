@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/layers/file/write_layers.h"
+
+#include <fmt/format.h>
+
+#include "ods/base/error.h"
+#include "ods/base/text.h"
+#include "ods/files/atomic_file.h"
+#include "ods/layers/file/layer_parts.h"
+
+namespace ods {
+
+static bool is_usdz(const std::string& path) {
+  return small_letters(path).ends_with(".usdz");
+}
+
+void check_layers_path(const std::string& path) {
+  if (!is_usdz(path) && !small_letters(path).ends_with(".glb")) {
+    throw Error(ErrorKind::kUsage,
+                fmt::format("cannot write '{}': a layered scene is a .glb or a .usdz; choose one of them", path));
+  }
+  check_writable(path);
+}
+
+LayersCost cost_of(const LayeredScene& scene) {
+  LayersCost cost;
+  for (const LayerMesh& mesh : scene.meshes) {
+    if (mesh.triangles.empty()) continue;
+    cost.triangles += mesh.triangles.size();
+    cost.vertices += mesh.positions.size();
+    cost.draw_calls++;
+    const size_t texels = static_cast<size_t>(mesh.texture.width) * static_cast<size_t>(mesh.texture.height);
+    cost.texture_bytes += 4 * texels * 4 / 3;
+  }
+  return cost;
+}
+
+uint64_t write_layers(const LayeredScene& scene, const std::string& path, const WriteLayersOptions& options,
+                      const Progress& progress) {
+  check_layers_path(path);
+  const bool is_webp = !options.plain && !is_usdz(path) && options.textures == LayerTextures::kWebp;
+  const FileFormat opaque = is_webp ? FileFormat::kWebp : FileFormat::kJpeg;
+  const FileFormat masked = is_webp ? FileFormat::kWebp : FileFormat::kPng;
+  const std::vector<LayerPart> parts = layer_parts(scene, opaque, masked, options.quality, progress);
+  const std::string bytes =
+      is_usdz(path) ? layers_usdz(scene, parts, path) : layers_glb(scene, parts, options.plain, path);
+  write_file(path, bytes);
+  return bytes.size();
+}
+
+}  // namespace ods

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The texels that a textured triangle reads.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "ods/kernel/math.h"
+
+namespace ods {
+
+// Calls visit() for every texel of a size x size texture that a bilinear filter may read anywhere in a triangle:
+// those whose centre is in the triangle, or less than a texel beside it along both axes. Corners in texels. A superset:
+// at acute corners there are some more. visit(x, y, inside) returns whether to continue; inside: the centre is in the
+// triangle.
+template <typename Visit>
+void for_each_texel(const vec2 (&corners)[3], int size, const Visit& visit) {
+  const vec2 low = min(min(corners[0], corners[1]), corners[2]) - 1.5f;
+  const vec2 high = max(max(corners[0], corners[1]), corners[2]) + 0.5f;
+  const int x0 = std::max(static_cast<int>(std::ceil(low.x)), 0), y0 = std::max(static_cast<int>(std::ceil(low.y)), 0);
+  const int x1 = std::min(static_cast<int>(std::floor(high.x)), size - 1);
+  const int y1 = std::min(static_cast<int>(std::floor(high.y)), size - 1);
+  const vec2 ab = corners[1] - corners[0], ac = corners[2] - corners[0];
+  const float turn = ab.x * ac.y - ab.y * ac.x < 0.0f ? -1.0f : 1.0f;
+  for (int y = y0; y <= y1; y++) {
+    for (int x = x0; x <= x1; x++) {
+      const vec2 center(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+      bool read = true, inside = true;
+      for (int i = 0; i < 3 && read; i++) {
+        const vec2 edge = (corners[(i + 1) % 3] - corners[i]) * turn, to = center - corners[i];
+        const float beside = edge.x * to.y - edge.y * to.x;
+        read = beside >= -(abs(edge.x) + abs(edge.y));
+        inside = inside && beside >= 0.0f;
+      }
+      if (read && !visit(x, y, inside)) return;
+    }
+  }
+}
+
+}  // namespace ods

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "ods/layers/surfaces.h"
+
+#include <meshoptimizer.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace ods {
+
+namespace {
+
+constexpr float kPixelsMoved = 0.5f;  // pixels by which simplified surfaces may move
+
+bool has_alpha(const Material& material) {
+  return material.alpha_mode != kAlphaOpaque;
+}
+
+// The first of all vertices of a mesh with the same position, for each vertex.
+std::vector<uint> weld(const std::vector<vec3>& positions) {
+  std::vector<uint> welded(positions.size());
+  meshopt_generateVertexRemap(welded.data(), nullptr, positions.size(), positions.data(), positions.size(),
+                              sizeof(vec3));
+  return welded;
+}
+
+// Adds the triangles that share a corner with one that is kept.
+void add_ring(const std::vector<uvec3>& triangles, size_t corners, std::vector<char>& kept) {
+  std::vector<char> touched(corners);
+  for (size_t i = 0; i < triangles.size(); i++) {
+    if (!kept[i]) continue;
+    for (int corner = 0; corner < 3; corner++) touched[triangles[i][corner]] = 1;
+  }
+  for (size_t i = 0; i < triangles.size(); i++) {
+    if (touched[triangles[i].x] || touched[triangles[i].y] || touched[triangles[i].z]) kept[i] = 1;
+  }
+}
+
+// Keeps only the vertices that triangles use.
+void compact(SeenSurface& surface) {
+  std::vector<uint> index(surface.positions.size(), ~0u);
+  std::vector<vec3> used;
+  for (uvec3& triangle : surface.triangles) {
+    for (int corner = 0; corner < 3; corner++) {
+      uint& to = index[triangle[corner]];
+      if (to == ~0u) {
+        to = static_cast<uint>(used.size());
+        used.push_back(surface.positions[triangle[corner]]);
+      }
+      triangle[corner] = to;
+    }
+  }
+  surface.positions = std::move(used);
+}
+
+// One side of an instance: its triangles that the probe saw, and their neighbours.
+SeenSurface collect(const Scene& scene, const Probe& probe, int side) {
+  const size_t at = static_cast<size_t>(side / 2);
+  const Instance& instance = scene.instances[at];
+  const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+  SeenSurface surface;
+  surface.side = side;
+  surface.masked = has_alpha(scene.materials[static_cast<size_t>(mesh.material)]);
+  std::vector<vec3> local;
+  for (uint i = 0; i < mesh.vertex_count; i++) local.push_back(scene.vertices[mesh.first_vertex + i].position);
+  const std::vector<uint> welded = weld(local);
+  surface.positions.resize(local.size());
+  for (size_t i = 0; i < local.size(); i++)
+    surface.positions[welded[i]] = to_world(instance, local[i]) - probe.box.center;
+
+  const uint8_t wanted = side % 2 == 0 ? kFrontSeen : kBackSeen;
+  const bool flips = (handedness_of(instance) < 0.0f) != (side % 2 == 1);
+  std::vector<char> kept;
+  for (uint i = 0; i < mesh.triangle_count; i++) {
+    const uvec3 own = scene.triangles[mesh.first_triangle + i];
+    uvec3 triangle(welded[own.x], welded[own.y], welded[own.z]);
+    if (flips) std::swap(triangle.y, triangle.z);
+    surface.triangles.push_back(triangle);
+    kept.push_back((probe.sides[probe.first_triangle[at] + i] & wanted) != 0);
+  }
+  add_ring(surface.triangles, surface.positions.size(), kept);
+  size_t count = 0;
+  for (size_t i = 0; i < kept.size(); i++) {
+    const uvec3 triangle = surface.triangles[i];
+    const bool flat = triangle.x == triangle.y || triangle.y == triangle.z || triangle.z == triangle.x;
+    if (kept[i] && !flat) surface.triangles[count++] = triangle;
+  }
+  surface.triangles.resize(count);
+  compact(surface);
+  return surface;
+}
+
+void simplify(SeenSurface& surface) {
+  if (surface.triangles.empty()) return;
+  const float* const positions = &surface.positions[0].x;
+  const size_t count = surface.positions.size();
+  const float scale = meshopt_simplifyScale(positions, count, sizeof(vec3));  // its errors are relative to the extent
+  std::vector<uvec3> simplified(surface.triangles.size());
+  const size_t indices = 3 * surface.triangles.size();
+  const size_t left = meshopt_simplify(&simplified[0].x, &surface.triangles[0].x, indices, positions, count,
+                                       sizeof(vec3), 0, surface.error / scale, 0, nullptr);
+  simplified.resize(left / 3);
+  surface.triangles = std::move(simplified);
+  compact(surface);
+}
+
+}  // namespace
+
+std::vector<SeenSurface> seen_surfaces(const Scene& scene, const Probe& probe, float pixel) {
+  std::vector<int> sides;
+  for (size_t side = 0; side < probe.nearest.size(); side++) {
+    if (probe.nearest[side] < kFarAway) sides.push_back(static_cast<int>(side));
+  }
+  std::vector<SeenSurface> surfaces(sides.size());
+  tbb::parallel_for(size_t{0}, sides.size(), [&](size_t i) {
+    surfaces[i] = collect(scene, probe, sides[i]);
+    surfaces[i].error = kPixelsMoved * pixel * probe.nearest[static_cast<size_t>(sides[i])];
+    simplify(surfaces[i]);
+  });
+  return surfaces;
+}
+
+}  // namespace ods
