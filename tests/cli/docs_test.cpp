@@ -210,6 +210,7 @@ class Pages : public ::testing::Test {
                        : has(line, "--part")       ? " --samples 8"
                                                    : " --samples 1";
     if (renders) more += of_rig ? " --bounces 1" : " --bounces 1 --exposure 0";  // it need not be measured
+    if (command == "layers") more = " --samples 1 --bounces 1 --exposure 0 --width 256";
     if (command == "rig") {
       more += has(line, "--slits") ? " --width 96 --slits 12" : " --width 64";
       if (has(line, "--max-error")) more += " --max-error 4";
@@ -271,6 +272,7 @@ class Pages : public ::testing::Test {
     if (kind.empty() || name.starts_with("-") || fs::exists(folder.path(name)) || !made_.insert(name).second) return;
     fs::create_directories(fs::path(folder.path(name)).parent_path());
     if (kind == ".npy" || name == "depth.png") return folder.write(name, depth());
+    if (name.ends_with(".layers.glb")) return make("ods layers spheres --samples 1 --width 256 -o " + name);
     if (kind == ".glb") return folder.write(name, scene());
     if (kind == ".blend") return folder.write(name, "BLENDER-v304");
     if (kind == ".zip") return provide_archive(name);

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// ods layers: bakes a scene for eyes that move within a box.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "cli/console/command.h"
+#include "cli/console/console.h"
+#include "cli/console/interrupt.h"
+#include "cli/console/long_job.h"
+#include "cli/layers/layers_job.h"
+#include "cli/render/device.h"
+#include "cli/render/first_look.h"
+#include "cli/render/plan.h"
+#include "ods/layers/light_layers.h"
+#include "ods/sequence/frame_renderer.h"
+#include "ods/sequence/identity.h"
+#include "ods/sequence/looks.h"
+
+namespace {
+
+constexpr double kShareOfGeometry = 0.15;  // of the whole time
+
+ods::LayerLight light_of(const RenderJob& job, const ods::RenderOptions& options, const ods::SequenceOptions& look) {
+  ods::LayerLight light;
+  light.exposure = look.finish.save.exposure;
+  light.tone = look.finish.save.tone;
+  light.bake.render = options;
+  light.bake.is_denoised = look.finish.denoiser != ods::Denoiser::kNone;
+  light.bake.unfinished = job.output + ".unfinished";
+  light.bake.scene = identified(job).scene;
+  std::error_code ignored;
+  if (job.restart) std::filesystem::remove(light.bake.unfinished, ignored);
+  return light;
+}
+
+void report_geometry(const ods::LayerCounts& counts, double seconds) {
+  note(fmt::format("{} of the scene's triangles are seen; {} after simplifying and cutting, {} charts, in {}",
+                   counts.seen_triangles, counts.triangles, counts.charts, duration_text(seconds)));
+}
+
+void report_file(const ods::LayeredScene& scene, const std::string& path, uint64_t bytes) {
+  const ods::LayersCost cost = ods::cost_of(scene);
+  note(fmt::format("{:.1f} MB; {} triangles, {} draw calls, {:.0f} MB of textures on the graphics card",
+                   static_cast<double>(bytes) * 1e-6, cost.triangles, cost.draw_calls,
+                   static_cast<double>(cost.texture_bytes) * 1e-6));
+  announce_file(path);
+}
+
+void bake_layers(const LayersJob& given, ProgressLines& lines) {
+  ods::Scene scene = open_lit_scene(given.render.scene, false);
+  const RenderJob job = on_device(given.render, scene);
+  TimeOptions time = job.time;
+  start_clock(time, job.camera, scene);
+  ods::FrameRenderer renderer(plan(job, time).sequence, scene);
+  const ods::SequenceFrame frame{0, double{time.time.value_or(0.0f)}, job.output, job.render.seed};
+  report_viewpoint(job, renderer, frame);
+  const ods::FirstLook look = ods::look_first(renderer, {frame});
+  ods::SequenceOptions options = renderer.options();
+  report_look(job, options, look);
+  options.finish.save.exposure = look.exposure;
+  if (scene.as_painted && !job.tone) options.finish.save.tone = ods::ToneCurve::kLinear;
+  const ods::Shot shot = renderer.set(frame);
+
+  const auto start = std::chrono::steady_clock::now();
+  const ProgressStep step{"layers", 0, 0, job.output};
+  const GentleStop stop("ods: stopping\n");
+  const auto report_from = [&](double from, double to) {
+    return ods::Progress{
+        [&, from, to](double done) { lines.report(from + (to - from) * done, seconds_since(start), step); },
+        [&] { return stop.requested(); }};
+  };
+  try {
+    ods::LayerCounts counts;
+    ods::LayerGeometry geometry =
+        ods::build_layers(scene, {shot.camera().position, ods::vec3(given.box)},
+                          given.width.value_or(2 * job.render.width), &counts, report_from(0.0, kShareOfGeometry));
+    geometry.scene.yaw = shot.camera().yaw;
+    geometry.scene.fallback = given.fallback;
+    report_geometry(counts, seconds_since(start));
+    const ods::LayeredScene layers =
+        ods::light_layers(std::move(geometry), scene, renderer.renderer(), light_of(job, shot.options, options),
+                          report_from(kShareOfGeometry, 0.97));
+    const uint64_t bytes = ods::write_layers(layers, job.output, given.write, report_from(0.97, 1.0));
+    lines.clear();
+    report_file(layers, job.output, bytes);
+  } catch (const ods::Error& error) {
+    if (error.kind() != ods::ErrorKind::kCancelled) throw;
+    if (std::filesystem::exists(job.output + ".unfinished")) note("the light so far is kept: the same command resumes");
+    stop.end();
+  }
+}
+
+void layers(const LayersJob& given) {
+  ods::check_layers_path(given.render.output);
+  LayersJob job = given;
+  job.render = settled(given.render);
+  run_long_job(job.render.progress, job.render.render.threads, [&](ProgressLines& lines) { bake_layers(job, lines); });
+}
+
+}  // namespace
+
+extern const Command kLayers =
+    make_command<parse_layers, layers>("layers", "bake a scene for a head that moves within a box");

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/layers/layers_job.h"
+
+#include <filesystem>
+
+#include "cli/console/long_job.h"
+#include "cli/render/device.h"
+
+namespace {
+
+constexpr const char* kLayersExamples =
+    "  ods layers scene.glb -o scene.layers.glb\n"
+    "  ods layers house.blend -o house.usdz --position 0,1.6,0\n"
+    "  ods layers scene.glb -o scene.layers.glb --plain     for Blender and every viewer of glTF\n"
+    "  ods layers room -o room.layers.glb --box 0.5 --quality final\n"
+    "  ods view scene.layers.glb";
+
+void add_layers_options(Options& options, LayersJob& job) {
+  options.group("Layers");
+  options.text("-o,--output", ValueKind::output_file(), job.render.output, "output file: .glb or .usdz");
+  options.number("--width", job.width, 256, 32768,
+                 "sharpness: that of a lat-long panorama with this many pixels around. By default twice the width "
+                 "that --quality gives a picture");
+  options.number("--box", job.box, 0.02f, 2.0f, "side of the cube within which the eyes may move, metres");
+  options.flag("--plain", job.write.plain, "without extensions of glTF that Blender cannot read: a larger file");
+  options.choice("--textures", job.write.textures, ods::kLayerTexturesTable, "format of the textures in a .glb");
+  options.number("--texture-quality", job.write.quality, 1, 100, "quality of the textures");
+  options.text(
+      "--fallback", "NAME", job.fallback,
+      "name of a stereo picture from the same place, in the same folder: what viewers show outside of the box");
+  add_exposure_option(options, job.render);
+  options.choice("--tone", job.render.tone, ods::kToneCurveTable, "tone curve",
+                 std::string(ods::tone_curve_name(job.render.save.tone)));
+}
+
+}  // namespace
+
+LayersJob parse_layers(Options& options) {
+  LayersJob job;
+  options.describe("Bakes what eyes see of a scene that move within a box: triangles with light, for headsets.",
+                   kLayersExamples);
+  add_scene_argument(options, job.render.scene);
+  add_light_options(options, job.render.scene.light);
+  add_layers_options(options, job);
+  options.group("Place");
+  add_place_options(options, job.render.camera);
+  options.number("--yaw", job.render.camera.yaw, -36000.0f, 36000.0f, "where viewers look first, degrees to the right");
+  options.number("--time", job.render.time.time, 0.0f, 1e6f, "the moment of an animated scene, seconds");
+  add_quality_options(options, job.render);
+  add_device_option(options, job.render);
+  options.group("Console");
+  add_restart_option(options, job.render.restart);
+  add_progress_options(options, job.render.progress);
+  options.parse();
+  if (job.render.output.empty()) throw UsageError("no output file: add -o scene.layers.glb");
+  finish_render_options(options, job.render);
+  if (!job.fallback.empty() && std::filesystem::path(job.fallback).has_parent_path()) {
+    throw UsageError("--fallback is the name of a file in the output's folder, without a folder");
+  }
+  return job;
+}
