@@ -5,7 +5,7 @@
 # page.sh SOURCE COMPILER BUILD: writes files as C++, those of web/ for ods/view/page.h and those of blender/ for
 # cli/bridge/bridge_files.h, and the add-on for Blender as an archive. Shaders include the kernel; WebGL has no #include,
 # so a C preprocessor comes first, the version line is added before its result, and spaces that GLSL does not need are
-# left out, as are comments and indentation in scripts.
+# left out, as are comments, indentation and empty lines in scripts and styles; the example is for people.
 set -eu
 cd "$1"
 compiler=$2
@@ -17,7 +17,9 @@ contents() {
       echo '#version 300 es'
       "$compiler" -E -P -x c -I. "$1" | sed -E 's/^ +//; s/^%/#/; s/ *([-+*/=<>!&|?:,;(){}]) */\1/g'
       ;;
-    web/*.js) sed -E '/^ *\/\//d; s/^ +//; s, // [^`'"'"'"]*$,,' "$1" ;;
+    web/*.js) sed -E '/^ *\/\//d; s/^ +//; s, // [^`'"'"'"]*$,,; /^$/d' "$1" ;;
+    web/example.css) cat "$1" ;;
+    *.css) sed -zE 's,/\*[^*]*\*+([^/*][^*]*\*+)*/,,g; s/\n +/\n/g; s/\n+/\n/g; s/([:;,]|\{)\s+/\1/g; s/ \{/{/g; s/;\}/}/g' "$1" ;;
     *) cat "$1" ;;
   esac
 }

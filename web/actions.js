@@ -56,7 +56,7 @@ export const ACTIONS = [
   { id: 'down', keys: ['ArrowDown'], run: turn(0, -5), fine: turn(0, -1) },
   { id: 'closer', keys: ['+', '='], shown: '+ −', label: 'field of view', group: LOOK, run: zoom(1 / 1.1) },
   { id: 'wider', keys: ['-', '_'], run: zoom(1.1) },
-  { id: 'recentre', keys: ['0', 'Home'], label: 'recentre', group: LOOK, run: (player, viewer) => viewer.set({ yaw: 0, pitch: 0, fov: FOV }) },
+  { id: 'recentre', keys: ['0', 'Home'], label: 'recentre', group: LOOK, run: (player, viewer) => viewer.set({ yaw: 0, pitch: 0, fov: FOV, x: 0, y: 0, z: 0 }) },
   { id: 'turn', keys: ['t'], label: 'turn slowly', group: LOOK, run(player) {
     player.turn();
     return t(player.turning ? 'Turning' : 'Still');
@@ -113,10 +113,13 @@ export const ACTIONS = [
   { id: 'help', keys: ['?', 'h'], label: 'help', group: PAGE, run: (player) => player.help() },
 ];
 
-export const applies = ({ when }, player) => !when || Boolean(when(player.viewer, player));
+export const applies = ({ id, when }, player) => !player.viewer.picture?.lacks?.includes(id) && (!when || Boolean(when(player.viewer, player)));
+
+// The actions that apply now: those of the open picture first.
+export const actionsOf = (player) => [...(player.viewer.picture?.actions ?? []), ...ACTIONS].filter((action) => applies(action, player));
 
 // The present action of a key.
-export const actionOf = (key, player) => ACTIONS.find((action) => action.keys.includes(key) && applies(action, player));
+export const actionOf = (key, player) => actionsOf(player).find((action) => action.keys.includes(key));
 
 const SHOWN = { PageDown: 'Page ↓', PageUp: 'Page ↑' };
 export const keysOf = (action) => (action.shown?.split(' ') ?? action.keys).map((key) => SHOWN[key] ?? (key.length > 1 ? key : key.toUpperCase()));

@@ -6,15 +6,17 @@
 const $modules = {};
 let $later;
 
-// Servers put some modules into a separate script (ods/view/bundle.h).
+const $script = () => new Promise((done, fail) => {
+  const script = Object.assign(document.createElement('script'), { src: new URL('later.js', $base) });
+  script.onload = () => done(window.omnistereoLater);
+  script.onerror = () => fail(new Error('A part of this page did not load: later.js. Is the server still running?'));
+  document.head.append(script);
+});
+
+// Some modules are in a separate script, later.js (ods/view/bundle.h); of a module it is later.mjs, by $bring().
 async function $load(name) {
   if ($modules[name]) return $modules[name];
-  $later ??= new Promise((done, fail) => {
-    const script = Object.assign(document.createElement('script'), { src: new URL('later.js', $base) });
-    script.onload = () => done(window.omnistereoLater($modules, $load, $base, fetch));
-    script.onerror = () => fail(new Error('A part of this page did not load. Is the server still running?'));
-    document.head.append(script);
-  });
+  $later ??= (typeof $bring === 'undefined' ? $script() : $bring()).then((later) => later($modules, $load, $base, fetch));
   await $later.catch((error) => {
     $later = null; // the next call tries again
     throw error;

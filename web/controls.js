@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The bar, the settings and the help: they follow the viewer and control it.
-import { ACTIONS, applies, keysOf } from './actions.js';
+import { ACTIONS, actionsOf, applies, keysOf } from './actions.js';
 import { make } from './elements.js';
 import { angleOf, hasOtherLayouts } from './form.js';
 import { degrees } from './geometry.js';
@@ -194,9 +194,9 @@ export class Controls {
     this.label('fov', `${state.fov.toFixed(0)}°`);
     this.press('swap', state.swap);
     this.press('compare', Boolean(this.viewer.compare));
-    this.button('compare').hidden = !picture || Boolean(this.viewer.scene) || player.isSingle();
     find('shift-row').hidden = Boolean(picture?.mono);
-    for (const id of ['comfort', 'link']) this.button(id).hidden = !applies(ACTIONS.find((action) => action.id === id), player);
+    for (const id of ['layout', 'projection', 'grid', 'planet']) find(`${id}-row`).hidden = Boolean(picture?.lacks?.includes(id));
+    for (const id of ['comfort', 'link', 'compare', 'swap']) this.button(id).hidden = !applies(ACTIONS.find((action) => action.id === id), player);
     if (picture?.video) this.film(picture);
   }
 
@@ -234,7 +234,7 @@ export class Controls {
   // Lists the actions that apply now, with the most common ones first.
   fillHelp() {
     const { viewer, find } = this;
-    const rows = ACTIONS.filter((action) => action.label && applies(action, this.player));
+    const rows = actionsOf(this.player).filter(({ label }) => label);
     const groups = [...new Set(rows.map(({ group }) => group))];
     const first = viewer.scene ? 'Studio' : viewer.picture?.video ? 'Video' : 'Look around';
     groups.sort((a, b) => (b === first) - (a === first));

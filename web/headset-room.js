@@ -9,6 +9,12 @@ export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * 
 export const plus = (a, b, times = 1) => a.map((x, i) => x + times * b[i]);
 export const scaled = (a, to) => a.map((x) => (x * to) / Math.hypot(...a)); // to a length
 
+// A direction or a position turned to the right about the vertical axis.
+export function turned([x, y, z], angle) {
+  const [s, c] = [Math.sin(angle), Math.cos(angle)];
+  return [x * c - z * s, y, z * c + x * s];
+}
+
 export function poseOf({ position: { x, y, z }, matrix: m }) {
   return { at: [x, y, z], right: [...m.slice(0, 3)], up: [...m.slice(4, 7)], back: [...m.slice(8, 11)] };
 }
@@ -80,7 +86,7 @@ void main() {
 }`;
 
 // The inverse of a matrix, both given by columns.
-function inverse(m) {
+export function inverse(m) {
   const [a, b, c] = [m.slice(0, 3), m.slice(3, 6), m.slice(6, 9)];
   const rows = [cross(b, c), cross(c, a), cross(a, b)].map((row) => row.map((x) => x / dot(a, cross(b, c))));
   return [0, 1, 2].flatMap((i) => rows.map((row) => row[i]));

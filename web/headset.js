@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The picture in a headset, by WebXR. Only the orientation of each eye's view counts: every direction shows exactly the
-// picture's line of sight, at any position of the head. The panel (headset-panel.js) comes with the session. The page's
-// canvas shows what the left eye sees.
+// picture's line of sight, at any position of the head; a layered scene asks for the positions, too. The panel
+// (headset-panel.js) comes with the session. The page's canvas shows what the left eye sees.
 import { clamp, degrees, radians } from './geometry.js';
+import { turned } from './headset-room.js';
 import { wornEye } from './modes.js';
 import { raysOf } from './panorama.js';
 import { Pace } from './pace.js';
@@ -15,12 +16,6 @@ const HOLD = 800; // milliseconds until a trigger or a pinch counts as held
 const STICK = 0.7; // fraction of the range of a stick
 const MIRROR = 100; // milliseconds between pictures for the page
 const MARKED = 4000; // milliseconds that a mark of the desk remains
-
-// Directions turned to the right about the vertical axis.
-function turned([x, y, z], angle) {
-  const [s, c] = [Math.sin(angle), Math.cos(angle)];
-  return [x * c - z * s, y, z * c + x * s];
-}
 
 // The rays of a view (panorama.js) from its orientation and its projection matrix.
 export function raysOfView({ transform, projectionMatrix: p }, turn) {
@@ -108,7 +103,7 @@ export class Headset {
     if (viewer.scene) viewer.steering?.head(look); // set by the studio
     if (!(now - this.looked < MIRROR)) this.lookAt(now, look);
     picture?.refresh?.();
-    if (picture && !viewer.scene && this.layers?.show(frame, viewer, this.turn)) {
+    if (picture && !picture.draw && !viewer.scene && this.layers?.show(frame, viewer, this.turn)) {
       this.layers.drawAbove(this.panel?.isSeen ? (view, box, target) => this.drawPanel(view, box, target) : null, this.pose);
       return;
     }
@@ -138,7 +133,7 @@ export class Headset {
     const { viewer, viewer: { picture, panorama, state } } = this;
     const options = {
       rays: raysOfView(view, this.turn), box, eye: wornEye(state, indexOf(view)), swap: state.swap, grid: state.grid,
-      moves: true, cheap: this.pace.how.cheap, target,
+      moves: true, cheap: this.pace.how.cheap, target, state, worn: this,
     };
     panorama.draw(picture, options);
     if (viewer.scene) viewer.steering?.draw(panorama, raysOfView(view, 0), this.pose, options);
@@ -178,7 +173,7 @@ export class Headset {
   recentre() {
     if (!this.pose) return;
     const m = this.pose.transform.matrix;
-    this.turn = -Math.atan2(-m[8], m[10]);
+    Object.assign(this, { turn: -Math.atan2(-m[8], m[10]), centred: this.pose });
   }
 
   // Turns the wearer by degrees, to the right: those who sit see what is behind them.

@@ -23,15 +23,18 @@ export function followPointer(viewer, element = viewer.element, hasWheel = () =>
     if (!last) return;
     const [dx, dy] = [event.clientX - last.x, event.clientY - last.y];
     const { yaw, pitch, fov, mode, planet } = viewer.state;
-    if (held.size === 2) {
-      const before = spread();
-      Object.assign(last, { x: event.clientX, y: event.clientY });
-      return viewer.set({ fov: fovOf(halfSide({ fov, planet }) * (before / Math.max(spread(), 1)), planet) });
-    }
-    Object.assign(last, { x: event.clientX, y: event.clientY });
     const parts = mode === 'side-by-side' || mode === 'cross-eyed' ? 2 : 1;
     const aspect = element.clientWidth / parts / element.clientHeight;
     const pixel = degrees((2 * parts * halfWidth({ fov, planet }, aspect)) / element.clientWidth);
+    const drag = (x, y) => viewer.picture?.drag?.(viewer, x * pixel, y * pixel);
+    if (held.size === 2) {
+      const before = spread();
+      Object.assign(last, { x: event.clientX, y: event.clientY });
+      drag(dx / 2, dy / 2); // their middle
+      return viewer.set({ fov: fovOf(halfSide({ fov, planet }) * (before / Math.max(spread(), 1)), planet) });
+    }
+    Object.assign(last, { x: event.clientX, y: event.clientY });
+    if (event.shiftKey && viewer.picture?.drag) return drag(dx, dy);
     viewer.set({ yaw: yaw - dx * pixel, pitch: pitch + dy * pixel });
   });
   for (const end of ['pointerup', 'pointercancel']) {

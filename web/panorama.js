@@ -48,7 +48,7 @@ export const angleAcross = (state, aspect) => fovOf(halfWidth(state, aspect), st
 // The bend of the stereographic view (panorama.glsl); 0 for other views.
 export const bendOf = ({ planet }) => (planet ? 0.25 : 0);
 
-export const compile = (gl, fragment) => finish(gl, begin(gl, fragment, VERTICES));
+export const compile = (gl, fragment, vertices = VERTICES) => finish(gl, begin(gl, fragment, vertices));
 
 // The columns of a matrix that converts a position on the screen (-1..1) to a direction. yaw to the right, pitch up,
 // roll clockwise, in degrees; fov: the angle of the view's longer side, so that a phone may be turned; aspect: width over
@@ -135,6 +135,7 @@ export class Panorama {
 
   // Returns whether drawing would not wait for a compiler.
   isReady(picture, options) {
+    if (picture.draw) return true;
     const each = this.programFor(picture, options);
     return Boolean(each.uniforms) || !this.background ||
       this.gl.getProgramParameter(each.program, this.background.COMPLETION_STATUS_KHR);
@@ -184,9 +185,10 @@ export class Panorama {
   }
 
   // Draws a view of a picture (picture.js) like drawOne(), and the pictures that belong to it: `over`, a finer window,
-  // and `beside`, another picture to the right of the fraction `split` of the box.
+  // and `beside`, another picture to the right of the fraction `split` of the box. A layered scene draws itself.
   draw(picture, options) {
-    this.drawOne(picture, options);
+    if (picture.draw) picture.draw(this, options);
+    else this.drawOne(picture, options);
     if (picture.over) this.drawOne(picture.over, options);
     if (!picture.beside || options.target) return;
     const [x, , width] = options.box;

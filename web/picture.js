@@ -4,14 +4,15 @@
 // Loads an item of view.json. A picture, for panorama.js, is
 //   { eyes: [left, right] as EyeTexture, camera, mono, changed, free() }
 // and the members that video.js adds for a video, `pager` for a large picture, `light` and develop() for one of light.
-// It calls changed() when there is something new to draw.
+// It calls changed() when there is something new to draw. A layered scene (layered.js) is a picture, too: it has draw(),
+// hold(), drag(), the `actions` that it adds, and the names of those that it `lacks`.
 import { cropOf, formOf, hasOtherLayouts, isRound, same } from './form.js';
 import { EyeTexture, FrameCutter } from './tiles.js';
 
 const LARGE = 40e6; // texels of both eyes: with mip levels, 213 MB
 
 // Reads a file and reports the fraction loaded, 0..1.
-async function download(url, name, signal, progress) {
+export async function download(url, name, signal, progress) {
   const answer = await fetch(url, { signal }).catch((error) => {
     if (error.name === 'AbortError') throw error;
     throw new Error(`${name} did not load: there is no connection. Is the server still running?`);
@@ -168,6 +169,10 @@ export async function openPicture(panorama, view, item, { base, choice = {}, ...
   if (item.kind === 'video') {
     const { openVideo } = await import('./video.js');
     return openVideo(panorama.gl, item, form, url(item.image), how.signal);
+  }
+  if (item.kind === 'layers') {
+    const { openLayered } = await import('./layered.js');
+    return openLayered(panorama, item, form, url(item.image), { base, choice, ...how });
   }
   if (item.light && panorama.hasLight) return openLight(panorama, item, form, url, choice, how);
   return openImage(panorama, item, form, imageAddresses(view, item, base, choice), url, how);

@@ -23,7 +23,7 @@ const isNewer = (a, b) => a !== 0 && a !== b && (b === 0 || (a - b + RING) % RIN
 
 const isNumber = (value) => typeof value === 'number' && Math.abs(value) <= 1e6;
 const isObject = (value) => typeof value === 'object' && value !== null && !Array.isArray(value);
-const isLook = (look) => isObject(look) && ['yaw', 'pitch', 'roll'].every((name) => isNumber(look[name]));
+const isLook = (look) => isObject(look) && ['yaw', 'pitch', 'roll'].every((name) => isNumber(look[name])) && ['x', 'y', 'z'].every((name) => isNumber(look[name] ?? 0));
 const isPoint = (point) => isObject(point) && isNumber(point.yaw) && isNumber(point.pitch);
 // The same members, each of the same type where both have one.
 const isLike = (value, model) =>
@@ -31,7 +31,7 @@ const isLike = (value, model) =>
   : (model ?? value ?? null) === null || (typeof value === typeof model && Array.isArray(value) === Array.isArray(model));
 
 const sleep = (time) => new Promise((done) => setTimeout(done, time));
-const round = (look) => Object.fromEntries(Object.entries(look).map(([name, value]) => [name, typeof value === 'number' ? Math.round(100 * value) / 100 : value]));
+const round = (look) => Object.fromEntries(Object.entries(look).map(([name, value]) => [name, typeof value === 'number' ? Math.round(1000 * value) / 1000 : value]));
 
 // Each field with its present value, undefined if there is none, whether another page's value has its form, and a
 // function that applies that value.
@@ -97,7 +97,7 @@ export class Share {
     }
     const { viewer: { session, state }, known, point } = this;
     const fields = Object.fromEntries(Object.entries(known).map(([name, { value, clock, by }]) => [name, { value, clock, by }]));
-    const look = session ? round({ yaw: state.yaw, pitch: state.pitch, roll: state.roll }) : undefined;
+    const look = session ? round({ yaw: state.yaw, pitch: state.pitch, roll: state.roll, x: state.x, y: state.y, z: state.z }) : undefined;
     const text = JSON.stringify({ fields, look, point: session || !point ? undefined : round(point) });
     const now = performance.now();
     this.forget(now);
@@ -195,6 +195,9 @@ export class Share {
       viewer.element.after(this.button);
       this.follow(this.follows);
     }
+    const { x = 0, y = 0, z = 0 } = look;
+    const moves = Object.entries({ x, y, z }).some(([name, value]) => value !== viewer.state[name]);
+    if (moves && this.follows && !viewer.session) viewer.set({ x, y, z }); // draws, so not for every look
     this.wanted = look;
     if (this.moving) return;
     this.moving = true;

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The page's state in its address, so that a link shows exactly its sender's view:
-//   #item=0&name=harbour.jpg&yaw=30&pitch=-20&fov=90&mode=left&shift=0.5&swap=1&grid=1&planet=1&layout=..&projection=..&exposure=..&tone=..
-//    &frame=12&layers=1&controls=all
+//   #item=0&name=harbour.jpg&yaw=30&pitch=-20&fov=90&shift=0.5&x=0.05&y=0.01&z=-0.1&mode=left&swap=1&grid=1&planet=1
+//    &layout=..&projection=..&exposure=..&tone=..&frame=12&layers=1&controls=all
 // eye=left and eye=right are aliases of mode=. A picture compared with it: beside=1&beside-name=..&beside-layout=..
 // Names count, because numbers change when a file joins the folder.
-const NUMBERS = ['yaw', 'pitch', 'fov', 'shift'];
+const NUMBERS = ['yaw', 'pitch', 'fov', 'shift', 'x', 'y', 'z'];
 const SWITCHES = ['swap', 'grid', 'planet'];
 const CHOICES = ['layout', 'projection', 'tone', 'exposure'];
 
@@ -42,7 +42,7 @@ export function findItem(items, { item, name }) {
 export function writeState({ item, name, frame, layers, controls, look, choice, beside }) {
   const words = [`item=${item}`];
   if (name) words.push(`name=${encodeURIComponent(name)}`);
-  for (const name of NUMBERS) if (look[name] || name !== 'shift') words.push(`${name}=${Math.round(look[name] * 100) / 100}`);
+  NUMBERS.forEach((name, i) => (look[name] || i < 3) && words.push(`${name}=${Math.round(look[name] * 1000) / 1000}`));
   words.push(`mode=${look.mode}`);
   for (const name of SWITCHES) if (look[name]) words.push(`${name}=1`);
   const tell = (chosen, before) => {

@@ -31,7 +31,7 @@ const STYLE = `${PLAYER_STYLE}
 #again { display: block; margin: 10px auto 0; background: var(--touch); padding: 0 16px; }
 .waiting :is(#bar, #title, #caption, #spots, #hint), .bare :is(#bar, #title) { display: none; }`;
 const VIDEO = /\.(mp4|m4v|mov|webm|mkv|m3u8)$/i;
-const FILES = ['image', 'left', 'right', 'light', 'preview', 'thumbnail', 'poster'];
+const FILES = ['image', 'fallback', 'left', 'right', 'light', 'preview', 'thumbnail', 'poster'];
 const NEAR = '300px'; // distance from the window at which it loads
 const FILE = ['src', 'item', 'layout', 'projection', 'fps'];
 const LOOK = ['mode', 'yaw', 'pitch', 'fov'];
@@ -221,7 +221,8 @@ export class Stereo360 extends Base {
     const known = items.findIndex((item) => item.image === image);
     if (known >= 0) return known;
     const name = decodeURIComponent(image.split('/').pop());
-    const kind = VIDEO.test(new URL(image).pathname) ? 'video' : 'picture';
+    const { pathname } = new URL(image);
+    const kind = /\.glb$/i.test(pathname) ? 'layers' : VIDEO.test(pathname) ? 'video' : 'picture';
     items.push({ name, kind, image, layout: 'top-bottom', projection: 'lat-long', video: { fps: this.number('fps', 30) } });
     return items.length - 1;
   }

@@ -121,6 +121,7 @@ export const TRANSLATIONS = {
   'look around (Shift: finely)': 'umsehen (Umschalt: fein)',
   'look by turning this device': 'Gerät drehen, um sich umzusehen',
   'loop': 'Schleife',
+  'move the head (Shift: finely)': 'Kopf bewegen (Umschalt: fein)',
   'next frame': 'nächstes Einzelbild',
   'next picture': 'nächstes Bild',
   'next way to show the eyes': 'nächste Darstellung der Augen',

@@ -121,6 +121,7 @@ export const TRANSLATIONS = {
   'look around (Shift: finely)': 'regarder (Maj : finement)',
   'look by turning this device': 'regarder en tournant l’appareil',
   'loop': 'boucle',
+  'move the head (Shift: finely)': 'bouger la tête (Maj : finement)',
   'next frame': 'image suivante du film',
   'next picture': 'image suivante',
   'next way to show the eyes': 'affichage suivant des yeux',

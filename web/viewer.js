@@ -25,7 +25,7 @@ export class Viewer extends EventTarget {
   constructor(element, view, base) {
     super();
     Object.assign(this, { element, view, base, panorama: null, picture: null, item: -1, session: null });
-    this.state = { yaw: 0, pitch: 0, roll: 0, fov: FOV, mode: 'left', swap: false, grid: false, planet: false, shift: 0 };
+    this.state = { yaw: 0, pitch: 0, roll: 0, fov: FOV, mode: 'left', swap: false, grid: false, planet: false, shift: 0, x: 0, y: 0, z: 0 };
     this.compare = null; // compare.js
     this.scene = null; // the studio's live scene, shown instead of an item
     this.choice = {}; // layout, projection, exposure, tone, if they differ from the item
@@ -127,6 +127,7 @@ export class Viewer extends EventTarget {
     state.pitch = clamp(state.pitch, -90, 90);
     state.fov = clamp(state.fov, 5, widest(state));
     state.shift = clamp(state.shift, -5, 5);
+    this.picture?.hold?.(state);
     this.redraw();
     this.say('change');
   }
@@ -180,7 +181,7 @@ export class Viewer extends EventTarget {
     const shift = radians(state.shift) / 2; // for each eye
     return modeOf(state.mode).parts(now).map(({ at, eye, show }) => {
       const box = boxOf(at, canvas);
-      return { rays: raysOf(state, box[2] / box[3]), box, eye, show, swap: state.swap, grid: state.grid, planet: state.planet, shift };
+      return { rays: raysOf(state, box[2] / box[3]), box, eye, show, swap: state.swap, grid: state.grid, planet: state.planet, shift, state };
     }).filter(({ box }) => box[2] > 0 && box[3] > 0);
   }
 
@@ -232,7 +233,7 @@ export class Viewer extends EventTarget {
     const { Ahead } = await import('./ahead.js');
     if (!this.panorama) return;
     this.ahead ??= new Ahead();
-    const beside = [1, -1].map((by) => items[(this.item + by + items.length) % items.length]).filter(({ kind, light }) => kind !== 'video' && !light);
+    const beside = [1, -1].map((by) => items[(this.item + by + items.length) % items.length]).filter(({ kind, light }) => kind === 'picture' && !light);
     this.ahead.keep(beside.flatMap((item) => imageAddresses(this.view, item, this.base)).map(({ href }) => href));
   }
 
@@ -247,6 +248,7 @@ export class Viewer extends EventTarget {
     const loading = (this.loading = new AbortController());
     const texels = this.picture?.eyes.reduce((sum, eye) => sum + eye.size[0] * eye.size[1], 0);
     if (item !== this.item && texels > KEEP) this.close();
+    if (item !== this.item && this.item >= 0) Object.assign(this.state, { x: 0, y: 0, z: 0 });
     Object.assign(this, { item, choice, scene: null });
     this.say('loading', 0);
     try {
@@ -268,6 +270,7 @@ export class Viewer extends EventTarget {
     if (signal.aborted) return picture.free();
     this.close();
     this.picture = picture;
+    picture.hold?.(this.state);
     picture.changed = () => {
       this.redraw();
       this.say('change');

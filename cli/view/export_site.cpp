@@ -29,8 +29,9 @@ void copy_file(const std::string& from, const std::string& to) {
   copy.commit();
 }
 
-// The eyes as JPEGs where browsers do not read the file; its light, which joins `files`; and its poster.
+// The eyes as JPEGs where browsers do not read the file; its light, which joins `files`; its poster and its thumbnail.
 void write_pictures(const ViewItem& item, size_t index, std::vector<std::string>& files, const std::string& folder) {
+  if (!has_stills(item)) return;
   const ods::StoredPicture picture = open_shown(item);
   const size_t eyes = files.size();
   if (has_light(item)) {
@@ -42,6 +43,7 @@ void write_pictures(const ViewItem& item, size_t index, std::vector<std::string>
     ods::write_file(folder + "/" + files[i], eye_jpeg(picture, picture.eyes[i].eye, {}));
   }
   ods::write_file(folder + "/" + ods::item_file(index, ods::kPosterFile), poster_jpeg(picture));
+  ods::write_file(folder + "/" + ods::item_file(index, ods::kThumbnailFile), thumbnail_jpeg(item));
 }
 
 // For pages from disk.
@@ -53,6 +55,13 @@ void write_script_beside(const std::string& path) {
   std::filesystem::remove(path + ".js");
   note(fmt::format("'{}' is too large for a page from disk: it needs a web server",
                    std::filesystem::path(path).filename().native()));
+}
+
+std::string poster_tags(const std::string& poster) {
+  return fmt::format(
+      "\n<meta property=\"og:image\" content=\"{}\">\n"
+      "<meta name=\"twitter:card\" content=\"summary_large_image\">",
+      poster);
 }
 
 // The page with its title, what a link to it shows, and what is there without scripts.
@@ -72,10 +81,9 @@ std::string index_page(const std::vector<ViewItem>& items, const PageTexts& text
           fmt::format("<title>{0}</title>\n<meta name=\"description\" content=\"{1}\">\n"
                       "<meta name=\"theme-color\" content=\"#1a1a1a\">\n"
                       "<meta property=\"og:type\" content=\"website\">\n<meta property=\"og:title\" content=\"{0}\">\n"
-                      "<meta property=\"og:description\" content=\"{1}\">\n"
-                      "<meta property=\"og:image\" content=\"{2}\">\n"
-                      "<meta name=\"twitter:card\" content=\"summary_large_image\">",
-                      title, about, poster));
+                      "<meta property=\"og:description\" content=\"{1}\">{2}",
+                      title, about, has_stills(first) ? poster_tags(poster) : ""));
+  if (!has_stills(first)) return page;
   replace("<noscript>The picture needs JavaScript.</noscript>",
           fmt::format("<noscript><a href=\"{}\"><img src=\"{}\" alt=\"{}\" width=\"100%\"></a></noscript>", file,
                       poster, title));
@@ -90,6 +98,7 @@ void write_page(const std::vector<ViewItem>& items, const PageTexts& texts, cons
   for (const char* const entry : {"main.js", "stereo-360.js"}) {
     ods::write_file(folder + "/" + entry, ods::bundle(entry));
   }
+  ods::write_file(folder + "/later.js", ods::bundle_later(ods::PageHost::kFolder));
 }
 
 // The page and view.json come last: they list the other files.
@@ -97,8 +106,11 @@ void write_site(const std::vector<ViewItem>& items, const PageTexts& texts, cons
   for (size_t i = 0; i < items.size(); i++) {
     std::vector<std::string> files = item_files(items[i], i);
     if (items[i].has_own_file) copy_file(items[i].path, folder + "/" + files[0]);
+    if (!items[i].fallback.empty()) {
+      files.push_back(fallback_file(items[i], i));
+      copy_file(items[i].fallback, folder + "/" + files.back());
+    }
     write_pictures(items[i], i, files, folder);
-    ods::write_file(folder + "/" + ods::item_file(i, ods::kThumbnailFile), thumbnail_jpeg(items[i]));
     if (has_preview(items[i], false)) {
       files.push_back(ods::item_file(i, ods::kPreviewFile));
       ods::write_file(folder + "/" + files.back(), preview_jpeg(items[i]));

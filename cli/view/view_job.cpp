@@ -16,6 +16,7 @@
 #include "ods/image/format/file_format.h"
 #include "ods/scene/builtin/builtin.h"
 #include "ods/video/container/video_file.h"
+#include "ods/view/layered_file.h"
 
 using ods::ViewItem;
 
@@ -26,6 +27,7 @@ constexpr const char* kViewExamples =
     "  ods view video_360_TB.mp4 other.exr folder/\n"
     "  ods view picture.png --lan\n"
     "  ods view scene.glb                        the studio: the scene, rendered while you look\n"
+    "  ods view scene.layers.glb                 a layered scene, in which the head moves\n"
     "  ods view picture_360_TB.png --export site/ --title \"The harbour\" --lang de";
 
 constexpr const char* kViewSummary =
@@ -36,6 +38,7 @@ constexpr size_t kMaxItems = 2000;
 
 // Returns whether the studio opens it: a scene's file, or a built-in scene whose name no file has.
 bool names_scene(const std::string& path) {
+  if (ods::is_layered_scene(path)) return false;
   const std::string extension = ods::small_letters(std::filesystem::path(path).extension().string());
   if (extension == ".glb" || extension == ".gltf" || extension == ".zip" || is_foreign_scene(path)) return true;
   return ods::find_builtin(path) && !std::filesystem::exists(path);
@@ -46,7 +49,7 @@ std::vector<std::string> files_in(const std::string& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string path = entry.path().string();
     if (!entry.is_regular_file() || entry.path().filename().string().starts_with('.')) continue;
-    if (ods::names_picture(path) || ods::is_video(path)) paths.push_back(path);
+    if (ods::names_picture(path) || ods::is_video(path) || ods::is_layered_scene(path)) paths.push_back(path);
   }
   std::ranges::sort(paths);
   return paths;
@@ -74,13 +77,18 @@ void add_folder(const std::string& folder, const ods::FormatHint& known, std::ve
   if (!faults.empty()) note(fmt::format("'{}': {} left out; the first: {}", folder, faults.size(), faults.front()));
 }
 
+void note_guesses(const ViewItem& item) {
+  for (const std::string& guess : item.picture.guesses) note(fmt::format("'{}' is {}", item.path, guess));
+}
+
 }  // namespace
 
 ViewJob parse_view(Options& options) {
   ViewJob job;
   options.describe(kViewSummary, kViewExamples);
-  options.arguments(ValueKind::input_file("FILE"), job.paths,
-                    "pictures, videos, and folders of them (%V in a name: one file per eye), or a scene");
+  options.arguments(
+      ValueKind::input_file("FILE"), job.paths,
+      "pictures, videos, layered scenes, and folders of them (%V in a name: one file per eye), or a scene");
   options.group("Input, if it is not detected");
   add_input_layout_option(options, job.known.layout, "how both eyes share the file");
   options.custom(
@@ -133,6 +141,9 @@ std::vector<ViewItem> open_items(const ViewJob& job) {
   for (const std::string& path : job.paths) {
     if (std::filesystem::is_directory(path)) {
       add_folder(path, job.known, items);
+    } else if (ods::is_layered_scene(path)) {
+      items.push_back(ods::open_view_item(path, job.known));
+      note_guesses(items.back());
     } else {
       ods::MediaFile media = open_input(path, {.known = job.known, .color_only = true});
       const ods::FormatHint known = media.hint;
@@ -140,7 +151,7 @@ std::vector<ViewItem> open_items(const ViewJob& job) {
       std::optional<ods::PictureReader> reader;
       if (!is_video) reader = reader_of(std::move(media));
       items.push_back(ods::open_view_item(path, known, std::move(reader)));
-      for (const std::string& guess : items.back().picture.guesses) note(fmt::format("'{}' is {}", path, guess));
+      note_guesses(items.back());
     }
   }
   return items;

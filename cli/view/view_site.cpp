@@ -45,6 +45,7 @@ std::vector<std::string> files_behind(const ViewItem& item) {
     std::error_code fault;
     return std::filesystem::canonical(path, fault).native();
   };
+  if (!item.fallback.empty()) return {behind(item.path), behind(item.fallback)};
   if (!ods::names_eye(item.path)) return {behind(item.path)};
   return {behind(ods::path_for_eye(item.path, ods::kLeft)), behind(ods::path_for_eye(item.path, ods::kRight))};
 }
@@ -93,6 +94,7 @@ std::optional<ViewItem> ViewSite::item_at(size_t number) const {
   if (number >= items_.size() || files_behind(items_[number]) != files_[number]) return {};
   ViewItem item = items_[number];
   if (item.has_own_file) item.path = files_[number][0];
+  if (!item.fallback.empty()) item.fallback = files_[number][1];
   return item;
 }
 
@@ -132,13 +134,16 @@ WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
   if (item.has_own_file && path == item_files(item, *number)[0]) {
     return {.type = std::string(ods::media_type(path)), .file = item.path};
   }
+  if (!item.fallback.empty() && path == fallback_file(item, *number)) {
+    return {.type = std::string(ods::media_type(path)), .file = item.fallback};
+  }
   if (path == ods::item_file(*number, ods::kPreviewFile) && has_preview(item, true)) {
     return {.type = std::string(ods::media_type(path)), .body = kept_jpeg(path, item, ods::preview_jpeg)};
   }
-  if (path == ods::item_file(*number, ods::kThumbnailFile)) {
+  if (path == ods::item_file(*number, ods::kThumbnailFile) && has_stills(item)) {
     return {.type = std::string(ods::media_type(path)), .body = kept_jpeg(path, item, ods::thumbnail_jpeg)};
   }
-  if (item.is_video) return nothing_there();
+  if (item.kind != ods::ItemKind::kPicture) return nothing_there();
   if (path.ends_with("/comfort.json") || path.ends_with("/comfort-left.jpg") || path.ends_with("/comfort-right.jpg")) {
     return comfort(item, path);
   }

@@ -54,10 +54,14 @@ bool is_left_out(std::string_view name, PageHost host) {
   return name == "share.js" && host == PageHost::kFolder;
 }
 
+// The module that few pages need: in a folder, it and the modules that only it imports are in later.js.
+constexpr std::string_view kRare = "layered.js";
+
 struct Modules {
   std::set<std::string> known;
   std::string script;
   std::vector<std::string> later;  // modules that they import on demand
+  bool import_rare = false;
 };
 
 // After its imports.
@@ -73,7 +77,11 @@ void add_later(PageHost host, Modules& modules) {
   while (!modules.later.empty()) {
     const std::string name = modules.later.back();
     modules.later.pop_back();
-    add(name, host, modules);
+    if (host == PageHost::kFolder && name == kRare) {
+      modules.import_rare = true;
+    } else {
+      add(name, host, modules);
+    }
   }
 }
 
@@ -99,16 +107,20 @@ std::string bundle(const std::string& entry, PageHost host, ScriptKind kind) {
   }
   const std::string exported =
       fmt::format("{}", fmt::join(names_in(std::string(find_page_file(entry)->data), kExport, 3), ", "));
-  return fmt::format("{}const $base = import.meta.url;\n{}export const {{ {} }} = $modules['{}'];\n", kNotice, script,
-                     exported, entry);
+  const char* const import_later =
+      all.import_rare ? "const $bring = async () => (await import('./later.mjs')).later;\n" : "";
+  return fmt::format("{}const $base = import.meta.url;\n{}{}export const {{ {} }} = $modules['{}'];\n", kNotice,
+                     import_later, script, exported, entry);
 }
 
-std::string bundle_later(PageHost host) {
+std::string bundle_later(PageHost host, ScriptKind kind) {
   Modules modules = first_of("main.js", host);
+  if (host == PageHost::kFolder) add_later(host, modules);
   modules.script.clear();
+  if (host == PageHost::kFolder) add(std::string(kRare), host, modules);
   add_later(host, modules);
-  return fmt::format("{}window.omnistereoLater = ($modules, $load, $base, fetch) => {{\n'use strict';\n{}}};\n", kNotice,
-                     modules.script);
+  return fmt::format("{}{} = ($modules, $load, $base, fetch) => {{\n'use strict';\n{}}};\n", kNotice,
+                     kind == ScriptKind::kModule ? "export const later" : "window.omnistereoLater", modules.script);
 }
 
 std::string script_of_file(std::string_view name, std::string_view bytes) {

@@ -14,12 +14,13 @@ enum class PageHost { kFolder, kView, kStudio };
 // The way in which a page loads the script: <script src>, or import.
 enum class ScriptKind { kClassic, kModule };
 
-// entry: a module of the page, main.js. A folder's script has everything; a server's script has the code for the first
-// view, and loads later.js when it needs more. A script of kModule exports what its entry exports.
+// entry: a module of the page, main.js. A folder's script has everything but what only layered scenes need; a server's
+// script has the code for the first view. Both load later.js when they need more; a script of kModule imports later.mjs
+// instead, and exports what its entry exports.
 std::string bundle(const std::string& entry, PageHost host = PageHost::kFolder, ScriptKind kind = ScriptKind::kClassic);
 
-// Returns later.js, which a server's main.js loads.
-std::string bundle_later(PageHost host);
+// Returns later.js, or later.mjs, which the scripts of a host load.
+std::string bundle_later(PageHost host, ScriptKind kind = ScriptKind::kClassic);
 
 // The script FILE.js that an export writes beside FILE: it holds the file's bytes in base64, 4/3 of their size. A page
 // that is opened from disk loads it, because browsers do not let such a page read files.

@@ -25,6 +25,8 @@ std::map<std::string, std::string> package_files(const std::string& folder) {
   files["stereo-360.js"] = bundle("stereo-360.js");
   files["aframe.js"] = bundle("aframe.js");
   files["stereo-360.mjs"] = bundle("stereo-360.js", PageHost::kFolder, ScriptKind::kModule);
+  files["later.js"] = bundle_later(PageHost::kFolder);
+  files["later.mjs"] = bundle_later(PageHost::kFolder, ScriptKind::kModule);
   files["three.mjs"] = bundle("three.js", PageHost::kFolder, ScriptKind::kModule);
   files["aframe.mjs"] = bundle("aframe.js", PageHost::kFolder, ScriptKind::kModule);
   return files;

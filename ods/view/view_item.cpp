@@ -18,6 +18,7 @@
 #include "ods/video/video_input.h"
 #include "ods/view/camera_json.h"
 #include "ods/view/formats.h"
+#include "ods/view/layered_file.h"
 
 namespace ods {
 
@@ -37,12 +38,40 @@ static bool hears_around(const std::string& path) {
   return sound[0].ambisonics->channels == 4 && !sound[0].ambisonics->has_head_locked;
 }
 
+// The picture that is shown outside the box, if there is one that browsers read.
+static void open_fallback(const LayeredFile& file, ViewItem& item) {
+  const std::string name =
+      file.missing.empty() ? std::filesystem::path(file.fallback).filename().native() : file.missing;
+  item.picture.eyes.emplace_back().eye = kMono;
+  if (name.empty()) return;
+  item.picture.guesses = {
+      fmt::format("a layered scene without its picture '{}': there is none that browsers show", name)};
+  if (file.fallback.empty()) return;
+  try {
+    OpenOptions options;
+    options.color_only = true;
+    StoredPicture picture = PictureReader(file.fallback, options).header();
+    if (!browsers_read(file.fallback, picture)) return;
+    item.picture = std::move(picture);
+    item.picture.guesses.clear();
+    item.fallback = file.fallback;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+  }
+}
+
 ViewItem open_view_item(const std::string& path, const FormatHint& known, std::optional<PictureReader> reader) {
   ViewItem item;
   item.path = path;
   item.known = known;
   item.name = std::filesystem::path(path).filename().string();
   item.notes = read_notes(path);
+  if (is_layered_scene(path)) {
+    item.kind = ItemKind::kLayers;
+    item.has_own_file = true;
+    open_fallback(read_layered_file(path), item);
+    return item;
+  }
   if (!names_eye(path) && is_video(path)) {
     const VideoInput video = open_video(path, known);
     if (!video.prototype.maps.empty()) {
@@ -63,7 +92,8 @@ ViewItem open_view_item(const std::string& path, const FormatHint& known, std::o
                               "one: ods convert makes a video of it that they show",
                               path));
     }
-    item.is_video = item.has_own_file = true;
+    item.kind = ItemKind::kVideo;
+    item.has_own_file = true;
     item.picture = video.prototype;
     item.fps = video.fps;
     item.is_ambisonic = hears_around(path);
@@ -96,6 +126,18 @@ std::vector<std::string> item_files(const ViewItem& item, size_t index) {
   return files;
 }
 
+std::string fallback_file(const ViewItem& item, size_t index) {
+  return item_file(index, "fallback" + std::filesystem::path(item.fallback).extension().string());
+}
+
+bool has_stills(const ViewItem& item) {
+  return item.kind != ItemKind::kLayers || !item.fallback.empty();
+}
+
+static const std::string& still_path(const ViewItem& item) {
+  return item.kind == ItemKind::kLayers ? item.fallback : item.path;
+}
+
 // The layout of light_png(): the file's layout, if it is simple enough.
 static Layout light_layout(const StoredPicture& picture) {
   if (picture.eyes.size() == 1) return Layout::kSeparate;
@@ -112,21 +154,25 @@ bool has_light(const ViewItem& item) {
 
 // Only JPEG can be previewed early; other formats must be decoded in full first.
 bool has_preview(const ViewItem& item, bool is_live) {
-  if (item.is_video || !item.has_own_file || item.picture.size.width < 2 * kPreviewWidth) return false;
+  if (item.kind != ItemKind::kPicture || !item.has_own_file || item.picture.size.width < 2 * kPreviewWidth)
+    return false;
   return !is_live || format_of_path(item.path) == FileFormat::kJpeg;
 }
 
 static Json item_json(const ViewItem& item, size_t index, bool is_live) {
   const std::vector<std::string> files = item_files(item, index);
   const bool is_mono = item.picture.eyes.size() == 1 || item.picture.front_and_back;
-  Json json = {{"name", item.name}, {"kind", item.is_video ? "video" : "picture"}};
+  Json json = {{"name", item.name}, {"kind", name_in(kItemKindTable, item.kind)}};
   if (item.has_own_file) {
     json["image"] = files[0];
   } else {
     json["left"] = files.front();
     json["right"] = files.back();
   }
-  json["thumbnail"] = item_file(index, kThumbnailFile);
+  if (item.kind == ItemKind::kLayers) {
+    json["fallback"] = item.fallback.empty() ? Json() : Json(fallback_file(item, index));
+  }
+  if (has_stills(item)) json["thumbnail"] = item_file(index, kThumbnailFile);
   if (has_preview(item, is_live)) json["preview"] = item_file(index, kPreviewFile);
   json["layout"] = is_mono ? "mono" : layout_name(item.picture.layout);
   json["layout_reason"] = item.picture.layout_reason;
@@ -144,8 +190,8 @@ static Json item_json(const ViewItem& item, size_t index, bool is_live) {
   for (const Hotspot& spot : item.notes.hotspots) {
     json["hotspots"].push_back({{"yaw", spot.yaw}, {"pitch", spot.pitch}, {"title", spot.title}, {"text", spot.text}});
   }
-  if (!is_live) json["poster"] = item_file(index, kPosterFile);
-  if (!item.is_video) return json;
+  if (!is_live && has_stills(item)) json["poster"] = item_file(index, kPosterFile);
+  if (item.kind != ItemKind::kVideo) return json;
   json["video"] = {{"fps", item.fps}};
   if (item.is_ambisonic) json["video"]["sound"] = "ambix";
   if (!item.subtitles.empty()) json["video"]["subtitles"] = item.subtitles;
@@ -247,7 +293,7 @@ std::string preview_jpeg(const ViewItem& item) {
 }
 
 StoredPicture open_shown(const ViewItem& item) {
-  if (item.is_video) {
+  if (item.kind == ItemKind::kVideo) {
     const VideoInput video = open_video(item.path, item.known);
     VideoDecoder decoder(video.path, video.track);
     const std::optional<DecodedFrame> frame = decoder.next();
@@ -258,12 +304,12 @@ StoredPicture open_shown(const ViewItem& item) {
   OpenOptions open;
   open.format = item.known;
   open.color_only = true;
-  return open_picture(item.path, open);
+  return open_picture(still_path(item), open);
 }
 
 std::string thumbnail_jpeg(const ViewItem& item) {
-  if (item.has_own_file && !item.is_video) {
-    return small_jpeg(item.path, kThumbnailWidth,
+  if (item.has_own_file && item.kind != ItemKind::kVideo) {
+    return small_jpeg(still_path(item), kThumbnailWidth,
                       eye_part(item.picture.layout, static_cast<int>(item.picture.eyes.size()), 0));
   }
   EyeOptions options;

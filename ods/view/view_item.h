@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures and videos as the viewer's page shows them: a file that browsers read, or a JPEG of each eye, and the camera
-// for the page's shader. docs/view.md describes view.json.
+// Pictures, videos and layered scenes as the viewer's page shows them: a file that browsers read, or a JPEG of each eye,
+// and the camera for the page's shader. docs/view.md describes view.json.
 #pragma once
 #include <memory>
 #include <span>
@@ -10,28 +10,36 @@
 #include <vector>
 
 #include "ods/base/json_reader.h"
+#include "ods/base/names.h"
 #include "ods/image/tone.h"
 #include "ods/picture/stored_picture.h"
 #include "ods/view/beside.h"
 
 namespace ods {
 
+enum class ItemKind { kPicture, kVideo, kLayers };
+inline constexpr NameRow<ItemKind> kItemKindTable[] = {
+    {ItemKind::kPicture, "picture"}, {ItemKind::kVideo, "video"}, {ItemKind::kLayers, "layers"}};
+static_assert(has_every_member(kItemKindTable));
+
 struct ViewItem {
+  ItemKind kind = ItemKind::kPicture;
   std::string path;
-  std::string name;  // for people: the file's name without its folder
-  bool is_video = false;
-  bool is_light = false;      // scene-linear: shown with an exposure and a tone curve
+  std::string fallback;   // of a layered scene: the path of the picture that is shown outside its box; empty for none
+  std::string name;       // for people: the file's name without its folder
+  bool is_light = false;  // scene-linear: shown with an exposure and a tone curve
   bool has_own_file = false;  // browsers read the file itself and divide it into eyes; else each eye is sent as a JPEG
   FormatHint known;           // the format as far as the caller specified it
-  StoredPicture picture;      // its header; with its pixels only if they were decoded before and the page needs them
+  StoredPicture picture;      // its header, or the fallback's; with its pixels only if they were decoded before and the
+                              // page needs them
   double fps = 0.0;           // frame rate of a video; 0: unknown
   bool is_ambisonic = false;  // a video's sound: first order, AmbiX
   Notes notes;
   std::string subtitles;  // of a video: WebVTT
 };
 
-// Opens a file, by `reader` if it is open already. Throws Error(kInput) as open_picture() and open_video() do, and for
-// a browser format that contains no picture.
+// Opens a file, by `reader` if it is open already. Throws Error(kInput) as open_picture() and open_video() do, for a
+// browser format that contains no picture, and for a layered scene of a newer version.
 ViewItem open_view_item(const std::string& path, const FormatHint& known = {},
                         std::optional<PictureReader> reader = {});
 
@@ -40,6 +48,7 @@ std::string view_json(std::span<const ViewItem> items, bool is_live, const Json&
 
 // The name under which view.json refers to a file of an item, relative to itself: item/0/NAME.
 std::string item_file(size_t index, std::string_view name);
+std::string fallback_file(const ViewItem& item, size_t index);
 inline constexpr std::string_view kPreviewFile = "preview.jpg", kThumbnailFile = "thumbnail.jpg",
                                   kLightFile = "light.png", kPosterFile = "poster.jpg";
 
@@ -53,10 +62,13 @@ constexpr int kPreviewWidth = 1024, kThumbnailWidth = 256;  // pixels of an eye,
 // they are. is_live: as view_json().
 bool has_preview(const ViewItem& item, bool is_live);
 
-// Returns a picture with its pixels, or a video's first picture. Throws Error(kInput).
+// Returns whether there are a thumbnail and a poster: not for a layered scene without a fallback.
+bool has_stills(const ViewItem& item);
+
+// Returns a picture with its pixels, a video's first picture, or a layered scene's fallback. Throws Error(kInput).
 StoredPicture open_shown(const ViewItem& item);
 
-// Return as JPEGs the preview, and a small left eye of any item (of a video's first picture). Throw Error(kInput) if
+// Return as JPEGs the preview, and a small left eye of an item that has stills (of a video's first picture). Throw Error(kInput) if
 // the file cannot be read, and as eye_jpeg() does.
 std::string preview_jpeg(const ViewItem& item);
 std::string thumbnail_jpeg(const ViewItem& item);

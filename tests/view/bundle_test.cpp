@@ -20,6 +20,12 @@ TEST(Bundle, IsNoModule) {
     }
     EXPECT_EQ(script.find("studio-panel"), std::string::npos) << entry;
   }
+  for (const PageHost host : {PageHost::kFolder, PageHost::kView, PageHost::kStudio}) {
+    const std::string script = bundle_later(host);
+    for (const char* const word : {"\nimport ", "\nexport ", "import("}) {
+      EXPECT_EQ(script.find(word), std::string::npos) << word;
+    }
+  }
 }
 
 // In Node, with which sites are made, it imports, too: page_browser_test and web_package_test do so.
@@ -42,16 +48,17 @@ TEST(Bundle, HasWhatItsHostAnswers) {
   }
 }
 
-// A server's page is in two scripts, a folder's in one.
+static std::set<std::string> modules_in(const std::string& script) {
+  const std::regex made(R"(\$modules\['([\w.-]+)'\] = \()");
+  std::set<std::string> names;
+  for (std::sregex_iterator each(script.begin(), script.end(), made), end; each != end; ++each) {
+    EXPECT_TRUE(names.insert((*each)[1]).second) << (*each)[1] << " twice";
+  }
+  return names;
+}
+
+// A server's page is in two scripts, a folder's in one, but for layered scenes.
 TEST(Bundle, WhatIsWantedLaterIsInAScriptOfItsOwn) {
-  const auto modules_in = [](const std::string& script) {
-    const std::regex made(R"(\$modules\['([\w.-]+)'\] = \()");
-    std::set<std::string> names;
-    for (std::sregex_iterator each(script.begin(), script.end(), made), end; each != end; ++each) {
-      EXPECT_TRUE(names.insert((*each)[1]).second) << (*each)[1] << " twice";
-    }
-    return names;
-  };
   const std::set<std::string> folder = modules_in(bundle("main.js"));
   for (const PageHost host : {PageHost::kView, PageHost::kStudio}) {
     const std::set<std::string> first = modules_in(bundle("main.js", host)), later = modules_in(bundle_later(host));
@@ -60,6 +67,26 @@ TEST(Bundle, WhatIsWantedLaterIsInAScriptOfItsOwn) {
                 later.contains("share.js"));
     EXPECT_EQ(first.contains("studio.js"), host == PageHost::kStudio);
   }
+}
+
+// Few pages have layered scenes. The page and the element load the same script, which may use only what both have.
+TEST(Bundle, AFolderHasTheCodeOfLayeredScenesApart) {
+  const std::string script = bundle_later(PageHost::kFolder);
+  const std::set<std::string> later = modules_in(script);
+  EXPECT_EQ(later, (std::set<std::string>{"glb.js", "layered-draw.js", "layered.js", "meshopt.js"}));
+  const std::regex use(R"(\$modules\['([\w.-]+)'\];)");
+  for (const char* const entry : {"main.js", "stereo-360.js"}) {
+    const std::set<std::string> first = modules_in(bundle(entry));
+    for (std::sregex_iterator each(script.begin(), script.end(), use), end; each != end; ++each) {
+      EXPECT_EQ(first.count((*each)[1]) + later.count((*each)[1]), 1u) << entry << ": " << (*each)[1];
+    }
+  }
+  const auto imports = [](const char* entry) {
+    return bundle(entry, PageHost::kFolder, ScriptKind::kModule).find("import('./later.mjs')") != std::string::npos;
+  };
+  EXPECT_TRUE(imports("stereo-360.js"));
+  EXPECT_FALSE(imports("three.js")) << "it has no use for it";
+  EXPECT_NE(bundle_later(PageHost::kFolder, ScriptKind::kModule).find("\nexport const later = ("), std::string::npos);
 }
 
 // The imports of a module are made before it.

@@ -186,7 +186,8 @@ async function testTranslations() {
   const { ACTIONS } = await import('./src/actions.js');
   const { MODES } = await import('./src/modes.js');
   const texts = new Set(['A panorama']);
-  for (const { label, group } of ACTIONS) if (label) texts.add(label).add(group);
+  const { MOVES } = await import('./src/layered.js');
+  for (const { label, group } of [...ACTIONS, ...MOVES]) if (label) texts.add(label).add(group);
   for (const { label, visitors } of MODES) texts.add(label).add(visitors ?? label);
   for (const file of ['actions', 'compare', 'controls', 'markup', 'player', 'stereo-360']) {
     const source = await (await fetch(`src/${file}.js`)).text();

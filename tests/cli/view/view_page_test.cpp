@@ -147,8 +147,8 @@ TEST_P(ElementBrowser, Shows) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pages, ElementBrowser,
-                         ::testing::Values("translations", "visitors", "mounted", "upright", "many", "grid", "fullscreen",
-                                           "lost", "strict"),
+                         ::testing::Values("translations", "visitors", "mounted", "upright", "many", "grid",
+                                           "fullscreen", "lost", "strict"),
                          [](const auto& each) { return std::string(each.param); });
 
 TEST_F(PageBrowser, TheElementBesideAFrame) {
@@ -290,7 +290,7 @@ TEST(Page, IsSmallOnTheWire) {
   EXPECT_LE(element, 70'000u);
   EXPECT_LE(view, 43'000u);
   EXPECT_LE(studio, 67'000u);
-  EXPECT_LE(later, 35'000u);
+  EXPECT_LE(later, 38'000u);  // layered scenes need 8,000 of them
 }
 
 }  // namespace ods::page_browser_test
