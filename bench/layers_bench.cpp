@@ -37,8 +37,7 @@ constexpr vec3 kSky(0.5f, 0.6f, 0.7f);
 // The unlit colours that rays meet.
 class Colours {
  public:
-  explicit Colours(const Scene& scene) : embree_(scene) {
-    lights_.instances = scene.instances;
+  explicit Colours(const Scene& scene) : embree_(scene), lights_(without_lights(scene)) {
     set_scene(tracer_, scene, lights_);
     tracer_.ray_time = 0.5f;
   }

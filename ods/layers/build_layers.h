@@ -30,7 +30,7 @@ struct LayerGeometry {
   std::vector<PushedTexel> pushed;
 };
 
-// What was built, for reports.
+// The size of a geometry, and of the scene that it shows.
 struct LayerCounts {
   size_t seen_triangles = 0;  // of the scene
   size_t simplified_triangles = 0;

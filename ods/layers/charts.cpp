@@ -30,9 +30,7 @@ PieceShape shape_of(const PieceMesh& mesh, const Piece& piece) {
   PieceShape shape;
   for (int i = 0; i < 3; i++) shape.corners[i] = mesh.positions[piece.corners[i]];
   shape.center = (shape.corners[0] + shape.corners[1] + shape.corners[2]) / 3.0f;
-  const vec3 across = cross(shape.corners[1] - shape.corners[0], shape.corners[2] - shape.corners[0]);
-  const float size = length(across);
-  shape.normal = size > 0.0f ? across / size : -normalize(shape.center);
+  shape.normal = normal_of(shape.corners[0], shape.corners[1], shape.corners[2]);
   return shape;
 }
 
@@ -42,11 +40,11 @@ int best_place(const Probe& probe, const PieceMesh& mesh, const PieceShape& shap
   float most = -2.0f;
   for (int place = 0; place < kPlaces; place++) {
     const DistanceMap& map = probe.maps[static_cast<size_t>(place)];
-    const vec3 ray = shape.center - (map.place - probe.box.center);
+    const vec3 ray = shape.center - map.place;
     const float distance = length(ray);
-    int seen = sees(map, probe.box, mesh, shape.center, shape.normal) ? 1 : 0;
+    int seen = sees(map, mesh, shape.center, shape.normal) ? 1 : 0;
     for (const vec3& corner : shape.corners) {
-      seen += sees(map, probe.box, mesh, mix(corner, shape.center, 0.1f), shape.normal) ? 1 : 0;
+      seen += sees(map, mesh, mix(corner, shape.center, 0.1f), shape.normal) ? 1 : 0;
     }
     const float angle = -dot(shape.normal, ray) / (distance * distance * distance);
     const float score = seen > 0 ? static_cast<float>(seen) * std::max(angle, 1e-6f) : angle - 1.0f;
@@ -60,7 +58,7 @@ Chart begin_chart(const Probe& probe, const PieceMesh& mesh, const PieceShape& s
   Chart chart;
   chart.place = best_place(probe, mesh, seed);
   chart.origin = seed.center;
-  const vec3 ray = seed.center - (probe.maps[static_cast<size_t>(chart.place)].place - probe.box.center);
+  const vec3 ray = seed.center - probe.maps[static_cast<size_t>(chart.place)].place;
   const float distance = length(ray);
   vec3 along = ray / distance;
   if (-dot(along, seed.normal) < 2.0f * kSteepest) along = normalize(along - seed.normal * 0.25f);
@@ -90,8 +88,7 @@ EdgeNeighbours neighbours_of(const PieceMesh& mesh) {
     if (piece.state != PieceState::kChart) continue;
     for (int corner = 0; corner < 3; corner++) {
       const uint a = piece.corners[corner], b = piece.corners[(corner + 1) % 3];
-      const auto [found, is_new] = edges.try_emplace(uint64_t{std::min(a, b)} << 32 | std::max(a, b),
-                                                     std::array<int, 2>{static_cast<int>(i), -1});
+      const auto [found, is_new] = edges.try_emplace(edge_key(a, b), std::array<int, 2>{static_cast<int>(i), -1});
       if (!is_new) found->second[1] = static_cast<int>(i);
     }
   }
@@ -155,7 +152,7 @@ void grow(const PieceMesh& mesh, const std::vector<PieceShape>& shapes, const Ed
     const Piece& piece = mesh.pieces[chart.pieces[next]];
     for (int corner = 0; corner < 3; corner++) {
       const uint a = piece.corners[corner], b = piece.corners[(corner + 1) % 3];
-      for (const int other : edges.at(uint64_t{std::min(a, b)} << 32 | std::max(a, b))) {
+      for (const int other : edges.at(edge_key(a, b))) {
         if (other < 0 || taken[static_cast<size_t>(other)]) continue;
         const PieceShape& shape = shapes[static_cast<size_t>(other)];
         if (dot(shape.normal, flat) < kFlat || -dot(shape.normal, along) < kSteepest) continue;

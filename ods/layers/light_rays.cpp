@@ -83,7 +83,7 @@ struct ChartShooter {
   // beside it is better.
   TexelRay ray(vec3 point, vec3 normal) const {
     TexelRay ray{};
-    const auto sees_it = [&](const DistanceMap& map) { return sees(map, probe.box, mesh, point, normal, 0); };
+    const auto sees_it = [&](const DistanceMap& map) { return sees(map, mesh, point, normal, 0); };
     if (std::none_of(probe.maps.begin(), probe.maps.end(), sees_it)) return ray;
     vec3 direction = normalize(point - place);
     if (dot(direction, normal) > -0.05f) direction = normalize(direction - normal * (0.1f + dot(direction, normal)));
@@ -159,7 +159,7 @@ void add_page_rays(const PanoramaPages& pages, const std::vector<char>& read, co
 
 void add_chart_rays(const FirstHits& hits, const Probe& probe, const PieceMesh& mesh, const Chart& chart, int owner,
                     LayerGeometry& geometry) {
-  const ChartShooter shooter{hits, probe, mesh, probe.maps[static_cast<size_t>(chart.place)].place - probe.box.center};
+  const ChartShooter shooter{hits, probe, mesh, probe.maps[static_cast<size_t>(chart.place)].place};
   const int size = geometry.texture_size;
   std::vector<char> inside(static_cast<size_t>(chart.width) * static_cast<size_t>(chart.height));
   for (const size_t index : chart.pieces) {
@@ -168,8 +168,7 @@ void add_chart_rays(const FirstHits& hits, const Probe& probe, const PieceMesh& 
       triangle.corners[i] = mesh.positions[mesh.pieces[index].corners[i]];
       triangle.at[i] = in_chart(chart, triangle.corners[i]);
     }
-    const vec3 across = cross(triangle.corners[1] - triangle.corners[0], triangle.corners[2] - triangle.corners[0]);
-    triangle.normal = length(across) > 0.0f ? normalize(across) : -normalize(triangle.corners[0] - shooter.place);
+    triangle.normal = normal_of(triangle.corners[0], triangle.corners[1], triangle.corners[2]);
     for_each_texel(triangle.at, size, [&](int x, int y, bool contained) {
       if (x < chart.x || y < chart.y || x >= chart.x + chart.width || y >= chart.y + chart.height) return true;
       const size_t at = texel_index(size, chart.texture, x, y);

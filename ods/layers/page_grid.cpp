@@ -88,12 +88,6 @@ int face_of(vec3 direction) {
   return found;
 }
 
-bool is_in_face(int face, vec3 direction) {
-  const float ahead = dot(direction, kAxes[face].ahead);
-  const float aside = std::max({abs(direction.x), abs(direction.y), abs(direction.z)});
-  return ahead >= aside * (1.0f - 1e-5f);
-}
-
 PagePlace place_in_pages(const PageGrid& grid, vec3 direction) {
   const int face = face_of(direction);
   const vec2 at = in_face(grid, face, direction);

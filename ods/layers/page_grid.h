@@ -47,9 +47,6 @@ PageGrid page_grid(int width);
 // The face in which a direction lies; of several, the first.
 int face_of(vec3 direction);
 
-// Returns whether a direction lies in a face, or so little beyond its edge that rounding may be the reason.
-bool is_in_face(int face, vec3 direction);
-
 // The page in which a direction lies, and its position there.
 struct PagePlace {
   int page;

@@ -12,10 +12,6 @@ constexpr float kOnPlane = 1e-5f;     // a corner on a plane, as a fraction of i
 constexpr float kAffineError = 1.0f;  // texels
 constexpr float kShortEdge = 2.0f;    // texels: not divided
 
-uint64_t edge_key(uint a, uint b) {
-  return uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-}
-
 vec3 center_of(const PieceMesh& mesh, const Piece& piece) {
   return (mesh.positions[piece.corners.x] + mesh.positions[piece.corners.y] + mesh.positions[piece.corners.z]) / 3.0f;
 }
@@ -139,6 +135,12 @@ void divide(PieceMesh& mesh, EdgeCuts cuts) {
     }
   }
   replace(mesh, cuts, add_halves);
+}
+
+vec3 normal_of(vec3 a, vec3 b, vec3 c) {
+  const vec3 across = cross(b - a, c - a);
+  const float size = length(across);
+  return size > 0.0f ? across / size : -normalize(a);
 }
 
 int longest_edge(const PieceMesh& mesh, const Piece& piece) {

@@ -5,6 +5,7 @@
 // remain neighbours: an edge is divided for both of its triangles at once, so
 // no corner lies within another triangle's edge, where gaps would sparkle.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -35,6 +36,11 @@ struct PieceMesh {
   std::vector<Piece> pieces;
 };
 
+// The same number for an edge in both directions.
+inline uint64_t edge_key(uint a, uint b) {
+  return uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+}
+
 // Edges to divide, and the vertex that divides each of them.
 using EdgeCuts = std::unordered_map<uint64_t, uint>;
 
@@ -45,6 +51,9 @@ void mark_edge(PieceMesh& mesh, EdgeCuts& cuts, uint a, uint b, float at = 0.5f)
 // Divides all pieces at the marked edges, and first at their longest edges if those are not marked, so that parts do not
 // become thin. Parts keep their piece's page and state.
 void divide(PieceMesh& mesh, EdgeCuts cuts);
+
+// The normal of a triangle, of unit length; towards the middle of the box if the triangle has no area.
+vec3 normal_of(vec3 a, vec3 b, vec3 c);
 
 // The longest edge of a piece: corner and next corner, 0 to 2.
 int longest_edge(const PieceMesh& mesh, const Piece& piece);

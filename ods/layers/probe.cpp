@@ -20,12 +20,6 @@ namespace {
 constexpr int kTile = 4;  // rays of a packet: a square, so that they meet the same surfaces
 static_assert(kTile * kTile == RayPacket::kMax);
 
-LightTable without_lights(const Scene& scene) {
-  LightTable table;
-  table.instances = scene.instances;
-  return table;
-}
-
 // Packs a component in 15 bits.
 uint32_t pack_component(float value) {
   return static_cast<uint32_t>(std::lrint((std::clamp(value, -1.0f, 1.0f) + 1.0f) * 16383.5f));
@@ -51,15 +45,15 @@ void lower(float& smallest, float value) {
 
 std::vector<vec3> places_of(const HeadBox& box) {
   const vec3 half = 0.5f * box.size;
-  std::vector<vec3> places = {box.center};
+  std::vector<vec3> places = {vec3(0.0f)};
   for (int i = 0; i < 8; i++) {
     const vec3 corner(i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z);
-    places.push_back(box.center + corner);
+    places.push_back(corner);
   }
   for (int i = 0; i < 6; i++) {
     vec3 face(0.0f);
     face[i / 2] = i % 2 == 0 ? half[i / 2] : -half[i / 2];
-    places.push_back(box.center + face);
+    places.push_back(face);
   }
   return places;
 }
@@ -176,7 +170,7 @@ Probe probe_scene(const FirstHits& hits, const HeadBox& box, int width, const Pr
     const PageGrid grid = place == kMiddle ? probe.grid : page_grid(width / 2);
     DistanceMap& map = probe.maps.emplace_back(DistanceMap{places[static_cast<size_t>(place)], grid, {}});
     map.distances.resize(texels_of(grid));
-    look_around(hits, map.place, grid, progress, [&](size_t texel, const FirstHit& seen) {
+    look_around(hits, box.center + map.place, grid, progress, [&](size_t texel, const FirstHit& seen) {
       if (seen.instance < 0) {
         map.distances[texel] = kFarAway;
         if (!sky) sky = true;

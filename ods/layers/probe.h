@@ -19,7 +19,7 @@ namespace ods {
 
 inline constexpr int kMiddle = 0;  // the first of the places
 inline constexpr int kPlaces = 15;
-std::vector<vec3> places_of(const HeadBox& box);
+std::vector<vec3> places_of(const HeadBox& box);  // relative to the middle
 
 // A surface as seen along a ray.
 struct FirstHit {
@@ -48,7 +48,7 @@ class FirstHits {
 
 // The distances of the first surfaces around a place, at the centres of the texels of a grid. kFarAway: the sky.
 struct DistanceMap {
-  vec3 place{0.0f};
+  vec3 place{0.0f};  // relative to the middle of the box
   PageGrid grid;
   std::vector<float> distances;  // page by page, row by row
 };

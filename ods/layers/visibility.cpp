@@ -99,8 +99,8 @@ bool PanoramaPages::shows(size_t texel, vec3 on_plane, vec3 normal, float tolera
   return abs(dot(normal, point(from) - on_plane)) <= tolerance + grid().pixel() * distance;
 }
 
-bool sees(const DistanceMap& map, const HeadBox& box, const PieceMesh& mesh, vec3 point, vec3 normal, int reach) {
-  const vec3 ray = point - (map.place - box.center);
+bool sees(const DistanceMap& map, const PieceMesh& mesh, vec3 point, vec3 normal, int reach) {
+  const vec3 ray = point - map.place;
   const float distance = length(ray);
   const float cosine = -dot(normal, ray) / distance;
   if (cosine < -kGrazing) return false;
@@ -122,13 +122,6 @@ enum class Share { kNothing, kSome, kAll };
 
 Share share_of(size_t some, size_t all) {
   return some == 0 ? Share::kNothing : some == all ? Share::kAll : Share::kSome;
-}
-
-vec3 normal_of(const PieceMesh& mesh, const Piece& piece) {
-  const vec3 a = mesh.positions[piece.corners.x];
-  const vec3 across = cross(mesh.positions[piece.corners.y] - a, mesh.positions[piece.corners.z] - a);
-  const float size = length(across);
-  return size > 0.0f ? across / size : -normalize(a);
 }
 
 // Texels along the longest edge of a piece in its page.
@@ -202,13 +195,14 @@ bool is_shown_somewhere(const PanoramaPages& pages, const PieceMesh& mesh, const
 Share seen_share(const Probe& probe, const PieceMesh& mesh, const Piece& piece, vec3 normal, float texels) {
   return share_of_points(mesh, piece, texels, [&](vec3 point) {
     return std::any_of(probe.maps.begin(), probe.maps.end(),
-                       [&](const DistanceMap& map) { return sees(map, probe.box, mesh, point, normal); });
+                       [&](const DistanceMap& map) { return sees(map, mesh, point, normal); });
   });
 }
 
 // The state of a piece; kUnknown if it must be divided first.
 PieceState decide(const PanoramaPages& pages, const PieceMesh& mesh, const Piece& piece, float pixel) {
-  const vec3 normal = normal_of(mesh, piece);
+  const vec3 normal =
+      normal_of(mesh.positions[piece.corners.x], mesh.positions[piece.corners.y], mesh.positions[piece.corners.z]);
   const bool faces = dot(normal, mesh.positions[piece.corners.x]) < 0.0f;
   const float texels = length_in_texels(mesh, piece, pixel);
   if (!mesh.masked && faces && bent_edges(mesh, pages.grid(), piece) != 0) {

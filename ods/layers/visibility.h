@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Decides for each piece whether the panorama from the middle shows it, whether other places in the box see it, or
-// nobody does; pieces that are only partly seen are divided, and so are those that their page would show distorted.
+// Decides for each piece whether the panorama from the middle shows it, other places in the box see it, or no place does.
+// Divides pieces that are only partly seen, and those that their page would show distorted.
 #pragma once
 #include <vector>
 
@@ -49,7 +49,7 @@ float depth_tolerance(const PieceMesh& mesh, float cosine);
 
 // Returns whether a place sees a point of a piece with a normal, or a point up to `reach` texels of its map beside it.
 // Both are relative to the middle.
-bool sees(const DistanceMap& map, const HeadBox& box, const PieceMesh& mesh, vec3 point, vec3 normal, int reach = 1);
+bool sees(const DistanceMap& map, const PieceMesh& mesh, vec3 point, vec3 normal, int reach = 1);
 
 // Gives every piece of a mesh its state.
 void decide_pieces(const PanoramaPages& pages, PieceMesh& mesh, float pixel);

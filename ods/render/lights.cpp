@@ -276,6 +276,12 @@ static void fill_picks(const std::vector<WeighedLight>& wanted, const std::vecto
   }
 }
 
+LightTable without_lights(const Scene& scene) {
+  LightTable table;
+  table.instances = scene.instances;
+  return table;
+}
+
 void update_lights(const Scene& scene, LightTable& table) {
   table.instances = scene.instances;
   table.lights.clear();

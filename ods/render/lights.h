@@ -48,6 +48,9 @@ struct LightTable {
 // light, because scattered rays find it equally well.
 LightTable make_lights(const Scene& scene);
 
+// A table for rays that only look for surfaces.
+LightTable without_lights(const Scene& scene);
+
 // Updates the table for a scene that set_time() changed, without reading its environment again.
 void update_lights(const Scene& scene, LightTable& table);
 

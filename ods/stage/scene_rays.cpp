@@ -17,12 +17,6 @@ constexpr int kOpenDirections = 512;
 constexpr int kMaxPanes = 32;  // panes of glass behind each other
 constexpr float kSteepest = 0.7071f;
 
-LightTable without_lights(const Scene& scene) {
-  LightTable table;
-  table.instances = scene.instances;
-  return table;
-}
-
 // Repeated surfaces, and outlines.
 std::vector<char> left_out(const Scene& scene) {
   std::vector<char> found = find_repeats(scene);

@@ -13,7 +13,7 @@ namespace ods::owners_test {
 
 constexpr int kSize = 96;
 
-// Bands of 7 columns, of one normal and albedo: every third belongs to nobody, and the others to two owners in turn.
+// Bands of 7 columns, of one normal and albedo: every third has no owner, and the others alternate between two.
 int owner_at(int x) {
   const int band = x / 7;
   return band % 3 == 2 ? -1 : band % 3;

@@ -145,7 +145,7 @@ TEST(BuildLayers, LeavesOutWhatNobodySees) {
   for (const LayerMesh& mesh : geometry.scene.meshes) {
     for (const vec3& position : mesh.positions) EXPECT_GT(position.z, -3.01f);
   }
-  // What no eye sees of the wall behind the pillar's middle is dropped, so the charts are smaller than the pillar's
+  // The part of the wall that the pillar hides from every eye is dropped, so the charts are smaller than the pillar's
   // shadow on the wall: 0.6 m x 3 m.
   size_t texels = 0;
   for (const int owner : geometry.rays.owners) texels += owner >= 2 * static_cast<int>(scene.instances.size()) ? 1 : 0;

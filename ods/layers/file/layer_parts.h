@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the writers of layered scenes share.
+// The parts of a file that the writers of layered scenes share.
 #pragma once
 #include <string>
 #include <vector>

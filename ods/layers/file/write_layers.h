@@ -49,7 +49,7 @@ struct WriteLayersOptions {
   int quality = 90;                               // of WebP and JPEG, 1 to 100
 };
 
-// What a layered scene costs its viewer.
+// The load on the graphics card that shows a layered scene.
 struct LayersCost {
   size_t triangles = 0;
   size_t vertices = 0;
