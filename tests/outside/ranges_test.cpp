@@ -26,6 +26,7 @@ constexpr Case kCases[] = {
     {"convert", "in_360_TB.png -o x.png"},
     {"denoise", "in.exr -o x.png"},
     {"merge", "part_#.exr -o x.png"},
+    {"layers", "spheres -o x.glb --width 256 --samples 1"},
     {"view", "in_360_TB.png --export site"},
     {"video", "spheres -o x.mp4 --width 16 --samples 1 --duration 0.1"},
     {"encode", "in_360_TB.png -o x.mp4"},
