@@ -15,7 +15,7 @@
 #include "cli/render/device.h"
 #include "cli/render/first_look.h"
 #include "cli/render/plan.h"
-#include "ods/layers/light_layers.h"
+#include "ods/layers/light/light_layers.h"
 #include "ods/sequence/frame_renderer.h"
 #include "ods/sequence/identity.h"
 #include "ods/sequence/looks.h"

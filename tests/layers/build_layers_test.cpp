@@ -9,7 +9,7 @@
 #include <random>
 
 #include "ods/base/error.h"
-#include "ods/layers/light_layers.h"
+#include "ods/layers/light/light_layers.h"
 #include "ods/render/cpu/render.h"
 #include "tests/support/scenes.h"
 

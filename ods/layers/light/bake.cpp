@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/layers/bake.h"
+#include "ods/layers/light/bake.h"
 
 #include <fmt/format.h>
 

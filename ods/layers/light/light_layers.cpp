@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/layers/light_layers.h"
+#include "ods/layers/light/light_layers.h"
 
 #include <algorithm>
 #include <memory>
 #include <utility>
 
-#include "ods/layers/display.h"
-#include "ods/layers/push.h"
-#include "ods/layers/sky_mesh.h"
+#include "ods/layers/light/display.h"
+#include "ods/layers/light/push.h"
+#include "ods/layers/light/sky_mesh.h"
 
 namespace ods {
 

@@ -4,8 +4,8 @@
 // The light of a layered scene: path traced texel by texel, and displayed as in a picture.
 #pragma once
 #include "ods/image/tone.h"
-#include "ods/layers/bake.h"
 #include "ods/layers/build_layers.h"
+#include "ods/layers/light/bake.h"
 
 namespace ods {
 

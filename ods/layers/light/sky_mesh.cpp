@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ods/layers/sky_mesh.h"
+#include "ods/layers/light/sky_mesh.h"
 
 #include <algorithm>
 
-#include "ods/layers/display.h"
+#include "ods/layers/light/display.h"
+#include "ods/layers/light/sky.h"
 #include "ods/layers/page_grid.h"
-#include "ods/layers/sky.h"
 
 namespace ods {
 
