@@ -11,6 +11,7 @@
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
 #include "cli/console/long_job.h"
+#include "cli/layers/layer_files.h"
 #include "cli/layers/layers_job.h"
 #include "cli/render/device.h"
 #include "cli/render/first_look.h"
@@ -22,7 +23,14 @@
 
 namespace {
 
-constexpr double kShareOfGeometry = 0.15;  // of the whole time
+namespace fs = std::filesystem;
+
+// Of the whole time: when each step ends.
+constexpr double kGeometry = 0.15, kLight = 0.92;
+
+std::string unfinished_path(const RenderJob& job) {
+  return job.output + ".unfinished";
+}
 
 ods::LayerLight light_of(const RenderJob& job, const ods::RenderOptions& options, const ods::SequenceOptions& look) {
   ods::LayerLight light;
@@ -30,24 +38,18 @@ ods::LayerLight light_of(const RenderJob& job, const ods::RenderOptions& options
   light.tone = look.finish.save.tone;
   light.bake.render = options;
   light.bake.is_denoised = look.finish.denoiser != ods::Denoiser::kNone;
-  light.bake.unfinished = job.output + ".unfinished";
+  light.bake.unfinished = unfinished_path(job);
   light.bake.scene = identified(job).scene;
   std::error_code ignored;
-  if (job.restart) std::filesystem::remove(light.bake.unfinished, ignored);
+  if (job.restart) fs::remove(light.bake.unfinished, ignored);
   return light;
 }
 
 void report_geometry(const ods::LayerCounts& counts, double seconds) {
   note(fmt::format("{} of the scene's triangles are seen; {} after simplifying and cutting, {} charts, in {}",
                    counts.seen_triangles, counts.triangles, counts.charts, duration_text(seconds)));
-}
-
-void report_file(const ods::LayeredScene& scene, const std::string& path, uint64_t bytes) {
-  const ods::LayersCost cost = ods::cost_of(scene);
-  note(fmt::format("{:.1f} MB; {} triangles, {} draw calls, {:.0f} MB of textures on the graphics card",
-                   static_cast<double>(bytes) * 1e-6, cost.triangles, cost.draw_calls,
-                   static_cast<double>(cost.texture_bytes) * 1e-6));
-  announce_file(path);
+  note(fmt::format("holes: {:.3f} % of what other eyes in the box see, at worst {:.3f} %", 100.0 * counts.holes.share,
+                   100.0 * counts.holes.worst));
 }
 
 void bake_layers(const LayersJob& given, ProgressLines& lines) {
@@ -77,25 +79,23 @@ void bake_layers(const LayersJob& given, ProgressLines& lines) {
     ods::LayerCounts counts;
     ods::LayerGeometry geometry =
         ods::build_layers(scene, {shot.camera().position, ods::vec3(given.box)},
-                          given.width.value_or(2 * job.render.width), &counts, report_from(0.0, kShareOfGeometry));
+                          given.width.value_or(2 * job.render.width), &counts, report_from(0.0, kGeometry));
     geometry.scene.yaw = shot.camera().yaw;
     geometry.scene.fallback = given.fallback;
     report_geometry(counts, seconds_since(start));
-    const ods::LayeredScene layers =
-        ods::light_layers(std::move(geometry), scene, renderer.renderer(), light_of(job, shot.options, options),
-                          report_from(kShareOfGeometry, 0.97));
-    const uint64_t bytes = ods::write_layers(layers, job.output, given.write, report_from(0.97, 1.0));
-    lines.clear();
-    report_file(layers, job.output, bytes);
+    write_layer_files(given,
+                      ods::light_layers(std::move(geometry), scene, renderer.renderer(),
+                                        light_of(job, shot.options, options), report_from(kGeometry, kLight)),
+                      report_from(kLight, 1.0), lines);
   } catch (const ods::Error& error) {
     if (error.kind() != ods::ErrorKind::kCancelled) throw;
-    if (std::filesystem::exists(job.output + ".unfinished")) note("the light so far is kept: the same command resumes");
+    if (fs::exists(unfinished_path(job))) note("the light so far is kept: the same command resumes");
     stop.end();
   }
 }
 
 void layers(const LayersJob& given) {
-  ods::check_layers_path(given.render.output);
+  check_layer_files(given);
   LayersJob job = given;
   job.render = settled(given.render);
   run_long_job(job.render.progress, job.render.render.threads, [&](ProgressLines& lines) { bake_layers(job, lines); });

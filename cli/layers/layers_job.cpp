@@ -13,12 +13,16 @@ constexpr const char* kLayersExamples =
     "  ods layers scene.glb -o scene.layers.glb\n"
     "  ods layers house.blend -o house.usdz --position 0,1.6,0\n"
     "  ods layers scene.glb -o scene.layers.glb --plain     for Blender and every viewer of glTF\n"
+    "  ods layers scene.glb -o site/ --export               a web page, also for browsers without a headset\n"
     "  ods layers room -o room.layers.glb --box 0.5 --quality final\n"
     "  ods view scene.layers.glb";
 
 void add_layers_options(Options& options, LayersJob& job) {
   options.group("Layers");
-  options.text("-o,--output", ValueKind::output_file(), job.render.output, "output file: .glb or .usdz");
+  options.text("-o,--output", ValueKind::output_file(), job.render.output,
+               "output file: .glb or .usdz; with --export a folder");
+  options.flag("--export", job.is_page,
+               "a web page: the viewer with the layered scene, and outside of the box a stereo picture made of it");
   options.number("--width", job.width, 256, 32768,
                  "sharpness: that of a lat-long panorama with this many pixels around. By default twice the width "
                  "that --quality gives a picture");
@@ -28,10 +32,20 @@ void add_layers_options(Options& options, LayersJob& job) {
   options.number("--texture-quality", job.write.quality, 1, 100, "quality of the textures");
   options.text(
       "--fallback", "NAME", job.fallback,
-      "name of a stereo picture from the same place, in the same folder: what viewers show outside of the box");
+      "name of a stereo picture from the same place, in the same folder: what viewers show outside of the box. Made of "
+      "the layered scene if it does not exist");
   add_exposure_option(options, job.render);
   options.choice("--tone", job.render.tone, ods::kToneCurveTable, "tone curve",
                  std::string(ods::tone_curve_name(job.render.save.tone)));
+}
+
+// The files of a page are named after the scene, its folder may have a slash at the end.
+void name_page(LayersJob& job) {
+  if (!job.fallback.empty()) throw UsageError("--export makes its stereo picture itself: leave out --fallback");
+  while (job.render.output.size() > 1 && job.render.output.ends_with('/')) job.render.output.pop_back();
+  const std::string stem = std::filesystem::path(job.render.scene.name).stem();
+  job.page_file = stem + ".layers.glb";
+  job.fallback = stem + "_360_TB.jpg";
 }
 
 }  // namespace
@@ -58,5 +72,6 @@ LayersJob parse_layers(Options& options) {
   if (!job.fallback.empty() && std::filesystem::path(job.fallback).has_parent_path()) {
     throw UsageError("--fallback is the name of a file in the output's folder, without a folder");
   }
+  if (job.is_page) name_page(job);
   return job;
 }

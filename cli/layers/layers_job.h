@@ -13,7 +13,9 @@ struct LayersJob {
   RenderJob render;  // the scene, its light, the viewer's place, and the quality of the light
   std::optional<int> width;
   float box = 0.3f;
-  std::string fallback;
+  std::string fallback;   // the name of the stereo picture beside the file, which is made if it does not exist
+  bool is_page = false;   // the output is the folder of a web page
+  std::string page_file;  // the name of its layered scene
   ods::WriteLayersOptions write;
 };
 

@@ -202,8 +202,11 @@ LayerGeometry build_layers(const Scene& scene, const HeadBox& box, int width, La
   for (size_t i = 0; i < texels; i++) {
     if (geometry.rays.owners[i] >= 0) (i < in_pages ? counts.page_texels : counts.chart_texels)++;
   }
+  if (report) {
+    counts.holes = find_holes(hits, geometry.scene, {{}, progress.cancelled});
+    *report = counts;
+  }
   if (progress.report) progress.report(1.0);
-  if (report) *report = counts;
   return geometry;
 }
 

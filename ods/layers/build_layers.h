@@ -9,6 +9,7 @@
 
 #include "ods/base/progress.h"
 #include "ods/camera/texel_rays.h"
+#include "ods/layers/holes.h"
 #include "ods/layers/layered_scene.h"
 #include "ods/scene/scene.h"
 
@@ -38,6 +39,7 @@ struct LayerCounts {
   size_t charts = 0;
   size_t page_texels = 0;  // that have light of their own
   size_t chart_texels = 0;
+  LayerHoles holes;
 };
 
 // width: of the panorama in texels, as sharp as a lat-long picture of this width. Throws Error(kUsage) if the box cuts a

@@ -3,9 +3,9 @@
 //
 // ods layers as users call it.
 #include <csignal>
-#include <thread>
 
 #include "ods/layers/file/layers_info.h"
+#include "ods/picture/stored_picture.h"
 #include "ods/scene/load/load.h"
 #include "tests/support/cli_runner.h"
 
@@ -23,6 +23,7 @@ TEST_F(LayersCommand, WritesAFileThatViewersRead) {
   ASSERT_EQ(run(layers("--box 0.25 --yaw 30 --fallback spheres_360_TB.png")), 0) << err;
   EXPECT_NE(out.find("spheres.layers.glb"), std::string::npos) << out;
   EXPECT_NE(err.find(" draw calls"), std::string::npos) << err;
+  EXPECT_NE(err.find("holes: 0.0"), std::string::npos) << err;
   const std::optional<LayersInfo> info = read_layers_info(folder.path("spheres.layers.glb"));
   ASSERT_TRUE(info);
   EXPECT_EQ(info->box.size, vec3(0.25f));
@@ -42,24 +43,49 @@ TEST_F(LayersCommand, WritesTheOtherForms) {
   EXPECT_EQ(folder.read("spheres.usdz").substr(0, 2), "PK");
 }
 
+TEST_F(LayersCommand, MakesThePictureOutsideTheBox) {
+  ASSERT_EQ(run(layers("--fallback outside_360_TB.jpg", "spheres.glb")), 0) << err;
+  const StoredPicture picture = open_picture(folder.path("outside_360_TB.jpg"), {});
+  EXPECT_EQ(picture.eyes.size(), 2u);
+  EXPECT_NE(out.find("outside_360_TB.jpg"), std::string::npos) << out;
+  const std::string before = folder.read("outside_360_TB.jpg");
+  ASSERT_EQ(run(layers("--fallback outside_360_TB.jpg --yaw 90", "spheres.glb")), 0) << err;
+  EXPECT_EQ(folder.read("outside_360_TB.jpg"), before);
+}
+
+TEST_F(LayersCommand, ExportsAPage) {
+  ASSERT_EQ(run(layers("--export", "site/")), 0) << err;
+  EXPECT_EQ(out, folder.path("site/view.json") + "\n");
+  for (const char* const name : {"index.html", "item/0/picture.glb", "item/0/fallback.jpg"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder.path(std::string("site/") + name))) << name;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path("site.unfinished")));
+}
+
 TEST_F(LayersCommand, RefusesBeforeItBakes) {
   EXPECT_EQ(run("layers spheres"), 2);
   EXPECT_NE(err.find("-o scene.layers.glb"), std::string::npos) << err;
   EXPECT_EQ(run(layers("", "spheres.obj")), 2);
   EXPECT_NE(err.find(".usdz"), std::string::npos) << err;
   EXPECT_EQ(run(layers("--fallback ../other.png")), 2);
+  EXPECT_EQ(run(layers("--fallback other.txt")), 2);
+  EXPECT_NE(err.find("other.txt"), std::string::npos) << err;
+  EXPECT_EQ(run(layers("--export --fallback other.jpg", "site")), 2);
+  folder.write("file", "");
+  EXPECT_NE(run(layers("--export", "file")), 0);
+  EXPECT_EQ(err.find("triangles are seen"), std::string::npos) << err;
   EXPECT_EQ(run(layers("--box 3")), 2);
   EXPECT_EQ(run("layers room --width 256 --box 2 -o " + folder.path("room.glb")), 2);
   EXPECT_NE(err.find("--box of at most"), std::string::npos) << err;
   EXPECT_FALSE(std::filesystem::exists(folder.path("room.glb")));
 }
 
-// Ctrl-C keeps the light so far, for the same command only (tests/layers/bake_test.cpp resumes).
+// Ctrl-C keeps the light so far, for the same command only (tests/layers/light/bake_test.cpp resumes).
 TEST_F(LayersCommand, KeepsTheLightWhenInterrupted) {
   const std::string output = folder.path("long.glb"), kept = output + ".unfinished";
-  Ods interrupted({"layers", "spheres", "--width", "512", "--samples", "100000", "--noise", "none", "-o", output});
-  interrupted.wait_for("triangles are seen");
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  Ods interrupted({"layers", "spheres", "--width", "512", "--samples", "20000", "--noise", "none", "-o", output,
+                   "--progress", "json"});
+  interrupted.wait_for("\"progress\":0.16");  // the geometry ends at 0.15
   interrupted.kill(SIGINT);
   EXPECT_EQ(interrupted.finish(), 128 + SIGINT);
   EXPECT_NE(interrupted.err.find("the same command resumes"), std::string::npos) << interrupted.err;

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The files of ods layers: the layered scene with its stereo picture, or a page.
+#pragma once
+#include "cli/console/progress.h"
+#include "cli/layers/layers_job.h"
+#include "ods/base/progress.h"
+#include "ods/layers/layered_scene.h"
+
+// Throws UsageError and ods::Error if the files cannot be written.
+void check_layer_files(const LayersJob& job);
+
+// Writes the files and prints their names.
+void write_layer_files(const LayersJob& job, const ods::LayeredScene& layers, const ods::Progress& progress,
+                       ProgressLines& lines);
