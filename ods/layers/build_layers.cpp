@@ -125,6 +125,7 @@ void add_chart_meshes(const std::vector<PieceMesh>& meshes, const std::vector<Ch
     const Chart& chart = charts[c];
     MeshBuilder builder(scene.meshes[static_cast<size_t>(chart.texture)]);
     for (const size_t piece : chart.pieces) {
+      if (meshes[chart.mesh].pieces[piece].state == PieceState::kDropped) continue;
       uvec3 corners;
       for (int i = 0; i < 3; i++) {
         const uint corner = meshes[chart.mesh].pieces[piece].corners[i];
@@ -169,7 +170,7 @@ LayerGeometry build_layers(const Scene& scene, const HeadBox& box, int width, La
   for (const uint8_t side : probe.sides) counts.seen_triangles += side != 0 ? 1 : 0;
   const PanoramaPages pages(probe);
   const float pixel = pixel_angle(width);
-  const std::vector<PieceMesh> meshes = make_pieces(scene, pages, pixel, counts, progress);
+  std::vector<PieceMesh> meshes = make_pieces(scene, pages, pixel, counts, progress);
 
   const int size = geometry.texture_size = probe.grid.size();
   int page_count = 0;
@@ -178,9 +179,7 @@ LayerGeometry build_layers(const Scene& scene, const HeadBox& box, int width, La
   add_page_meshes(probe.grid, meshes, texture_of, geometry.scene);
   std::vector<Chart> charts = make_charts(probe, meshes, pixel, size);
   pack(meshes, charts, size, geometry.scene);
-  add_chart_meshes(meshes, charts, size, geometry.scene);
   counts.charts = charts.size();
-  for (const LayerMesh& mesh : geometry.scene.meshes) counts.triangles += mesh.triangles.size();
 
   geometry.rays.width = size;
   geometry.rays.height = size * static_cast<int>(geometry.scene.meshes.size());
@@ -198,6 +197,8 @@ LayerGeometry build_layers(const Scene& scene, const HeadBox& box, int width, La
   tbb::parallel_for(size_t{0}, charts.size(), [&](size_t i) {
     add_chart_rays(hits, probe, meshes[charts[i].mesh], charts[i], first_owner + static_cast<int>(i), geometry);
   });
+  add_chart_meshes(meshes, charts, size, geometry.scene);
+  for (const LayerMesh& mesh : geometry.scene.meshes) counts.triangles += mesh.triangles.size();
   const size_t in_pages = static_cast<size_t>(page_count) * static_cast<size_t>(size) * static_cast<size_t>(size);
   for (size_t i = 0; i < texels; i++) {
     if (geometry.rays.owners[i] >= 0) (i < in_pages ? counts.page_texels : counts.chart_texels)++;

@@ -17,6 +17,7 @@ namespace {
 constexpr float kLift = 1e-3f;  // metres in front of a surface that the probe's own ray has met
 constexpr int kMaskGrid = 4;    // coverage is sampled kMaskGrid x kMaskGrid times in a texel
 constexpr float kFlatness = 1e-3f;
+constexpr int kSeveral = 4;     // texels of a piece that is dropped if none has a ray
 constexpr float kGrazingJitter = 0.02f;  // cosine: steps on steeper surfaces become no longer
 
 size_t texel_index(int size, int texture, int x, int y) {
@@ -157,7 +158,7 @@ void add_page_rays(const PanoramaPages& pages, const std::vector<char>& read, co
   });
 }
 
-void add_chart_rays(const FirstHits& hits, const Probe& probe, const PieceMesh& mesh, const Chart& chart, int owner,
+void add_chart_rays(const FirstHits& hits, const Probe& probe, PieceMesh& mesh, const Chart& chart, int owner,
                     LayerGeometry& geometry) {
   const ChartShooter shooter{hits, probe, mesh, probe.maps[static_cast<size_t>(chart.place)].place};
   const int size = geometry.texture_size;
@@ -169,6 +170,7 @@ void add_chart_rays(const FirstHits& hits, const Probe& probe, const PieceMesh& 
       triangle.at[i] = in_chart(chart, triangle.corners[i]);
     }
     triangle.normal = normal_of(triangle.corners[0], triangle.corners[1], triangle.corners[2]);
+    int contained_texels = 0, lit_texels = 0;
     for_each_texel(triangle.at, size, [&](int x, int y, bool contained) {
       if (x < chart.x || y < chart.y || x >= chart.x + chart.width || y >= chart.y + chart.height) return true;
       const size_t at = texel_index(size, chart.texture, x, y);
@@ -188,8 +190,11 @@ void add_chart_rays(const FirstHits& hits, const Probe& probe, const PieceMesh& 
       const bool lit = ray.direction != vec3(0.0f);
       geometry.rays.owners[at] = lit ? owner : -1;
       geometry.claims[at] = lit ? -1 : owner;
+      if (contained) contained_texels++;
+      if (lit) lit_texels++;
       return true;
     });
+    if (contained_texels >= kSeveral && lit_texels == 0) mesh.pieces[index].state = PieceState::kDropped;
   }
 }
 

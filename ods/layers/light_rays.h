@@ -18,9 +18,10 @@ void add_page_rays(const PanoramaPages& pages, const std::vector<char>& read, co
                    LayerGeometry& geometry);
 
 // Adds the rays of a chart's texels: from just in front of the surface, as the chart's place sees it. Texels beyond the
-// surface's edge remain empty; those of masked surfaces get their coverage. owner: of the texels. Safe from several
-// threads at once for different charts.
-void add_chart_rays(const FirstHits& hits, const Probe& probe, const PieceMesh& mesh, const Chart& chart, int owner,
+// surface's edge remain empty; those of masked surfaces get their coverage. A piece of several texels none of which has a
+// ray is dropped: it was kept because of tolerances, and would be in front of what hides it. owner: of the texels. Safe
+// from several threads at once for different charts.
+void add_chart_rays(const FirstHits& hits, const Probe& probe, PieceMesh& mesh, const Chart& chart, int owner,
                     LayerGeometry& geometry);
 
 }  // namespace ods
