@@ -16,6 +16,7 @@
 #include "cli/render/first_look.h"
 #include "cli/render/plan.h"
 #include "ods/layers/light_layers.h"
+#include "ods/layers/probes/light_probes.h"
 #include "ods/sequence/frame_renderer.h"
 #include "ods/sequence/identity.h"
 #include "ods/sequence/looks.h"
@@ -50,6 +51,13 @@ void report_file(const ods::LayeredScene& scene, const std::string& path, uint64
   announce_file(path);
 }
 
+// They take seconds, after the light: an interruption now would lose it.
+ods::LightProbes probes_of(const ods::Scene& scene, const ods::HeadBox& box, const ods::RenderOptions& render) {
+  ods::ProbeOptions options;
+  options.render = render;
+  return ods::light_probes(scene, box, options);
+}
+
 void bake_layers(const LayersJob& given, ProgressLines& lines) {
   ods::Scene scene = open_lit_scene(given.render.scene, false);
   const RenderJob job = on_device(given.render, scene);
@@ -80,10 +88,12 @@ void bake_layers(const LayersJob& given, ProgressLines& lines) {
                           given.width.value_or(2 * job.render.width), &counts, report_from(0.0, kShareOfGeometry));
     geometry.scene.yaw = shot.camera().yaw;
     geometry.scene.fallback = given.fallback;
+    geometry.scene.name = std::filesystem::path(job.scene.name).filename().string();
     report_geometry(counts, seconds_since(start));
-    const ods::LayeredScene layers =
+    ods::LayeredScene layers =
         ods::light_layers(std::move(geometry), scene, renderer.renderer(), light_of(job, shot.options, options),
-                          report_from(kShareOfGeometry, 0.97));
+                          report_from(kShareOfGeometry, 0.96));
+    layers.light.probes = probes_of(scene, layers.box, shot.options);
     const uint64_t bytes = ods::write_layers(layers, job.output, given.write, report_from(0.97, 1.0));
     lines.clear();
     report_file(layers, job.output, bytes);
