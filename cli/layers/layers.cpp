@@ -17,6 +17,7 @@
 #include "cli/render/first_look.h"
 #include "cli/render/plan.h"
 #include "ods/layers/light/light_layers.h"
+#include "ods/layers/probes/light_probes.h"
 #include "ods/sequence/frame_renderer.h"
 #include "ods/sequence/identity.h"
 #include "ods/sequence/looks.h"
@@ -52,6 +53,13 @@ void report_geometry(const ods::LayerCounts& counts, double seconds) {
                    100.0 * counts.holes.worst));
 }
 
+// They take seconds, after the light: an interruption now would lose it.
+ods::LightProbes probes_of(const ods::Scene& scene, const ods::HeadBox& box, const ods::RenderOptions& render) {
+  ods::ProbeOptions options;
+  options.render = render;
+  return ods::light_probes(scene, box, options);
+}
+
 void bake_layers(const LayersJob& given, ProgressLines& lines) {
   ods::Scene scene = open_lit_scene(given.render.scene, false);
   const RenderJob job = on_device(given.render, scene);
@@ -82,11 +90,13 @@ void bake_layers(const LayersJob& given, ProgressLines& lines) {
                           given.width.value_or(2 * job.render.width), &counts, report_from(0.0, kGeometry));
     geometry.scene.yaw = shot.camera().yaw;
     geometry.scene.fallback = given.fallback;
+    geometry.scene.name = fs::path(job.scene.name).filename().string();
     report_geometry(counts, seconds_since(start));
-    write_layer_files(given,
-                      ods::light_layers(std::move(geometry), scene, renderer.renderer(),
-                                        light_of(job, shot.options, options), report_from(kGeometry, kLight)),
-                      report_from(kLight, 1.0), lines);
+    ods::LayeredScene layers =
+        ods::light_layers(std::move(geometry), scene, renderer.renderer(), light_of(job, shot.options, options),
+                          report_from(kGeometry, kLight));
+    layers.light.probes = probes_of(scene, layers.box, shot.options);
+    write_layer_files(given, layers, report_from(kLight, 1.0), lines);
   } catch (const ods::Error& error) {
     if (error.kind() != ods::ErrorKind::kCancelled) throw;
     if (fs::exists(unfinished_path(job))) note("the light so far is kept: the same command resumes");

@@ -5,15 +5,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "cli/console/console.h"
+#include "cli/options/camera_options.h"
 #include "ods/base/error.h"
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
 #include "ods/files/confined_file.h"
 #include "ods/scene/builtin/builtin.h"
 #include "ods/scene/catchers.h"
+#include "ods/scene/load/join.h"
 #include "ods/scene/load/load.h"
 #include "ods/scene/motion.h"
 #include "ods/scene/sheet_glass.h"
@@ -92,6 +95,43 @@ void add_scene_option(Options& options, SceneSource& source, const char* help) {
   options.text("--scene", scene_kind(), source.name, help);
   add_shape_options(options, source);
   add_confine_option(options, source);
+}
+
+void add_object_options(Options& options, ObjectOptions& objects, const std::string& what) {
+  const auto kind = ValueKind::input_file("FILE", [](const std::string& name) { return !ods::find_builtin(name); });
+  options.texts("--with", kind, objects.files, "put another scene into " + what + ", as an object");
+  options.texts("--at", "X,Y,Z", objects.places, "where the object's own origin is put, metres, one for each --with");
+  options.texts("--turn", "DEGREES", objects.turns,
+                "turn the object about its vertical axis, counter-clockwise as seen from above, one for each --with");
+}
+
+std::vector<PlacedObject> placed_objects(const ObjectOptions& objects) {
+  const auto check_count = [&](const char* name, size_t count) {
+    if (count == 0 || count == objects.files.size()) return;
+    throw UsageError(fmt::format("{} is given {} times and --with {} times: each object needs its own", name, count,
+                                 objects.files.size()));
+  };
+  check_count("--at", objects.places.size());
+  check_count("--turn", objects.turns.size());
+  std::vector<PlacedObject> placed;
+  for (size_t i = 0; i < objects.files.size(); i++) {
+    PlacedObject& object = placed.emplace_back();
+    object.file = objects.files[i];
+    if (!objects.places.empty()) object.at = parse_point("--at", objects.places[i]);
+    if (objects.turns.empty()) continue;
+    const std::vector<float> turn = parse_numbers(objects.turns[i]);
+    if (turn.size() != 1 || !(std::abs(turn[0]) <= 36000.0f)) {
+      throw UsageError(fmt::format("--turn is a number of degrees within 36000, not '{}'", objects.turns[i]));
+    }
+    object.turn = turn[0];
+  }
+  return placed;
+}
+
+void check_objects(const ObjectOptions& objects) {
+  for (const PlacedObject& object : placed_objects(objects)) {
+    if (!object.at) throw UsageError("--with needs --at X,Y,Z, the object's place");
+  }
 }
 
 // A name that may have been meant, or else the list of names.
@@ -225,6 +265,25 @@ Scene open_scene(const SceneSource& given, ods::Settled* settled, const ods::Loo
   return scene;
 }
 
+Scene open_object(const std::string& file, const std::string& confine) {
+  SceneSource source;
+  source.name = file;
+  source.confine = confine;
+  source.taken_for = ods::TakenFor::kObject;
+  Scene object = open_scene(source);
+  if (object.instances.empty()) {
+    throw ods::Error(ods::ErrorKind::kInput, fmt::format("--with '{}' has no triangles that could be shown", file));
+  }
+  return object;
+}
+
+static void add_objects(Scene& scene, const SceneSource& source) {
+  check_objects(source.objects);
+  for (const PlacedObject& object : placed_objects(source.objects)) {
+    join(scene, open_object(object.file, source.confine), ods::place_of_object(*object.at, object.turn));
+  }
+}
+
 static void check_content(const Scene& scene, const std::string& name) {
   const auto nothing = [&](const char* why) {
     return ods::Error(ods::ErrorKind::kInput,
@@ -277,6 +336,7 @@ Scene open_lit_scene(const SceneSource& given, bool transparent) {
     planned = {survey, ods::plan_light(rays, survey, choices)};
   });
   check_content(scene, source.name);
+  add_objects(scene, source);
   warn_of_invisible(scene);
   note_sheet_glass(scene);
   light_scene(scene, source.light, choices, ods::find_builtin(source.name) != nullptr, confined_to, std::move(planned));

@@ -14,6 +14,20 @@
 #include "ods/stage/place.h"
 #include "ods/stage/upright.h"
 
+// The words of --with, --at and --turn, which may be repeated.
+struct ObjectOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> places;
+  std::vector<std::string> turns;
+};
+
+// An object that is put into a scene.
+struct PlacedObject {
+  std::string file;  // or a built-in scene
+  std::optional<ods::vec3> at;
+  float turn = 0.0f;  // degrees
+};
+
 struct SceneSource {
   std::string name;   // a file or a built-in scene
   std::string scene;  // which of the file's scenes, by name or number; empty: its default scene
@@ -28,13 +42,26 @@ struct SceneSource {
   std::optional<ForeignScene> foreign;  // the converted scene of another program: read_foreign()
   ods::TakenFor taken_for = ods::TakenFor::kAuto;
   ods::UpAxis up = ods::UpAxis::kAuto;
-  std::string camera;       // as CameraOptions::view_point
+  std::string camera;  // as CameraOptions::view_point
+  ObjectOptions objects;
   bool has_places = false;  // other options give places in the scene: an object is not shown as a model then
 };
 
 void add_scene_argument(Options& options, SceneSource& source);
 // Adds the scene as an option, for commands that work without one.
 void add_scene_option(Options& options, SceneSource& source, const char* help);
+
+// Adds --with, --at and --turn. what: "the scene", into which they are put.
+void add_object_options(Options& options, ObjectOptions& objects, const std::string& what);
+
+// Throws UsageError if the numbers of the options differ, or a value is invalid. All have a place, or none.
+std::vector<PlacedObject> placed_objects(const ObjectOptions& objects);
+
+// Throws UsageError as placed_objects(), or if objects have no place.
+void check_objects(const ObjectOptions& objects);
+
+// Opens an object as open_scene() does. Throws Error(kInput) if it has no triangles.
+ods::Scene open_object(const std::string& file, const std::string& confine);
 
 // Converts a scene of another program, unless that has been done. Throws UsageError, and as
 // convert_foreign_scene().

@@ -42,9 +42,25 @@ void add_environment(ods::Settings& settings, const std::string& option, const s
                                   : ods::file_setting(name, file, confined_to));
 }
 
+// The objects in one line: their names, what their files contain, and their places.
+std::string objects_text(const ObjectOptions& objects, const std::string& confined_to) {
+  std::string text;
+  for (const PlacedObject& object : placed_objects(objects)) {
+    const bool is_builtin = ods::find_builtin(object.file) != nullptr;
+    const ods::Settings files = is_builtin || is_foreign_scene(object.file)
+                                    ? ods::Settings{ods::file_setting("", object.file, confined_to)}
+                                    : ods::scene_settings(object.file, confined_to);
+    text += fmt::format("{}{}", text.empty() ? "" : "; ", object.file);
+    for (const ods::Setting& file : files) text += is_builtin ? "" : " " + file.value;
+    const ods::vec3 at = object.at.value_or(ods::vec3(0.0f));
+    text += fmt::format(" at {},{},{} turned {}", at.x, at.y, at.z, object.turn);
+  }
+  return text;
+}
+
 ods::Settings scene_settings(const SceneSource& source, const std::string& animation) {
   const auto& [name, scene, light, catchers, confine, variant, solid_glass, portable, unit, blender, foreign, taken_for,
-               up, camera, has_places] = source;
+               up, camera, objects, has_places] = source;
   const std::string confined_to = confining_folder(source);
   const bool is_foreign = !ods::find_builtin(name) && is_foreign_scene(name);
   ods::Settings settings = is_foreign ? ods::Settings{ods::file_setting("SCENE", name, confined_to)}
@@ -68,6 +84,8 @@ ods::Settings scene_settings(const SceneSource& source, const std::string& anima
   add("up", name_in(ods::kUpAxisTable, up));
   add("shadow-catcher", fmt::format("{}", fmt::join(catchers, ", ")));
   add("animation", animation.empty() ? "all" : animation);
+  const std::string with = objects_text(objects, confined_to);
+  if (!with.empty()) add("with", with);
   return settings;
 }
 

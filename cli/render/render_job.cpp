@@ -49,6 +49,7 @@ void add_picture_options(Options& options, RenderJob& job) {
   options.texts(
       "--shadow-catcher", "NAME", job.scene.catchers,
       "make an object or material a shadow catcher: only the shadows on it are visible (needs --transparent)");
+  add_object_options(options, job.scene.objects, "the scene");
   add_exposure_option(options, job);
   options.choice("--tone", job.tone, ods::kToneCurveTable, "tone curve; .hdr and .exr ignore it",
                  std::string(ods::tone_curve_name(job.save.tone)));
@@ -115,6 +116,7 @@ void finish_render_options(Options& options, RenderJob& job) {
   if (!job.time.only.empty() && !makes_video(job.time) && job.rig.empty()) {
     throw UsageError("--only chooses among frames, or among the views of --rig; this is one picture");
   }
+  check_objects(job.scene.objects);
   job.given = options.given_words();
   job.scene.has_places =
       !job.rig.empty() || job.camera.position || job.time.move.pivot || !job.time.move.fly_to.empty();

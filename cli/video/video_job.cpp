@@ -43,6 +43,7 @@ VideoJob parse_video(Options& options) {
   add_wait_option(options, render.wait, "frames");
   options.group("Picture");
   add_picture_options(options, render.form, render.save.sidecar);
+  add_object_options(options, render.scene.objects, "the scene");
   add_exposure_option(options, render);
   options.choice("--tone", job.render.tone, ods::kToneCurveTable, "tone curve",
                  std::string(ods::tone_curve_name(ods::DisplayTransform().tone)));

@@ -89,6 +89,9 @@ void serve(const ViewJob& job) {
 
 void view(ViewJob job) {
   find_scene(job);
+  if (!job.scene.empty() && !job.objects.files.empty()) {
+    throw UsageError("--with is for a layered scene, which ods layers makes of a scene");
+  }
   if (job.folder.empty()) return serve(job);
   announce_file(export_site(open_items(job), job.folder, job.texts));
 }

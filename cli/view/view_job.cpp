@@ -12,6 +12,7 @@
 #include "cli/console/options.h"
 #include "cli/options/layout_options.h"
 #include "cli/options/projection_options.h"
+#include "cli/view/objects.h"
 #include "ods/base/text.h"
 #include "ods/image/format/file_format.h"
 #include "ods/scene/builtin/builtin.h"
@@ -28,6 +29,7 @@ constexpr const char* kViewExamples =
     "  ods view picture.png --lan\n"
     "  ods view scene.glb                        the studio: the scene, rendered while you look\n"
     "  ods view scene.layers.glb                 a layered scene, in which the head moves\n"
+    "  ods view scene.layers.glb --with robot.glb --at 0.4,0,-1\n"
     "  ods view picture_360_TB.png --export site/ --title \"The harbour\" --lang de";
 
 constexpr const char* kViewSummary =
@@ -89,6 +91,8 @@ ViewJob parse_view(Options& options) {
   options.arguments(
       ValueKind::input_file("FILE"), job.paths,
       "pictures, videos, layered scenes, and folders of them (%V in a name: one file per eye), or a scene");
+  options.group("Objects in a layered scene");
+  add_object_options(options, job.objects, "the layered scene");
   options.group("Input, if it is not detected");
   add_input_layout_option(options, job.known.layout, "how both eyes share the file");
   options.custom(
@@ -122,6 +126,7 @@ ViewJob parse_view(Options& options) {
   if (std::ranges::find(languages, job.texts.language) == languages.end()) {
     throw UsageError(fmt::format("--lang must be one of {}", fmt::join(languages, ", ")));
   }
+  placed_objects(job.objects);
   finish_lens_options(job.known);
   job.browser = !stay;
   return job;
@@ -154,5 +159,6 @@ std::vector<ViewItem> open_items(const ViewJob& job) {
       note_guesses(items.back());
     }
   }
+  add_objects(job.objects, items);
   return items;
 }

@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "cli/console/options.h"
+#include "cli/options/scene_source.h"
 #include "cli/view/export_site.h"
 #include "ods/view/view_item.h"
 
 struct ViewJob {
   std::vector<std::string> paths;
-  std::string scene;  // for the studio; empty: none
+  std::string scene;      // for the studio; empty: none
+  ObjectOptions objects;  // put into the layered scene
   ods::FormatHint known;
   std::string folder;  // to export to; empty: serve
   PageTexts texts;     // of the export

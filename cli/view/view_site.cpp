@@ -137,6 +137,10 @@ WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
   if (!item.fallback.empty() && path == fallback_file(item, *number)) {
     return {.type = std::string(ods::media_type(path)), .file = item.fallback};
   }
+  for (size_t i = 0; i < item.objects.size(); i++) {
+    if (path != ods::object_file(*number, i)) continue;
+    return {.type = std::string(ods::media_type(path)), .body = *item.objects[i].glb};
+  }
   if (path == ods::item_file(*number, ods::kPreviewFile) && has_preview(item, true)) {
     return {.type = std::string(ods::media_type(path)), .body = kept_jpeg(path, item, ods::preview_jpeg)};
   }
@@ -171,9 +175,24 @@ WebAnswer ViewSite::comfort(const ViewItem& item, const std::string& path) {
   return {.type = "image/jpeg", .body = path.ends_with("left.jpg") ? comfort_.left : comfort_.right};
 }
 
+WebAnswer ViewSite::place_objects(const WebRequest& request) {
+  const std::optional<size_t> number = item_number(fmt::format("item/{}/", value_of(request, "item")));
+  if (!number || !item_at(*number)) return nothing_there();
+  const std::lock_guard<std::mutex> lock(of_items_);
+  ViewItem& item = items_[*number];
+  if (item.objects.empty()) return nothing_there();
+  std::vector<ods::Placement> placements;
+  for (const ods::ViewObject& object : item.objects) placements.push_back(object.placement);
+  ods::move_placements(request.body, placements);
+  const std::string path = ods::write_placements(item.path, placements);
+  for (size_t i = 0; i < placements.size(); i++) item.objects[i].placement = placements[i];
+  return json_answer({{"file", std::filesystem::path(path).filename().string()}});
+}
+
 WebAnswer ViewSite::answer(const WebRequest& request) {
   if (studio_ && request.path.starts_with("studio/")) return studio_->answer(request);
   if (request.path == "share") return share_.answer(request);
+  if (request.is_post && request.path == "objects") return place_objects(request);
   if (request.is_post) return nothing_there();
   if (request.path == "alive") {
     return {.type = "application/json", .body = fmt::format("{{\"pages\":{}}}", share_.pages())};

@@ -26,7 +26,8 @@ class ViewSite {
 
   // Thread-safe. "" is the page; alive confirms that the server runs, and has the number of pages that share;
   // item/N/left.jpg takes exposure, tone, width, and a layout and projection chosen in the page; item/N/preview.jpg and
-  // item/N/thumbnail.jpg; item/N/comfort.json, comfort-left.jpg and comfort-right.jpg are a ComfortLayer. Throws
+  // item/N/thumbnail.jpg; item/N/comfort.json, comfort-left.jpg and comfort-right.jpg are a ComfortLayer;
+  // item/N/object-K.glb is an object, and a POST to objects?item=N moves the objects (docs/view.md). Throws
   // UsageError for an invalid query.
   WebAnswer answer(const WebRequest& request);
 
@@ -35,6 +36,8 @@ class ViewSite {
 
  private:
   WebAnswer item(const std::string& path, const WebRequest& request);
+  // Moves the objects of a layered scene, and keeps their places beside its file.
+  WebAnswer place_objects(const WebRequest& request);
   WebAnswer comfort(const ods::ViewItem& item, const std::string& path);
   // A preview or a thumbnail, made when it is first asked for.
   std::string kept_jpeg(const std::string& path, const ods::ViewItem& item, std::string (*make)(const ods::ViewItem&));

@@ -8,10 +8,12 @@
 // World coordinates as in the scene: metres, right-handed, +Y up. Texture coordinates as in glTF: (0, 0) is the upper
 // left corner of the texture, (1, 1) its lower right one. Triangles are counter-clockwise as seen from the box.
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
 #include "ods/image/image.h"
+#include "ods/image/tone.h"
 #include "ods/kernel/math.h"
 
 namespace ods {
@@ -41,7 +43,35 @@ struct LayerMesh {
   Image texture;  // 3 channels, or 4 with straight alpha if masked; displayed values, sRGB-encoded, 0..1
 };
 
+// The light that arrives at a place from all directions, in real spherical harmonics of the orders 0 to 2.
+struct LightProbe {
+  static constexpr int kHarmonics = 9;
+  float weight = 0.0f;  // 1: in free space that the box sees; 0: inside or behind something, not to be used
+  std::array<vec3, kHarmonics> radiance{};  // scene-linear; ods/layers/probes/harmonics.h has the order
+};
+
+// Metres between the outermost probes and the bounds of what the box sees, unless those are very near.
+inline constexpr float kProbeMargin = 0.15f;
+
+// Places of such light in a grid. Probe (i, j, k) is at origin + step * (i, j, k), its index is
+// i + count.x * (j + count.y * k).
+struct LightProbes {
+  vec3 origin{0.0f};  // metres, in the scene
+  vec3 step{1.0f};
+  glm::ivec3 count{0};
+  std::vector<LightProbe> probes;
+};
+
+// The data by which real-time objects are lit like the scene.
+struct LayerLightInfo {
+  float exposure = 0.0f;  // stops, of all textures
+  ToneCurve tone = ToneCurve::kNeutral;
+  LightProbes probes;
+};
+
 struct LayeredScene {
+  std::string name;  // of the scene that was baked, without folders; empty if unknown
+  LayerLightInfo light;
   HeadBox box;
   float yaw = 0.0f;      // degrees: the heading of the panorama's centre, as in StereoCamera
   int width = 8192;      // of the lat-long panorama whose pixel is the unit of all errors

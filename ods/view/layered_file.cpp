@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/view/layered_file.h"
 
+#include <cmath>
 #include <filesystem>
 
+#include "ods/base/angles.h"
 #include "ods/base/error.h"
 #include "ods/base/text.h"
 #include "ods/files/confined_file.h"
@@ -23,17 +25,31 @@ bool is_layered_scene(const std::string& path) {
   }
 }
 
+// Without probes at the height of the eyes.
+static vec3 place_ahead(const LayersInfo& info) {
+  constexpr float kAhead = 1.2f;
+  const float yaw = info.yaw * static_cast<float>(kDegree);
+  const vec3 at = info.box.center + kAhead * vec3(std::sin(yaw), 0.0f, -std::cos(yaw));
+  const bool has_probes = info.light.probes.count.y > 0;
+  return {at.x, has_probes ? info.light.probes.origin.y - kProbeMargin : at.y, at.z};
+}
+
 LayeredFile read_layered_file(const std::string& path) {
-  const std::string name = read_layers_info(path)->fallback;
-  if (name.empty()) return {};
+  const LayersInfo info = *read_layers_info(path);
+  LayeredFile file;
+  file.scene = info.scene;
+  file.ahead = place_ahead(info);
+  const std::string name = info.fallback;
+  if (name.empty()) return file;
   const fs::path folder = fs::canonical(path).parent_path();
   const std::string fallback = (folder / name).native();
   try {
     const ConfinedFile confined(fallback, folder.native(), Reach::kDirectly);
-    return {fallback, ""};
+    file.fallback = fallback;
   } catch (const Error&) {
-    return {"", name};
+    file.missing = name;
   }
+  return file;
 }
 
 }  // namespace ods

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "ods/base/decimal.h"
 #include "ods/base/error.h"
 #include "ods/base/quote.h"
 #include "ods/convert/convert.h"
@@ -69,7 +70,10 @@ ViewItem open_view_item(const std::string& path, const FormatHint& known, std::o
   if (is_layered_scene(path)) {
     item.kind = ItemKind::kLayers;
     item.has_own_file = true;
-    open_fallback(read_layered_file(path), item);
+    const LayeredFile file = read_layered_file(path);
+    item.scene = file.scene;
+    item.ahead = file.ahead;
+    open_fallback(file, item);
     return item;
   }
   if (!names_eye(path) && is_video(path)) {
@@ -130,6 +134,10 @@ std::string fallback_file(const ViewItem& item, size_t index) {
   return item_file(index, "fallback" + std::filesystem::path(item.fallback).extension().string());
 }
 
+std::string object_file(size_t index, size_t object) {
+  return item_file(index, fmt::format("object-{}.glb", object));
+}
+
 bool has_stills(const ViewItem& item) {
   return item.kind != ItemKind::kLayers || !item.fallback.empty();
 }
@@ -159,6 +167,19 @@ bool has_preview(const ViewItem& item, bool is_live) {
   return !is_live || format_of_path(item.path) == FileFormat::kJpeg;
 }
 
+static Json objects_json(const ViewItem& item, size_t index) {
+  Json json = Json::array();
+  for (size_t i = 0; i < item.objects.size(); i++) {
+    const auto& [placement, name, glb] = item.objects[i];
+    json.push_back({{"file", object_file(index, i)},
+                    {"name", name},
+                    {"path", placement.file},
+                    {"at", {decimal(placement.at.x), decimal(placement.at.y), decimal(placement.at.z)}},
+                    {"turn", decimal(placement.turn)}});
+  }
+  return json;
+}
+
 static Json item_json(const ViewItem& item, size_t index, bool is_live) {
   const std::vector<std::string> files = item_files(item, index);
   const bool is_mono = item.picture.eyes.size() == 1 || item.picture.front_and_back;
@@ -171,6 +192,8 @@ static Json item_json(const ViewItem& item, size_t index, bool is_live) {
   }
   if (item.kind == ItemKind::kLayers) {
     json["fallback"] = item.fallback.empty() ? Json() : Json(fallback_file(item, index));
+    if (!item.scene.empty()) json["scene"] = item.scene;
+    json["objects"] = objects_json(item, index);
   }
   if (has_stills(item)) json["thumbnail"] = item_file(index, kThumbnailFile);
   if (has_preview(item, is_live)) json["preview"] = item_file(index, kPreviewFile);

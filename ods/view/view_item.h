@@ -14,6 +14,7 @@
 #include "ods/image/tone.h"
 #include "ods/picture/stored_picture.h"
 #include "ods/view/beside.h"
+#include "ods/view/placements.h"
 
 namespace ods {
 
@@ -22,12 +23,22 @@ inline constexpr NameRow<ItemKind> kItemKindTable[] = {
     {ItemKind::kPicture, "picture"}, {ItemKind::kVideo, "video"}, {ItemKind::kLayers, "layers"}};
 static_assert(has_every_member(kItemKindTable));
 
+// A real-time object in a layered scene.
+struct ViewObject {
+  Placement placement;
+  std::string name;                        // for people: the file's name without its folder
+  std::shared_ptr<const std::string> glb;  // ods/view/objects/object_file.h
+};
+
 struct ViewItem {
   ItemKind kind = ItemKind::kPicture;
   std::string path;
-  std::string fallback;   // of a layered scene: the path of the picture that is shown outside its box; empty for none
-  std::string name;       // for people: the file's name without its folder
-  bool is_light = false;  // scene-linear: shown with an exposure and a tone curve
+  std::string fallback;  // of a layered scene: the path of the picture that is shown outside its box; empty for none
+  std::string scene;     // of a layered scene: the name of the scene that was baked; empty if unknown
+  vec3 ahead{0.0f};      // of a layered scene: the place for an object that has none
+  std::vector<ViewObject> objects;  // of a layered scene; the caller adds them
+  std::string name;                 // for people: the file's name without its folder
+  bool is_light = false;            // scene-linear: shown with an exposure and a tone curve
   bool has_own_file = false;  // browsers read the file itself and divide it into eyes; else each eye is sent as a JPEG
   FormatHint known;           // the format as far as the caller specified it
   StoredPicture picture;      // its header, or the fallback's; with its pixels only if they were decoded before and the
@@ -49,6 +60,7 @@ std::string view_json(std::span<const ViewItem> items, bool is_live, const Json&
 // The name under which view.json refers to a file of an item, relative to itself: item/0/NAME.
 std::string item_file(size_t index, std::string_view name);
 std::string fallback_file(const ViewItem& item, size_t index);
+std::string object_file(size_t index, size_t object);
 inline constexpr std::string_view kPreviewFile = "preview.jpg", kThumbnailFile = "thumbnail.jpg",
                                   kLightFile = "light.png", kPosterFile = "poster.jpg";
 

@@ -114,6 +114,12 @@ TEST_F(Errors, OfOptionsThatTheSceneJudges) {
           {"render furnace -o @a.png --camera-preset cycles:cheese=1", kUsage, "--camera-preset"},
           {"render @absent.glb -o @a.png", kInput, "absent.glb"},
           {"render @broken.glb -o @a.png", kInput, "broken.glb"},
+          {"render furnace -o @a.png --with @absent.glb --at 0,0,0", kInput, "absent.glb"},
+          {"render furnace -o @a.png --with @broken.glb --at 0,0,0", kInput, "broken.glb"},
+          {"render furnace -o @a.png --with spheres", kUsage, "--with needs --at"},
+          {"render furnace -o @a.png --at 0,0,0", kUsage, "--at is given 1 times and --with 0 times"},
+          {"render furnace -o @a.png --with spheres --at 0,0", kUsage, "--at is X,Y,Z"},
+          {"render furnace -o @a.png --with spheres --at 0,0,0 --turn left", kUsage, "--turn is a number"},
           {"info @absent.glb", kInput, "absent.glb"},
           {"rig --scene @absent.glb -o @r.json", kInput, "absent.glb"}});
 }

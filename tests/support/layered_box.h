@@ -53,6 +53,19 @@ inline LayeredScene layered_box() {
   scene.box.size = vec3(0.3f, 0.3f, 0.4f);
   scene.yaw = 30.0f;
   scene.fallback = "box_360_TB.png";
+  scene.name = "a room.glb";
+  scene.light.exposure = 0.5f;
+  scene.light.tone = ToneCurve::kLinear;
+  LightProbes& probes = scene.light.probes;
+  probes.origin = vec3(-0.5f, 0.25f, -4.0f);
+  probes.step = vec3(1.5f, 1.0f, 1.25f);
+  probes.count = {3, 2, 4};
+  for (int i = 0; i < 24; i++) {
+    LightProbe& probe = probes.probes.emplace_back();
+    probe.weight = i % 5 == 0 ? 0.0f : 1.0f;
+    probe.radiance[0] = vec3(float(i), 2.0f, 3.0f) * probe.weight;
+    probe.radiance[8] = vec3(-0.25f, 0.5f, float(-i)) * probe.weight;
+  }
   const vec3 c = scene.box.center, x(1.0f, 0.0f, 0.0f), y(0.0f, 1.0f, 0.0f), z(0.0f, 0.0f, 1.0f);
   using enum LayerKind;
   scene.meshes.push_back(square(kOpaque, c - 2.5f * z, 2.0f * x, 1.5f * y, 4, 0));   // in front

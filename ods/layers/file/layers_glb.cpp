@@ -11,10 +11,10 @@
 #include <span>
 
 #include "ods/base/angles.h"
-#include "ods/base/error.h"
 #include "ods/base/quote.h"
 #include "ods/layers/file/layer_parts.h"
 #include "ods/layers/file/layers_info.h"
+#include "ods/scene/gltf/glb_bytes.h"
 #include "ods/scene/gltf/meshopt.h"
 
 namespace ods {
@@ -198,6 +198,15 @@ void add_part(Glb& glb, const LayeredScene& scene, const LayerPart& part) {
   glb.json["nodes"].push_back(node);
 }
 
+// Returns the number of the buffer view with the light of the probes; none if there are no probes.
+std::optional<size_t> add_probes(Glb& glb, const LightProbes& probes) {
+  if (probes.probes.empty()) return {};
+  static_assert(sizeof(LightProbe) == 28 * sizeof(float));
+  const std::string bytes = bytes_of(probes.probes);
+  return add_to(glb.json["bufferViews"],
+                {{"buffer", 0}, {"byteOffset", append_aligned(glb, bytes)}, {"byteLength", bytes.size()}});
+}
+
 void add_camera(Glb& glb, const LayeredScene& scene) {
   constexpr double kFieldOfView = 70.0 * kDegree, kNear = 0.02;
   glb.json["cameras"] = {
@@ -220,60 +229,31 @@ void add_extensions(Glb& glb, const std::vector<LayerPart>& parts) {
   if (!required.empty()) glb.json["extensionsRequired"] = required;
 }
 
-// --- the container
-
-void append_number(std::string& bytes, size_t value) {
-  const uint32_t number = static_cast<uint32_t>(value);  // glTF and all processors that ods runs on are little-endian
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
-}
-
-void append_chunk(std::string& bytes, const char* type, const std::string& chunk, char filler) {
-  const size_t size = (chunk.size() + 3) / 4 * 4;
-  append_number(bytes, size);
-  bytes.append(type, 4);
-  bytes += chunk;
-  bytes.append(size - chunk.size(), filler);
-}
-
 }  // namespace
 
 std::string layers_glb(const LayeredScene& scene, const std::vector<LayerPart>& parts, bool plain,
                        const std::string& path) {
   Glb glb{plain, {}, {}, 0};
   glb.json["asset"] = {{"version", "2.0"}, {"generator", "ods " ODS_VERSION}};
-  glb.json["asset"]["extras"]["omnistereo"] = layers_metadata(scene);
   add_extensions(glb, parts);
   glb.json["scene"] = 0;
   glb.json["scenes"] = {{{"name", "layers"}, {"nodes", {0}}}};
   const vec3 center = scene.box.center;
   glb.json["nodes"] = {{{"name", "layers"}, {"translation", {center.x, center.y, center.z}}}};
   for (const LayerPart& part : parts) add_part(glb, scene, part);
+  glb.json["asset"]["extras"]["omnistereo"] = layers_metadata(scene, add_probes(glb, scene.light.probes));
   add_camera(glb, scene);
   for (size_t i = 1; i < glb.json["nodes"].size(); i++) glb.json["nodes"][0]["children"].push_back(i);
   if (!parts.empty()) {
     glb.json["samplers"] = {{{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", 33071}, {"wrapT", 33071}}};
-    glb.json["buffers"] = {{{"byteLength", glb.binary.size()}}};
   }
+  if (!glb.binary.empty()) glb.json["buffers"] = {{{"byteLength", glb.binary.size()}}};
   if (glb.unpacked > 0) {
     Json fallback = {{"byteLength", glb.unpacked}};
     fallback["extensions"][kMeshopt] = {{"fallback", true}};
     glb.json["buffers"].push_back(fallback);
   }
-  const std::string text = json_document(glb.json);
-  constexpr size_t kHeaders = 12 + 2 * 8 + 6;  // with the chunks' fillers
-  if (kHeaders + text.size() + glb.binary.size() > std::numeric_limits<uint32_t>::max()) {
-    throw Error(ErrorKind::kOutput, fmt::format("cannot write '{}': a .glb holds at most 4 GB; a lower `quality` or "
-                                                "width needs less",
-                                                path));
-  }
-  std::string bytes = "glTF";
-  append_number(bytes, 2);
-  append_number(bytes, 0);
-  append_chunk(bytes, "JSON", text, ' ');
-  if (!glb.binary.empty()) append_chunk(bytes, "BIN\0", glb.binary, '\0');
-  std::string size;
-  append_number(size, bytes.size());
-  return bytes.replace(8, 4, size);
+  return glb_bytes(json_document(glb.json), glb.binary, path, "a lower `quality` or width needs less");
 }
 
 }  // namespace ods

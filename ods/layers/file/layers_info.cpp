@@ -18,13 +18,26 @@ static Json numbers(const vec3& v) {
   return {decimal(v.x), decimal(v.y), decimal(v.z)};
 }
 
-Json layers_metadata(const LayeredScene& scene) {
+static Json light_metadata(const LayerLightInfo& light, std::optional<size_t> probes) {
+  Json json = {{"exposure", decimal(light.exposure)}, {"tone", tone_curve_name(light.tone)}};
+  if (!probes) return json;
+  const glm::ivec3 count = light.probes.count;
+  json["probes"] = {{"origin", numbers(light.probes.origin)},
+                    {"step", numbers(light.probes.step)},
+                    {"count", {count.x, count.y, count.z}},
+                    {"bufferView", *probes}};
+  return json;
+}
+
+Json layers_metadata(const LayeredScene& scene, std::optional<size_t> probes) {
   Json json = {{"layers", kLayeredVersion},
                {"center", numbers(scene.box.center)},
                {"box", numbers(scene.box.size)},
                {"yaw", decimal(std::remainder(scene.yaw, 360.0f))},
                {"width", scene.width}};
   if (!scene.fallback.empty()) json["fallback"] = scene.fallback;
+  if (!scene.name.empty()) json["scene"] = scene.name;
+  json["light"] = light_metadata(scene.light, probes);
   return json;
 }
 
@@ -54,16 +67,36 @@ static vec3 read_vector(JsonReader& in, const std::string& key, float low, float
   return {found[0], found[1], found[2]};
 }
 
-// A name in the file's own folder: it must not lead out of it.
+// A name without a folder: it must not lead out of the file's own.
 static std::string read_name(JsonReader& in, const std::string& key) {
   const Json* json = in.find(key);
   if (!json) return "";
   const std::string name = json->is_string() ? json->get<std::string>() : "";
   if (name.empty() || name == "." || name == ".." || name.size() > 255 || !is_quotable(name) ||
       name.find_first_of("/\\") != std::string::npos) {
-    in.fail(key, "must be the name of a file in the same folder");
+    in.fail(key, "must be a name without a folder");
   }
   return name;
+}
+
+static void read_probes(JsonReader& in, LightProbes& probes) {
+  constexpr float kFar = 1e9f, kSmallest = 1e-6f, kLargest = 1e6f, kMost = 64.0f;
+  probes.origin = read_vector(in, "origin", -kFar, kFar);
+  probes.step = read_vector(in, "step", kSmallest, kLargest);
+  probes.count = glm::ivec3(read_vector(in, "count", 1.0f, kMost));
+  int view = -1;
+  in.integer("bufferView", view, 0, 1 << 20);
+  if (view < 0) in.fail("bufferView", "is missing");
+}
+
+static void read_light(JsonReader& in, LayerLightInfo& light) {
+  constexpr float kMostStops = 100.0f;
+  in.number("exposure", light.exposure, -kMostStops, kMostStops);
+  const std::string tone = in.word("tone");
+  const std::optional<ToneCurve> found = find_in(kToneCurveTable, tone);
+  if (!tone.empty() && !found) in.fail("tone", "must be the name of a tone curve");
+  light.tone = found.value_or(light.tone);
+  in.part("probes", [&](JsonReader& part) { read_probes(part, light.probes); });
 }
 
 std::optional<LayersInfo> read_layers_info(const std::string& path) {
@@ -86,6 +119,8 @@ std::optional<LayersInfo> read_layers_info(const std::string& path) {
   in.integer("width", info.width, 1, 1 << 20);
   if (info.width == 0) in.fail("width", "is missing");
   info.fallback = read_name(in, "fallback");
+  info.scene = read_name(in, "scene");
+  in.part("light", [&](JsonReader& part) { read_light(part, info.light); });
   return info;
 }
 

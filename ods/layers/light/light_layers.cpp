@@ -57,6 +57,8 @@ LayeredScene light_layers(LayerGeometry geometry, const Scene& scene, const Rend
     std::vector<LayerMesh> sky = make_sky(scene, geometry.texture_size, light.exposure, light.tone);
     std::move(sky.begin(), sky.end(), std::back_inserter(meshes));
   }
+  geometry.scene.light.exposure = light.exposure;
+  geometry.scene.light.tone = light.tone;
   return std::move(geometry.scene);
 }
 

@@ -30,6 +30,8 @@ TEST_F(LayersCommand, WritesAFileThatViewersRead) {
   EXPECT_NEAR(info->yaw, 30.0f, 1e-3f);
   EXPECT_EQ(info->width, 256);
   EXPECT_EQ(info->fallback, "spheres_360_TB.png");
+  EXPECT_EQ(info->scene, "spheres");
+  EXPECT_GT(info->light.probes.count.x, 1);
   EXPECT_GT(load_scene(folder.path("spheres.layers.glb")).triangles.size(), 20u);
   EXPECT_FALSE(std::filesystem::exists(folder.path("spheres.layers.glb.unfinished")));
   ASSERT_EQ(run("view " + folder.path("spheres.layers.glb") + " --export " + folder.path("site")), 0) << err;

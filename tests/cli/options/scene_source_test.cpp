@@ -4,6 +4,7 @@
 // The options that choose the shown parts of a file, and the messages about its extensions.
 #include <fstream>
 
+#include "ods/image/image_file.h"
 #include "ods/scene/builtin/shapes.h"
 #include "tests/support/cli_runner.h"
 #include "tests/support/moving_files.h"
@@ -60,6 +61,32 @@ TEST_F(SceneOptionsOf, RenderingNamesOnlyWhatIsMissing) {
   file.json["extensionsUsed"].push_back("VENDOR_thing");
   ASSERT_EQ(render_file(save(file)), 0) << err;
   EXPECT_TRUE(has(err, "extension VENDOR_thing is not rendered")) << err;
+}
+
+// The triangle is put in front of the viewer, and hides a part of the furnace.
+TEST_F(SceneOptionsOf, ObjectsAreInThePicture) {
+  GltfBuilder file = ods::make_triangle();
+  file.json["extensionsUsed"] = {"KHR_materials_unlit"};
+  file.json["materials"] = GltfJson::parse(
+      R"([{"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}, "extensions": {"KHR_materials_unlit": {}}}])");
+  file.primitive()["material"] = 0;
+  const std::string with = " --with " + save(file), image = folder.path("picture.png");
+  const std::string words = "render furnace --width 64 --samples 1 --eyes mono -q -o " + image;
+  const auto black = [&] {
+    const ods::Image picture = ods::read_image(image);
+    int count = 0;
+    for (size_t i = 0; i < picture.pixels.size(); i += static_cast<size_t>(picture.channels)) {
+      count += picture.pixels[i] == 0.0f;
+    }
+    return count;
+  };
+  ASSERT_EQ(run(words), 0) << err;
+  EXPECT_EQ(black(), 0);
+  ASSERT_EQ(run(words + with + " --at 0,0,-0.4"), 0) << err;
+  const int one = black();
+  EXPECT_GT(one, 10);
+  ASSERT_EQ(run(words + with + " --at 0,0,-0.4" + with + " --at 0,0,0.4 --turn 0 --turn 180"), 0) << err;
+  EXPECT_NEAR(black(), 2 * one, 4);
 }
 
 TEST_F(SceneOptionsOf, Variants) {

@@ -112,6 +112,9 @@ const std::set<std::string> kOthers = {"--output",
                                        "--bake",
                                        "--blender",
                                        "--blender-limit",
+                                       "--with",
+                                       "--at",
+                                       "--turn",
                                        "--camera-file"};
 
 TEST_F(VideoOptions, EveryOptionIsOneOrTheOther) {
@@ -153,6 +156,8 @@ TEST_F(VideoOptions, WhatChangesAFrameIsRefusedByName) {
   EXPECT_NE(err.find("--merge-top was cosine,60,90,1, now map"), std::string::npos) << err;
   EXPECT_EQ(run(job + " --head-tilt-map " + folder.path("map.png")), 2);
   EXPECT_NE(err.find("--head-tilt-map is new"), std::string::npos) << err;
+  EXPECT_EQ(run(job + " --with spheres --at 0,0,-1"), 2);
+  EXPECT_NE(err.find("--with is new"), std::string::npos) << err;
   EXPECT_EQ(run(job + " --projection fisheye --fov 100 --lens-direction 20,10"), 2);
   EXPECT_NE(err.find("; and 1 more; --restart"), std::string::npos) << err;
 }

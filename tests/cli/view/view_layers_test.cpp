@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/view/export_site.h"
+#include "cli/view/objects.h"
 #include "cli/view/view_site.h"
 #include "ods/base/error.h"
 #include "ods/view/layered_file.h"
@@ -399,6 +400,54 @@ TEST_F(LayeredView, TheServerSendsTheFileAndItsFallback) {
        {"item/1/thumbnail.jpg", "item/1/fallback.png", "item/0/left.jpg", "item/0/comfort.json"}) {
     EXPECT_EQ(get(path).status, 404) << path;
   }
+}
+
+// Objects have files and places; a page moves them, and the next ods view has them there.
+TEST_F(LayeredView, TheServerKeepsThePlacesOfObjects) {
+  const std::string path = add("room.layers.glb", Storage::kFloats);
+  folder.write("robot.glb", text_of(make_triangle().glb()));
+  items.push_back(open_view_item(path));
+  ObjectOptions options{{folder.path("robot.glb"), "toys"}, {"1,2,3", "4,5,6"}, {"30", "0"}};
+  add_objects(options, items);
+  ViewSite site(items, {});
+  const auto get = [&](const std::string& name) { return site.answer({false, name, {}, "", ""}); };
+  const auto objects = [&] { return nlohmann::json::parse(get("view.json").body)["items"][0]["objects"]; };
+  EXPECT_EQ(objects()[0], nlohmann::json::parse(R"({"file": "item/0/object-0.glb", "name": "robot.glb", "path": ")" +
+                                                folder.path("robot.glb") + R"(", "at": [1, 2, 3], "turn": 30})"));
+  EXPECT_EQ(get("item/0/object-1.glb").type, "model/gltf-binary");
+  EXPECT_EQ(get("item/0/object-1.glb").body.substr(0, 4), "glTF");
+  EXPECT_EQ(get("item/0/object-2.glb").status, 404);
+  const auto post = [&](const std::string& item, const std::string& body) {
+    return site.answer({true, "objects", {{"item", item}}, body, ""});
+  };
+  const std::string moved =
+      R"({"objects": [{"name": "robot.glb", "at": [7, 8, 9], "turn": -45}, {"at": [0, 0, 0], "turn": 0}]})";
+  EXPECT_EQ(post("1", moved).status, 404);
+  EXPECT_EQ(post("x", moved).status, 404);
+  EXPECT_THROW(post("0", R"({"objects": []})"), Error);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("room.objects.json")));
+  EXPECT_EQ(nlohmann::json::parse(post("0", moved).body)["file"], "room.objects.json");
+  EXPECT_EQ(objects()[0]["at"], nlohmann::json::parse("[7, 8, 9]"));
+  ASSERT_EQ(run("view " + path + " --export " + folder.path("site")), 0) << err;
+  const nlohmann::json site_objects = nlohmann::json::parse(folder.read("site/view.json"))["items"][0]["objects"];
+  EXPECT_EQ(site_objects, objects());
+  EXPECT_EQ(folder.read("site/item/0/object-1.glb"), get("item/0/object-1.glb").body);
+  EXPECT_TRUE(std::filesystem::exists(folder.path("site/item/0/object-1.glb.js")));
+  folder.write("robot.glb", "damaged");  // is left out
+  ASSERT_EQ(run("view " + path + " --export " + folder.path("site")), 0) << err;
+  EXPECT_NE(err.find("left out"), std::string::npos) << err;
+}
+
+TEST_F(LayeredView, ObjectsNeedALayeredScene) {
+  save_fallback("room_360_TB.png");
+  const std::string path = add("room.layers.glb", Storage::kFloats), end = " --export " + folder.path("site");
+  EXPECT_EQ(run("view " + folder.path("room_360_TB.png") + " --with toys --at 1,2,3" + end), 2);
+  EXPECT_NE(err.find("layered scene"), std::string::npos) << err;
+  EXPECT_EQ(run("view " + path + " --with toys --at 1,2,3 --at 4,5,6" + end), 2);
+  EXPECT_NE(err.find("--at is given 2 times and --with 1 times"), std::string::npos) << err;
+  EXPECT_EQ(run("view " + path + " --with toys --at 1,2" + end), 2);
+  EXPECT_EQ(run("view " + path + " --with " + folder.path("none.glb") + end), 3) << err;
+  ASSERT_EQ(run("view " + path + " --with toys" + end), 0) << err;
 }
 
 // The name in the file leads only to its own folder, and not through a link.

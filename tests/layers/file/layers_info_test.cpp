@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+#include <nlohmann/json.hpp>
+
 #include "ods/base/error.h"
 #include "ods/layers/file/write_layers.h"
 #include "tests/support/gltf_builder.h"
@@ -55,6 +58,36 @@ TEST_F(LayersInfoTest, IsWhatWasWritten) {
     EXPECT_EQ(info->yaw, scene.yaw);
     EXPECT_EQ(info->width, scene.width);
     EXPECT_EQ(info->fallback, scene.fallback);
+    EXPECT_EQ(info->scene, "a room.glb");
+    EXPECT_EQ(info->light.exposure, 0.5f);
+    EXPECT_EQ(info->light.tone, ToneCurve::kLinear);
+    EXPECT_EQ(info->light.probes.origin, scene.light.probes.origin);
+    EXPECT_EQ(info->light.probes.step, scene.light.probes.step);
+    EXPECT_EQ(info->light.probes.count, scene.light.probes.count);
+  }
+}
+
+// 28 floats for each probe, in a buffer view that is not compressed.
+TEST_F(LayersInfoTest, HasTheLightOfTheProbes) {
+  const LayeredScene scene = layered_box();
+  for (const bool is_plain : {false, true}) {
+    write_layers(scene, folder.path("a.glb"), {.plain = is_plain});
+    const std::string bytes = folder.read("a.glb");
+    uint32_t size = 0;
+    std::memcpy(&size, &bytes[12], sizeof size);
+    const Json json = Json::parse(bytes.substr(20, size));
+    const Json& probes = json["asset"]["extras"]["omnistereo"]["light"]["probes"];
+    const Json& view = json["bufferViews"][probes["bufferView"].get<size_t>()];
+    EXPECT_FALSE(view.contains("extensions"));
+    ASSERT_EQ(view["byteLength"], 24 * 28 * 4);
+    std::vector<float> values(24 * 28);
+    std::memcpy(values.data(), &bytes[28 + size + view["byteOffset"].get<size_t>()], values.size() * sizeof(float));
+    for (size_t i = 0; i < 24; i++) {
+      const LightProbe& probe = scene.light.probes.probes[i];
+      EXPECT_EQ(values[28 * i], probe.weight);
+      EXPECT_EQ(values[28 * i + 1], probe.radiance[0].x);
+      EXPECT_EQ(values[28 * i + 27], probe.radiance[8].z);
+    }
   }
 }
 
@@ -125,6 +158,11 @@ TEST_F(LayersInfoTest, IsChecked) {
                                                                                    {"fallback", "\"../a.png\""},
                                                                                    {"fallback", "\"/a\""},
                                                                                    {"fallback", R"("a\\b")"},
+                                                                                   {"scene", "\"../a.glb\""},
+                                                                                   {"light", "7"},
+                                                                                   {"light", R"({"exposure": 1e9})"},
+                                                                                   {"light", R"({"tone": "loud"})"},
+                                                                                   {"light", R"({"probes": {}})"},
                                                                                    {"fallback", R"("a\nb")"}}) {
     EXPECT_NE(error_of(with(key, value)), "") << key << " " << value;
   }
