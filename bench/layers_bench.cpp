@@ -8,6 +8,9 @@
 // 512 x 512 pixels of 4 x 4 samples, because fewer would measure the aliasing of the scene's own textures. dB: PSNR of
 // displayed values. off: pixels that differ by more than a tenth of white. holes: samples for which the scene has a
 // surface and the layers have none. mono: the panorama from the middle of the box, which ignores the head.
+//
+// layers_bench lit [WIDTH [SCENE...]] compares with light: 6 poses of 256 x 256 pixels, path traced and denoised, against
+// layers that are baked as ods layers does. "+pane" after a scene's name adds a sheet of thin glass.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -16,52 +19,17 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
-#include <random>
 
+#include "bench/layers_lit.h"
+#include "bench/layers_views.h"
 #include "bench/measure.h"
-#include "bench/subjects.h"
 #include "ods/layers/build_layers.h"
-#include "ods/layers/probe.h"
-#include "ods/scene/builtin/builder.h"
 
 namespace {
 
 using namespace ods;
 
-constexpr int kView = 512, kGrid = 4, kPoses = 12;
-constexpr vec3 kSky(0.5f, 0.6f, 0.7f);
-
-// The unlit colours that rays meet.
-class Colours {
- public:
-  explicit Colours(const Scene& scene) : embree_(scene), lights_(without_lights(scene)) {
-    set_scene(tracer_, scene, lights_);
-    tracer_.ray_time = 0.5f;
-  }
-
-  // one_sided: surfaces are invisible from behind. Sets whether the ray meets anything.
-  vec3 at(Ray ray, bool one_sided, bool& met) const {
-    PathTracer tracer = tracer_;
-    for (int passed = 0; passed < 64; passed++) {
-      tracer.start_path(ray, no_media(), 0u, 0u);
-      const Hit hit = embree_.closest_hit(tracer, ray, kHalfAlphaRay);
-      met = hit.t >= 0.0f;
-      if (!met) return kSky;
-      const Surface surface = tracer.surface_at(hit, ray.direction, false);
-      if (surface.front || !one_sided) return surface.base_color;
-      ray.origin = offset_point(surface.position, -surface.geometric);
-    }
-    return kSky;
-  }
-
- private:
-  EmbreeScene embree_;
-  LightTable lights_;
-  PathTracer tracer_;
-};
+constexpr int kView = 512, kPoses = 12;
 
 uint packed(vec3 color, float alpha) {
   const auto byte = [](float value) { return static_cast<uint>(std::lrint(std::clamp(value, 0.0f, 1.0f) * 255.0f)); };
@@ -141,60 +109,9 @@ Scene to_scene(const Colours& truth, const LayerGeometry& geometry) {
   return scene;
 }
 
-struct Likeness {
-  double squares = 0.0;
-  size_t off = 0, holes = 0, pixels = 0, samples = 0;
-  double decibels() const { return -10.0 * std::log10(squares / (3.0 * static_cast<double>(pixels))); }
-  std::string text() const {
-    return fmt::format("{:5.2f} dB, off {:.2f} %, holes {:.3f} %", decibels(),
-                       100.0 * static_cast<double>(off) / static_cast<double>(pixels),
-                       100.0 * static_cast<double>(holes) / static_cast<double>(samples));
-  }
-};
-
-void save_ppm(const std::string& name, const std::vector<vec3>& pixels) {
-  std::ofstream file(name, std::ios::binary);
-  file << "P6 " << kView << " " << kView << " 255\n";
-  for (const vec3& p : pixels) {
-    for (int c = 0; c < 3; c++) file.put(static_cast<char>(std::lrint(255.0f * shown(p[c]))));
-  }
-}
-
-// One pose: its pixels by a function from a ray to a colour.
-template <typename Look>
-std::vector<vec3> view_from(vec3 eye, const glm::mat3& turn, const Look& look) {
-  std::vector<vec3> pixels(kView * kView);
-  tbb::parallel_for(0, kView, [&](int y) {
-    for (int x = 0; x < kView; x++) {
-      vec3 sum(0.0f);
-      for (int k = 0; k < kGrid * kGrid; k++) {
-        const float u = (static_cast<float>(x) + (static_cast<float>(k % kGrid) + 0.5f) / kGrid) / kView * 2 - 1;
-        const float v = (static_cast<float>(y) + (static_cast<float>(k / kGrid) + 0.5f) / kGrid) / kView * 2 - 1;
-        sum += look(Ray{eye, turn * normalize(vec3(u, -v, -1.0f))});
-      }
-      pixels[static_cast<size_t>(y * kView + x)] = sum / static_cast<float>(kGrid * kGrid);
-    }
-  });
-  return pixels;
-}
-
-void compare(const std::vector<vec3>& truth, const std::vector<vec3>& pixels, Likeness& likeness) {
-  for (size_t i = 0; i < truth.size(); i++) {
-    float most = 0.0f;
-    for (int c = 0; c < 3; c++) {
-      const float error = shown(truth[i][c]) - shown(pixels[i][c]);
-      likeness.squares += double{error} * double{error};
-      most = std::max(most, std::abs(error));
-    }
-    likeness.pixels++;
-    if (most > 0.1f) likeness.off++;
-  }
-}
-
 void judge(const std::string& name, int width) {
-  const Scene scene = name == "atrium" ? load(kAtrium) : name == "helmet" ? load(kHelmet) : load_scene(name, {});
-  HeadBox box;
-  box.center = name == "atrium" ? kAtrium.position : name == "helmet" ? kHelmet.position : default_view(scene).position;
+  const Scene scene = scene_named(name);
+  const HeadBox box = box_in(name, scene);
   LayerCounts counts;
   const double start = cpu_seconds();
   const auto begin = std::chrono::steady_clock::now();
@@ -209,20 +126,15 @@ void judge(const std::string& name, int width) {
   const Colours truth(scene);
   const Scene layers = to_scene(truth, geometry);
   const Colours shown_layers(layers);
-  std::mt19937 random(1);
-  std::uniform_real_distribution<float> any(-0.5f, 0.5f);
   Likeness all, mono;
-  for (int pose = 0; pose < kPoses; pose++) {
-    const vec3 eye = box.center + vec3(any(random), any(random), any(random)) * box.size;
-    const glm::mat3 turn =
-        glm::mat3(glm::rotate(glm::rotate(glm::mat4(1.0f), 2.399963f * static_cast<float>(pose), vec3(0, 1, 0)),
-                              0.8f * any(random), vec3(1, 0, 0)));
+  const std::vector<Pose> poses = poses_in(box, kPoses);
+  for (size_t pose = 0; pose < poses.size(); pose++) {
     std::atomic<size_t> holes = 0;
-    const std::vector<vec3> wanted = view_from(eye, turn, [&](const Ray& ray) {
+    const std::vector<vec3> wanted = view_from(poses[pose], kView, [&](const Ray& ray) {
       bool m;
       return truth.at(ray, false, m);
     });
-    const std::vector<vec3> got = view_from(eye, turn, [&](const Ray& ray) {
+    const std::vector<vec3> got = view_from(poses[pose], kView, [&](const Ray& ray) {
       bool ours = false, theirs = false;
       const vec3 colour = shown_layers.at(ray, true, ours);
       if (!ours) {
@@ -231,7 +143,7 @@ void judge(const std::string& name, int width) {
       }
       return colour;
     });
-    const std::vector<vec3> flat = view_from(eye, turn, [&](const Ray& ray) {
+    const std::vector<vec3> flat = view_from(poses[pose], kView, [&](const Ray& ray) {
       bool m;
       return truth.at({box.center, ray.direction}, false, m);
     });
@@ -241,8 +153,8 @@ void judge(const std::string& name, int width) {
     compare(wanted, got, all);
     compare(wanted, flat, mono);
     if (const char* folder = std::getenv("LAYERS_BENCH_PICTURES")) {
-      save_ppm(fmt::format("{}/{}_{}_truth.ppm", folder, name, pose), wanted);
-      save_ppm(fmt::format("{}/{}_{}_layers.ppm", folder, name, pose), got);
+      save_ppm(fmt::format("{}/{}_{}_truth.ppm", folder, name, pose), kView, wanted);
+      save_ppm(fmt::format("{}/{}_{}_layers.ppm", folder, name, pose), kView, got);
     }
   }
   fmt::print("  layers {}\n  mono   {}\n", all.text(), mono.text());
@@ -251,8 +163,13 @@ void judge(const std::string& name, int width) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int width = argc > 1 ? std::atoi(argv[1]) : 8192;
-  std::vector<std::string> names(argv + std::min(argc, 2), argv + argc);
-  if (names.empty()) names = {"room", "atrium", "wineglass", "toys"};
-  for (const std::string& name : names) judge(name, width);
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  const bool is_lit = !words.empty() && words[0] == "lit";
+  if (is_lit) words.erase(words.begin());
+  const int width = words.empty() ? (is_lit ? 2048 : 8192) : std::atoi(words[0].c_str());
+  std::vector<std::string> names(words.begin() + std::min<std::ptrdiff_t>(1, std::ssize(words)), words.end());
+  if (names.empty())
+    names = is_lit ? std::vector<std::string>{"room", "room+pane"}
+                   : std::vector<std::string>{"room", "atrium", "wineglass", "toys"};
+  for (const std::string& name : names) (is_lit ? judge_lit : judge)(name, width);
 }

@@ -24,15 +24,17 @@ void main() {
   gl_Position = vec4(p.xy, is_sky ? 0.0 : p.z - ${2 * NEAR}, p.z);
 }`;
 
-// Alpha is coverage where there is a cutoff, with an edge as sharp as a pixel.
+// Alpha is coverage where there is a cutoff, with an edge as sharp as a pixel. Glass is blended by straight alpha, in light.
 const FRAGMENT = `#version 300 es
 precision highp float;
 uniform sampler2D page;
 uniform float cutoff;
+uniform bool is_blended;
 in vec2 at;
 out vec4 color;
 void main() {
   color = texture(page, at);
+  if (is_blended) return;
   float edge = fwidth(color.a);
   color.a = cutoff > 0.0 ? clamp((color.a - cutoff) / max(edge, 0.001) + 0.5, 0.0, 1.0) : 1.0;
 }`;
@@ -147,12 +149,16 @@ export class LayeredDrawer {
     gl.useProgram(program);
     gl.enable(gl.CULL_FACE);
     gl.depthFunc(gl.LEQUAL);
+    gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ZERO, gl.ONE);
     gl.uniformMatrix3fv(uniforms.to_screen, false, inverse(rays));
     gl.activeTexture(gl.TEXTURE0);
-    for (const { array, texture, matrix, cutoff, isSky, place, indices: { count, type, offset } } of meshes) {
+    for (const { array, texture, matrix, cutoff, isBlended, isSky, place, indices: { count, type, offset } } of meshes) {
       gl[isSky ? 'disable' : 'enable'](gl.DEPTH_TEST);
       gl[cutoff ? 'enable' : 'disable'](gl.SAMPLE_ALPHA_TO_COVERAGE);
+      gl[isBlended ? 'enable' : 'disable'](gl.BLEND);
+      gl.depthMask(!isBlended);
       gl.uniform1f(uniforms.cutoff, cutoff);
+      gl.uniform1i(uniforms.is_blended, isBlended);
       gl.uniform1i(uniforms.is_sky, isSky);
       gl.uniform3fv(uniforms.eye, isSky ? middle : at);
       gl.uniform4fv(uniforms.place, place);
@@ -161,7 +167,8 @@ export class LayeredDrawer {
       gl.bindVertexArray(array);
       gl.drawElements(gl.TRIANGLES, count, type, offset);
     }
-    for (const each of [gl.DEPTH_TEST, gl.CULL_FACE, gl.SAMPLE_ALPHA_TO_COVERAGE]) gl.disable(each);
+    for (const each of [gl.DEPTH_TEST, gl.CULL_FACE, gl.SAMPLE_ALPHA_TO_COVERAGE, gl.BLEND]) gl.disable(each);
+    gl.depthMask(true);
     gl.bindVertexArray(before);
     this.resolve(this.eyes[number].target);
     gl.disable(gl.SCISSOR_TEST);

@@ -67,6 +67,7 @@ function readPrimitive(glb, { attributes, indices, material: number, mode = 4 },
   const mesh = {
     matrix, positions, uvs, indices: glb.accessor(indices), place: [...scale, ...offset], image: glb.imageOf(info.index),
     isSky: node.extras?.omnistereo?.sky === true, cutoff: material.alphaMode === 'MASK' ? material.alphaCutoff ?? 0.5 : 0,
+    isBlended: material.alphaMode === 'BLEND',
   };
   checkIndices(mesh.indices, positions.count);
   return mesh;
@@ -76,7 +77,7 @@ function readPrimitive(glb, { attributes, indices, material: number, mode = 4 },
 function readMeshes(glb) {
   const meshes = glb.nodes().flatMap((each) => each.mesh.primitives.map((primitive) => readPrimitive(glb, primitive, each)));
   check(meshes.length > 0, 'it has no triangles');
-  const order = ({ isSky, cutoff }) => (isSky ? 0 : cutoff ? 2 : 1);
+  const order = ({ isSky, cutoff, isBlended }) => (isSky ? 0 : isBlended ? 3 : cutoff ? 2 : 1);
   return meshes.sort((a, b) => order(a) - order(b));
 }
 

@@ -11,6 +11,8 @@
 
 #include "ods/base/error.h"
 #include "ods/layers/light_rays.h"
+#include "ods/layers/rays/panes.h"
+#include "ods/layers/rays/seen_mirrors.h"
 
 namespace ods {
 
@@ -74,14 +76,47 @@ class MeshBuilder {
   std::unordered_map<uint64_t, uint> index_;
 };
 
-std::vector<PieceMesh> make_pieces(const Scene& scene, const PanoramaPages& pages, float pixel, LayerCounts& counts,
-                                   const Progress& progress) {
-  std::vector<SeenSurface> surfaces = seen_surfaces(scene, pages.probe(), pixel);
+// The metres at which the sky in mirrors lies: behind all that they show.
+float mirrored_sky_distance(const Scene& scene, vec3 middle) {
+  float farthest = 1.0f;
+  for (size_t i = 0; i < scene.instances.size(); i++) {
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
+    for (uint v = 0; v < mesh.vertex_count; v++) {
+      const vec3 at = to_world(scene.instances[i], scene.vertices[mesh.first_vertex + v].position);
+      farthest = std::max(farthest, length(at - middle));
+    }
+  }
+  return 4.0f * farthest;
+}
+
+// The sides of panes as surfaces. Not simplified further than to half a pixel.
+std::vector<SeenSurface> pane_surfaces(const Scene& scene, const std::vector<char>& panes, vec3 middle, float pixel) {
+  std::vector<SeenSurface> surfaces;
+  for (size_t i = 0; i < 2 * panes.size(); i++) {
+    if (!panes[i / 2]) continue;
+    PaneTriangles pane = pane_triangles(scene, static_cast<int>(i / 2), i % 2 == 1, middle);
+    if (pane.triangles.empty()) continue;
+    surfaces.push_back(
+        {static_cast<int>(i), true, 0.5f * pixel * pane.nearest, std::move(pane.positions), std::move(pane.triangles)});
+  }
+  return surfaces;
+}
+
+std::vector<PieceMesh> make_pieces(const Scene& scene, const PanoramaPages& pages, const std::vector<char>& panes,
+                                   float pixel, LayerCounts& counts, const Progress& progress) {
+  const Probe& probe = pages.probe();
+  std::vector<SeenSurface> surfaces = seen_surfaces(scene, probe, pixel);
+  const size_t first_pane = surfaces.size();
+  std::vector<SeenSurface> glass = pane_surfaces(scene, panes, probe.box.center, pixel);
+  std::move(glass.begin(), glass.end(), std::back_inserter(surfaces));
   for (const SeenSurface& surface : surfaces) counts.simplified_triangles += surface.triangles.size();
   std::vector<PieceMesh> meshes(surfaces.size());
   tbb::parallel_for(size_t{0}, surfaces.size(), [&](size_t i) {
     if (progress.cancelled && progress.cancelled()) return;
     meshes[i] = cut_to_pages(std::move(surfaces[i]), pages.grid());
+    meshes[i].is_pane = i >= first_pane;
+    meshes[i].mirror = probe.numbers.mirror_of(meshes[i].side / 2);
+    meshes[i].probe = &probe;
     decide_pieces(pages, meshes[i], pixel);
   });
   if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
@@ -138,18 +173,47 @@ void add_chart_meshes(const std::vector<PieceMesh>& meshes, const std::vector<Ch
   }
 }
 
-// Packs opaque and masked charts in textures of their own.
+LayerKind kind_of(const PieceMesh& mesh) {
+  return mesh.is_pane ? LayerKind::kBlended : mesh.masked ? LayerKind::kMasked : LayerKind::kOpaque;
+}
+
+const char* noun_of(LayerKind kind) {
+  return kind == LayerKind::kBlended ? "panes" : kind == LayerKind::kMasked ? "masked charts" : "charts";
+}
+
+// Puts the triangles of blended meshes in the order in which they are drawn: the farthest first.
+void sort_blended(LayeredScene& scene) {
+  for (LayerMesh& mesh : scene.meshes) {
+    if (mesh.kind != LayerKind::kBlended) continue;
+    const auto distance = [&](const uvec3& corners) {
+      const vec3 sum = mesh.positions[corners.x] + mesh.positions[corners.y] + mesh.positions[corners.z];
+      return length(sum / 3.0f - scene.box.center);
+    };
+    std::ranges::stable_sort(mesh.triangles, [&](const uvec3& a, const uvec3& b) { return distance(a) > distance(b); });
+  }
+}
+
+// Packs charts of each kind in textures of their own.
 void pack(const std::vector<PieceMesh>& meshes, std::vector<Chart>& charts, int size, LayeredScene& scene) {
-  for (const bool masked : {false, true}) {
+  for (const LayerKind kind : {LayerKind::kOpaque, LayerKind::kMasked, LayerKind::kBlended}) {
     std::vector<Chart*> some;
     for (Chart& chart : charts) {
-      if (meshes[chart.mesh].masked == masked) some.push_back(&chart);
+      if (kind_of(meshes[chart.mesh]) == kind) some.push_back(&chart);
     }
     const int first = static_cast<int>(scene.meshes.size());
     LayerMesh mesh;
-    mesh.kind = masked ? LayerKind::kMasked : LayerKind::kOpaque;
-    mesh.noun = masked ? "masked charts" : "charts";
+    mesh.kind = kind;
+    mesh.noun = noun_of(kind);
     scene.meshes.resize(scene.meshes.size() + static_cast<size_t>(pack_charts(std::move(some), size, first)), mesh);
+  }
+}
+
+void count_sizes(const LayerGeometry& geometry, int page_count, LayerCounts& counts) {
+  for (const LayerMesh& mesh : geometry.scene.meshes) counts.triangles += mesh.triangles.size();
+  const size_t size = static_cast<size_t>(geometry.texture_size),
+               in_pages = static_cast<size_t>(page_count) * size * size;
+  for (size_t i = 0; i < geometry.rays.owners.size(); i++) {
+    if (geometry.rays.owners[i] >= 0) (i < in_pages ? counts.page_texels : counts.chart_texels)++;
   }
 }
 
@@ -161,7 +225,13 @@ LayerGeometry build_layers(const Scene& scene, const HeadBox& box, int width, La
   LayerGeometry geometry;
   geometry.scene.box = box;
   geometry.scene.width = width;
-  const FirstHits hits(scene);
+  const float half = 0.5f * std::max({box.size.x, box.size.y, box.size.z});
+  const std::vector<char> panes = find_panes(scene, box.center, half + kEyeRoom);
+  FirstHits hits(scene, panes);
+  std::vector<FlatMirror> mirrors = seen_mirrors(hits, box.center, box.size);
+  counts.mirrors = mirrors.size();
+  counts.panes = static_cast<size_t>(std::ranges::count(panes, 1));
+  if (!mirrors.empty()) hits.set_mirrors(std::move(mirrors), mirrored_sky_distance(scene, box.center));
   Progress probing = progress;
   if (progress.report) probing.report = [&](double done) { progress.report(kShareOfProbe * done); };
   const Probe probe = probe_scene(hits, box, width, probing);
@@ -170,7 +240,7 @@ LayerGeometry build_layers(const Scene& scene, const HeadBox& box, int width, La
   for (const uint8_t side : probe.sides) counts.seen_triangles += side != 0 ? 1 : 0;
   const PanoramaPages pages(probe);
   const float pixel = pixel_angle(width);
-  std::vector<PieceMesh> meshes = make_pieces(scene, pages, pixel, counts, progress);
+  std::vector<PieceMesh> meshes = make_pieces(scene, pages, panes, pixel, counts, progress);
 
   const int size = geometry.texture_size = probe.grid.size();
   int page_count = 0;
@@ -190,20 +260,18 @@ LayerGeometry build_layers(const Scene& scene, const HeadBox& box, int width, La
   if (std::any_of(meshes.begin(), meshes.end(), [](const PieceMesh& mesh) { return mesh.masked; })) {
     geometry.coverage.resize(texels);
   }
+  if (counts.panes > 0) geometry.reflectance.resize(texels);
   std::vector<char> read(probe.instances.size());
   for (const PieceMesh& mesh : meshes) mark_read(probe.grid, mesh, read);
   add_page_rays(pages, read, texture_of, geometry);
-  const int first_owner = 2 * static_cast<int>(scene.instances.size());
+  const int first_owner = 2 * probe.numbers.total();
   tbb::parallel_for(size_t{0}, charts.size(), [&](size_t i) {
     add_chart_rays(hits, probe, meshes[charts[i].mesh], charts[i], first_owner + static_cast<int>(i), geometry);
   });
   add_chart_meshes(meshes, charts, size, geometry.scene);
-  for (const LayerMesh& mesh : geometry.scene.meshes) counts.triangles += mesh.triangles.size();
-  const size_t in_pages = static_cast<size_t>(page_count) * static_cast<size_t>(size) * static_cast<size_t>(size);
-  for (size_t i = 0; i < texels; i++) {
-    if (geometry.rays.owners[i] >= 0) (i < in_pages ? counts.page_texels : counts.chart_texels)++;
-  }
+  sort_blended(geometry.scene);
   if (report) {
+    count_sizes(geometry, page_count, counts);
     counts.holes = find_holes(hits, geometry.scene, {{}, progress.cancelled});
     *report = counts;
   }

@@ -25,8 +25,9 @@ struct LayerGeometry {
   LayeredScene scene;  // textures are empty: mesh i has texture i, rows i * size .. of the rays' table
   int texture_size = 0;
   bool sees_sky = false;
-  TexelRays rays;               // all textures below each other
-  std::vector<float> coverage;  // of the rays' texels: 0..1; empty if nothing is masked
+  TexelRays rays;                  // all textures below each other
+  std::vector<float> coverage;     // of the rays' texels: 0..1, the alpha of glass; empty if nothing is masked or glass
+  std::vector<float> reflectance;  // of the rays' texels: the share of their light; empty if there is no glass
   std::vector<int> claims;  // of the rays' texels: the owner of a texel that filters read and no ray lights; -1: none
   std::vector<PushedTexel> pushed;
 };
@@ -37,6 +38,8 @@ struct LayerCounts {
   size_t simplified_triangles = 0;
   size_t triangles = 0;
   size_t charts = 0;
+  size_t mirrors = 0;      // whose reflections are geometry
+  size_t panes = 0;        // of thin glass
   size_t page_texels = 0;  // that have light of their own
   size_t chart_texels = 0;
   LayerHoles holes;

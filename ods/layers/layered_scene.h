@@ -28,20 +28,26 @@ struct HeadBox {
 
 // How a texture is drawn.
 enum class LayerKind {
-  kOpaque,  // with a depth test
-  kMasked,  // alpha is coverage: drawn where it is at least 0.5, or by alpha to coverage
-  kSky,     // at infinity: a cube around the eye, drawn first, without depth
+  kOpaque,   // with a depth test
+  kMasked,   // alpha is coverage: drawn where it is at least 0.5, or by alpha to coverage
+  kBlended,  // of glass, blended over what is behind it by straight alpha, in linear light; drawn last, in this order
+  kSky,      // at infinity: a cube around the eye, drawn first, without depth
 };
 
 // The triangles that share a texture: one draw call.
 struct LayerMesh {
   LayerKind kind = LayerKind::kOpaque;
-  std::string noun = "page";  // what it is, for names in files: page, charts, masked charts, sky
+  std::string noun = "page";  // what it is, for names in files: page, charts, masked charts, panes, sky
   std::vector<vec3> positions;
   std::vector<vec2> uvs;  // one for each position
   std::vector<uvec3> triangles;
-  Image texture;  // 3 channels, or 4 with straight alpha if masked; displayed values, sRGB-encoded, 0..1
+  Image texture;  // 3 channels, or 4 with straight alpha if has_alpha(); displayed values, sRGB-encoded, 0..1
 };
+
+// Returns whether textures of this kind have alpha.
+constexpr bool has_alpha(LayerKind kind) {
+  return kind == LayerKind::kMasked || kind == LayerKind::kBlended;
+}
 
 // The light that arrives at a place from all directions, in real spherical harmonics of the orders 0 to 2.
 struct LightProbe {

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "ods/layers/footprint.h"
+#include "ods/layers/rays/panes.h"
 
 namespace ods {
 
@@ -30,6 +31,35 @@ vec3 on_surface(vec3 step, vec3 direction, vec3 normal) {
   return step - direction * (dot(step, normal) / std::min(dot(direction, normal), -kGrazingJitter));
 }
 
+// The way to a point that a mirror shows, from just in front of the mirror. Both are relative to the middle.
+struct MirroredStart {
+  vec3 origin;
+  float distance;  // from there to the point
+  float share;     // of the whole way: what a step beside the point is beside this one
+};
+
+MirroredStart start_at_mirror(const FlatMirror& mirror, vec3 middle, vec3 point, vec3 direction) {
+  const float behind = height_above(mirror, middle + point) / std::min(dot(mirror.normal, direction), -1e-6f);
+  const float beyond = std::max(behind, 0.0f);
+  const vec3 crossing = point - direction * beyond;
+  const float lift = std::min(kLift + kFlatness * length(crossing), 0.5f * length(crossing));
+  return {crossing - direction * lift, beyond + lift, length(crossing) / length(point)};
+}
+
+// A step beside a point that a mirror shows, as one beside the crossing on the mirror: rays are parallel within a texel,
+// and larger steps would leave the mirror.
+vec3 on_mirror(const FlatMirror& mirror, const MirroredStart& start, vec3 step, vec3 direction) {
+  return on_surface(start.share * step, direction, mirror.normal);
+}
+
+// Returns whether all of a texel's rays meet the mirror before which they start.
+bool starts_in(const FlatMirror& mirror, const TexelRay& ray) {
+  for (const vec2& at : {vec2(-0.5f, -0.5f), vec2(-0.5f, 0.5f), vec2(0.5f, -0.5f), vec2(0.5f, 0.5f)}) {
+    if (!is_in_outline(mirror, ray.origin + at.x * ray.across + at.y * ray.down, 0.0f)) return false;
+  }
+  return true;
+}
+
 // The ray of a page's texel. It is jittered only where its neighbours lie on the same plane.
 TexelRay page_ray(const PanoramaPages& pages, size_t texel, int page, int x, int y) {
   const PageGrid& grid = pages.grid();
@@ -39,6 +69,12 @@ TexelRay page_ray(const PanoramaPages& pages, size_t texel, int page, int x, int
   TexelRay ray{};
   ray.origin = probe.box.center + point - direction * std::min(kLift + kFlatness * length(point), 0.5f * length(point));
   ray.direction = direction;
+  const FlatMirror* const mirror = mirror_of(probe, probe.instances[texel]);
+  MirroredStart start{};
+  if (mirror) {
+    start = start_at_mirror(*mirror, probe.box.center, point, direction);
+    ray.origin = probe.box.center + start.origin;
+  }
   const vec3 normal = unpack_direction(probe.normals[texel]);
   for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)}) {
     if (x + dx < 0 || y + dy < 0 || x + dx >= grid.size() || y + dy >= grid.size()) return ray;
@@ -47,8 +83,9 @@ TexelRay page_ray(const PanoramaPages& pages, size_t texel, int page, int x, int
     if (!pages.shows(beside, point, normal, kLift)) return ray;
   }
   const auto step = [&](vec2 half) {
-    return on_surface((from_page(grid, page, center + half) - from_page(grid, page, center - half)) * length(point),
-                      direction, normal);
+    const vec3 on_sphere =
+        (from_page(grid, page, center + half) - from_page(grid, page, center - half)) * length(point);
+    return mirror ? on_mirror(*mirror, start, on_sphere, direction) : on_surface(on_sphere, direction, normal);
   };
   ray.across = step({0.5f, 0.0f});
   ray.down = step({0.0f, 0.5f});
@@ -89,6 +126,7 @@ struct ChartShooter {
     vec3 direction = normalize(point - place);
     if (dot(direction, normal) > -0.05f) direction = normalize(direction - normal * (0.1f + dot(direction, normal)));
     const float most = depth_tolerance(mesh, -dot(direction, normal));
+    if (mesh.mirror >= 0) return mirrored_ray(point, direction, most);
     for (const float share : {1.0f, 0.3f, 0.1f}) {
       const float lift = std::min(std::max(share * most, kLift), 0.5f * length(point));
       ray.origin = probe.box.center + point - direction * lift;
@@ -100,7 +138,29 @@ struct ChartShooter {
     }
     return ray;
   }
+
+  // The same through a mirror.
+  TexelRay mirrored_ray(vec3 point, vec3 direction, float most) const {
+    TexelRay ray{};
+    const MirroredStart start = start_at_mirror(*mirror_of(probe, mesh.side), probe.box.center, point, direction);
+    ray.origin = probe.box.center + start.origin;
+    FirstHit seen;
+    hits.look(ray.origin, &direction, 1, &seen);
+    const bool is_it = seen.instance == mesh.side / 2 && seen.front == (mesh.side % 2 == 0);
+    const bool is_there = probe.numbers.is_sky(mesh.side / 2) || abs(seen.distance - start.distance) <= most;
+    if (is_it && is_there) ray.direction = direction;
+    return ray;
+  }
 };
+
+// The ray that finds what a pane reflects to the middle at a point.
+TexelRay pane_ray(const Probe& probe, const ChartTriangle& triangle, vec3 point) {
+  TexelRay ray{};
+  const vec3 direction = normalize(point);
+  ray.origin = probe.box.center + point + triangle.normal * (kLift + 0.1f * kFlatness * length(point));
+  ray.direction = direction - triangle.normal * (2.0f * dot(direction, triangle.normal));
+  return ray;
+}
 
 // A masked texel: its coverage, and the ray of the covered sample that is nearest to its centre.
 TexelRay masked_ray(const ChartShooter& shooter, const ChartTriangle& triangle, vec2 center, float& coverage) {
@@ -116,6 +176,15 @@ TexelRay masked_ray(const ChartShooter& shooter, const ChartTriangle& triangle, 
   }
   coverage = static_cast<float>(covered) / (kMaskGrid * kMaskGrid);
   return best;
+}
+
+// Sets what a texel of a pane needs beside its light.
+void set_glass(const Scene& scene, int side, float cosine, size_t at, LayerGeometry& geometry) {
+  const Instance& instance = scene.instances[static_cast<size_t>(side / 2)];
+  const Material& glass =
+      scene.materials[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)];
+  geometry.coverage[at] = pane_alpha(glass, cosine);
+  geometry.reflectance[at] = pane_reflectance(glass, cosine);
 }
 
 }  // namespace
@@ -161,6 +230,7 @@ void add_page_rays(const PanoramaPages& pages, const std::vector<char>& read, co
 void add_chart_rays(const FirstHits& hits, const Probe& probe, PieceMesh& mesh, const Chart& chart, int owner,
                     LayerGeometry& geometry) {
   const ChartShooter shooter{hits, probe, mesh, probe.maps[static_cast<size_t>(chart.place)].place};
+  const FlatMirror* const mirror = mirror_of(probe, mesh.side);
   const int size = geometry.texture_size;
   std::vector<char> inside(static_cast<size_t>(chart.width) * static_cast<size_t>(chart.height));
   for (const size_t index : chart.pieces) {
@@ -180,11 +250,22 @@ void add_chart_rays(const FirstHits& hits, const Probe& probe, PieceMesh& mesh, 
       const char level = contained ? 2 : 1;
       if (done >= level) return true;
       done = level;
-      TexelRay ray = mesh.masked ? masked_ray(shooter, triangle, center, geometry.coverage[at])
-                                 : shooter.ray(triangle.point(center), triangle.normal);
-      if (!mesh.masked && level == 2 && ray.direction != vec3(0.0f)) {
-        ray.across = on_surface(chart.across / dot(chart.across, chart.across), ray.direction, triangle.normal);
-        ray.down = on_surface(chart.down / dot(chart.down, chart.down), ray.direction, triangle.normal);
+      const vec3 point = triangle.point(center);
+      TexelRay ray = mesh.is_pane  ? pane_ray(probe, triangle, point)
+                     : mesh.masked ? masked_ray(shooter, triangle, center, geometry.coverage[at])
+                                   : shooter.ray(point, triangle.normal);
+      if (mesh.is_pane) set_glass(hits.scene(), mesh.side, -dot(normalize(point), triangle.normal), at, geometry);
+      if ((!mesh.masked || mesh.is_pane) && level == 2 && ray.direction != vec3(0.0f)) {
+        const vec3 seen_along = mesh.is_pane ? normalize(point) : ray.direction;
+        const auto step = [&](vec3 axis) {
+          const vec3 beside = axis / dot(axis, axis);
+          if (!mirror) return on_surface(beside, seen_along, triangle.normal);
+          const MirroredStart start = start_at_mirror(*mirror, probe.box.center, point, seen_along);
+          return on_mirror(*mirror, start, beside, seen_along);
+        };
+        ray.across = step(chart.across);
+        ray.down = step(chart.down);
+        if (mirror && !starts_in(*mirror, ray)) ray.across = ray.down = vec3(0.0f);
       }
       geometry.rays.rays[at] = ray;
       const bool lit = ray.direction != vec3(0.0f);

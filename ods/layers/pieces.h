@@ -34,6 +34,9 @@ struct PieceMesh {
   float error = 0.0f;
   std::vector<vec3> positions;  // relative to the middle of the box
   std::vector<Piece> pieces;
+  bool is_pane = false;
+  int mirror = -1;               // of the probe's, in which it is seen
+  const Probe* probe = nullptr;  // set if that has mirrors
 };
 
 // The same number for an edge in both directions.

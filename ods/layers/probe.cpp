@@ -79,37 +79,6 @@ vec3 unpack_direction(uint32_t packed) {
   return normalize(normal);
 }
 
-FirstHits::FirstHits(const Scene& scene) : scene_(scene), no_lights_(without_lights(scene)), embree_(scene) {
-  set_scene(tracer_, scene_, no_lights_);
-  tracer_.ray_time = 0.5f;
-}
-
-void FirstHits::look(vec3 from, const vec3* directions, int count, FirstHit* seen) const {
-  PathTracer tracer = tracer_;  // it has state while it decides about alpha
-  RayPacket packet;
-  Hit found[RayPacket::kMax];
-  for (int begin = 0; begin < count; begin += packet.count) {
-    packet.count = std::min(count - begin, RayPacket::kMax);
-    packet.seed = hash_pair(static_cast<uint>(floatBitsToInt(directions[begin].x)),
-                            static_cast<uint>(floatBitsToInt(directions[begin].y)));
-    for (int i = 0; i < packet.count; i++) {
-      packet.rays[i] = {from, directions[begin + i]};
-      packet.times[i] = 0.5f;
-    }
-    embree_.closest_hits(tracer, packet, found);
-    for (int i = 0; i < packet.count; i++) {
-      FirstHit& one = seen[begin + i];
-      one = FirstHit();
-      if (found[i].t < 0.0f) continue;
-      const Instance instance = tracer.instance_now(found[i].instance);
-      const auto triangle = tracer.triangle_of(instance, tracer.corners_of(found[i]));
-      const vec3 normal = normalize(cross(triangle.ab, triangle.ac)) * handedness_of(instance);
-      const bool front = dot(normal, packet.rays[i].direction) < 0.0f;
-      one = {found[i].t, front ? normal : -normal, found[i].instance, found[i].triangle, front};
-    }
-  }
-}
-
 namespace {
 
 // Looks from a place at all texels of a grid and calls visit(texel, seen).
@@ -144,12 +113,14 @@ size_t texels_of(const PageGrid& grid) {
 
 void count_triangles(const Scene& scene, Probe& probe) {
   size_t count = 0;
-  for (const Instance& instance : scene.instances) {
+  for (int i = 0; i < probe.numbers.total(); i++) {
     probe.first_triangle.push_back(count);
-    count += scene.meshes[static_cast<size_t>(instance.mesh)].triangle_count;
+    const auto mesh_of = [&](int real) { return scene.instances[static_cast<size_t>(real)].mesh; };
+    count +=
+        probe.numbers.is_sky(i) ? 1 : scene.meshes[static_cast<size_t>(mesh_of(probe.numbers.real(i)))].triangle_count;
   }
   probe.sides.resize(count);
-  probe.nearest.assign(2 * scene.instances.size(), kFarAway);
+  probe.nearest.assign(2 * static_cast<size_t>(probe.numbers.total()), kFarAway);
 }
 
 }  // namespace
@@ -158,9 +129,14 @@ Probe probe_scene(const FirstHits& hits, const HeadBox& box, int width, const Pr
   Probe probe;
   probe.box = box;
   probe.grid = page_grid(width);
-  const size_t bytes = sizeof(float) + sizeof(uint32_t) + sizeof(int) + sizeof(TexelRay) + 2 * sizeof(int);
-  check_memory(texels_of(probe.grid) * bytes + (kPlaces - 1) * texels_of(page_grid(width / 2)) * sizeof(float),
+  const size_t bytes =
+      sizeof(float) + sizeof(uint32_t) + sizeof(int) + sizeof(TexelRay) + 2 * sizeof(int) + sizeof(int8_t);
+  check_memory(texels_of(probe.grid) * bytes +
+                   (kPlaces - 1) * texels_of(page_grid(width / 2)) * (sizeof(float) + sizeof(int8_t)),
                fmt::format("a layered scene {} pixels around", width), "a smaller `width` needs less");
+  probe.numbers = hits.numbers();
+  probe.mirrors = hits.mirrors();
+  probe.mirrored_sky = hits.sky_distance();
   count_triangles(hits.scene(), probe);
   probe.normals.resize(texels_of(probe.grid));
   probe.instances.assign(texels_of(probe.grid), -1);
@@ -168,8 +144,9 @@ Probe probe_scene(const FirstHits& hits, const HeadBox& box, int width, const Pr
   const std::vector<vec3> places = places_of(box);
   for (int place = 0; place < kPlaces; place++) {
     const PageGrid grid = place == kMiddle ? probe.grid : page_grid(width / 2);
-    DistanceMap& map = probe.maps.emplace_back(DistanceMap{places[static_cast<size_t>(place)], grid, {}});
+    DistanceMap& map = probe.maps.emplace_back(DistanceMap{places[static_cast<size_t>(place)], grid, {}, {}});
     map.distances.resize(texels_of(grid));
+    if (probe.numbers.mirrors > 0) map.mirrors.assign(texels_of(grid), -1);
     look_around(hits, box.center + map.place, grid, progress, [&](size_t texel, const FirstHit& seen) {
       if (seen.instance < 0) {
         map.distances[texel] = kFarAway;
@@ -177,6 +154,7 @@ Probe probe_scene(const FirstHits& hits, const HeadBox& box, int width, const Pr
         return;
       }
       map.distances[texel] = seen.distance;
+      if (!map.mirrors.empty()) map.mirrors[texel] = static_cast<int8_t>(probe.numbers.mirror_of(seen.instance));
       const size_t instance = static_cast<size_t>(seen.instance);
       mark(probe.sides, probe.first_triangle[instance] + static_cast<size_t>(seen.triangle),
            seen.front ? kFrontSeen : kBackSeen);

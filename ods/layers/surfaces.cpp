@@ -54,10 +54,19 @@ void compact(SeenSurface& surface) {
   surface.positions = std::move(used);
 }
 
+// Leaves out the mirrors of an instance, which show another world in their place.
+void leave_out_mirrors(const Probe& probe, int instance, std::vector<char>& kept) {
+  for (const FlatMirror& mirror : probe.mirrors) {
+    if (mirror.instance != instance) continue;
+    for (const uint triangle : mirror.triangles) kept[triangle] = 0;
+  }
+}
+
 // One side of an instance: its triangles that the probe saw, and their neighbours.
 SeenSurface collect(const Scene& scene, const Probe& probe, int side) {
   const size_t at = static_cast<size_t>(side / 2);
-  const Instance& instance = scene.instances[at];
+  const FlatMirror* const mirror = mirror_of(probe, side);
+  const Instance& instance = scene.instances[static_cast<size_t>(probe.numbers.real(side / 2))];
   const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
   SeenSurface surface;
   surface.side = side;
@@ -66,11 +75,13 @@ SeenSurface collect(const Scene& scene, const Probe& probe, int side) {
   for (uint i = 0; i < mesh.vertex_count; i++) local.push_back(scene.vertices[mesh.first_vertex + i].position);
   const std::vector<uint> welded = weld(local);
   surface.positions.resize(local.size());
-  for (size_t i = 0; i < local.size(); i++)
-    surface.positions[welded[i]] = to_world(instance, local[i]) - probe.box.center;
+  for (size_t i = 0; i < local.size(); i++) {
+    const vec3 world = to_world(instance, local[i]);
+    surface.positions[welded[i]] = (mirror ? reflected_point(*mirror, world) : world) - probe.box.center;
+  }
 
   const uint8_t wanted = side % 2 == 0 ? kFrontSeen : kBackSeen;
-  const bool flips = (handedness_of(instance) < 0.0f) != (side % 2 == 1);
+  const bool flips = ((handedness_of(instance) < 0.0f) != (side % 2 == 1)) != (mirror != nullptr);
   std::vector<char> kept;
   for (uint i = 0; i < mesh.triangle_count; i++) {
     const uvec3 own = scene.triangles[mesh.first_triangle + i];
@@ -80,6 +91,7 @@ SeenSurface collect(const Scene& scene, const Probe& probe, int side) {
     kept.push_back((probe.sides[probe.first_triangle[at] + i] & wanted) != 0);
   }
   add_ring(surface.triangles, surface.positions.size(), kept);
+  if (!mirror) leave_out_mirrors(probe, side / 2, kept);
   size_t count = 0;
   for (size_t i = 0; i < kept.size(); i++) {
     const uvec3 triangle = surface.triangles[i];
@@ -87,7 +99,33 @@ SeenSurface collect(const Scene& scene, const Probe& probe, int side) {
     if (kept[i] && !flat) surface.triangles[count++] = triangle;
   }
   surface.triangles.resize(count);
+  if (mirror) keep_behind(*mirror, probe.box.center, surface.positions, surface.triangles);
   compact(surface);
+  return surface;
+}
+
+// The sky in a mirror: a sphere far away, of which only parts are seen.
+SeenSurface mirrored_sky(const Probe& probe, int side) {
+  constexpr int kCells = 16;  // of a face's side
+  const PageGrid grid(kCells + 2 * PageGrid::kGutter, 1);
+  SeenSurface surface;
+  surface.side = side;
+  surface.error = 0.002f * probe.mirrored_sky;  // between the sphere and its triangles
+  std::vector<vec3> positions;
+  std::vector<uvec3> triangles;
+  for (int face = 0; face < kFaces; face++) {
+    const uint first = static_cast<uint>(positions.size()), row = kCells + 1;
+    for (uint i = 0; i < row * row; i++) {
+      const vec2 at = vec2(i % row, i / row) + static_cast<float>(PageGrid::kGutter);
+      positions.push_back(probe.mirrored_sky * from_page(grid, face, at));
+      if (i % row == kCells || i / row == kCells) continue;
+      const uint corner = first + i;
+      triangles.emplace_back(corner, corner + row, corner + 1);
+      triangles.emplace_back(corner + 1, corner + row, corner + row + 1);
+    }
+  }
+  surface.positions = std::move(positions);
+  surface.triangles = std::move(triangles);
   return surface;
 }
 
@@ -114,6 +152,10 @@ std::vector<SeenSurface> seen_surfaces(const Scene& scene, const Probe& probe, f
   }
   std::vector<SeenSurface> surfaces(sides.size());
   tbb::parallel_for(size_t{0}, sides.size(), [&](size_t i) {
+    if (probe.numbers.is_sky(sides[i] / 2)) {
+      surfaces[i] = mirrored_sky(probe, sides[i]);
+      return;
+    }
     surfaces[i] = collect(scene, probe, sides[i]);
     surfaces[i].error = kPixelsMoved * pixel * probe.nearest[static_cast<size_t>(sides[i])];
     simplify(surfaces[i]);

@@ -11,9 +11,9 @@ namespace ods {
 
 // One side of an instance, or the seen part of it. Triangles are counter-clockwise as seen from the box.
 struct SeenSurface {
-  int side = 0;                 // 2 * instance + (1 if seen from the back), as in Probe::instances
-  bool masked = false;          // it has alpha
-  float error = 0.0f;           // metres: triangles are at most about so far from the scene's own
+  int side = 0;         // 2 * instance + (1 if seen from the back), as in Probe::instances: in a mirror, perhaps
+  bool masked = false;  // it has alpha
+  float error = 0.0f;   // metres: triangles are at most about so far from the scene's own
   std::vector<vec3> positions;  // relative to the middle of the box
   std::vector<uvec3> triangles;
 };

@@ -16,10 +16,12 @@ namespace {
 
 constexpr int kSpan = 2 * PanoramaPages::kReach + 1;
 constexpr int kNoShift = PanoramaPages::kReach * kSpan + PanoramaPages::kReach;
-constexpr float kSmallest = 0.004f;   // metres: of depth_tolerance()
-constexpr float kGrazing = 0.05f;     // cosine
-constexpr float kPartlySeen = 64.0f;  // texels: shorter pieces that are partly seen are not divided
+constexpr float kSmallest = 0.004f;      // metres: of depth_tolerance()
+constexpr float kGrazing = 0.05f;        // cosine
+constexpr float kBehindMirror = 0.005f;  // metres behind a mirror's plane, from where on it hides a point
+constexpr float kPartlySeen = 64.0f;     // texels: shorter pieces that are partly seen are not divided
 constexpr float kPartlyHidden = 80.0f;
+constexpr float kAtMirror = 2.0f;
 constexpr float kMaxChartPiece = 100.0f;
 constexpr float kSampleSpacing = 5.0f;  // texels
 constexpr int kMaxSamples = 24;         // along an edge
@@ -99,6 +101,25 @@ bool PanoramaPages::shows(size_t texel, vec3 on_plane, vec3 normal, float tolera
   return abs(dot(normal, point(from) - on_plane)) <= tolerance + grid().pixel() * distance;
 }
 
+namespace {
+
+// Returns whether a texel shows a mirror in front of a point that is seen directly.
+bool hides_by_mirror(const DistanceMap& map, size_t texel, const PieceMesh& mesh, vec3 point) {
+  const int mirror = map.mirrors.empty() || mesh.mirror >= 0 ? -1 : map.mirrors[texel];
+  if (mirror < 0) return false;
+  const FlatMirror& before = mesh.probe->mirrors[static_cast<size_t>(mirror)];
+  return height_above(before, mesh.probe->box.center + point) <= -kBehindMirror;
+}
+
+// Returns whether a texel of a map shows the space of a point: directly, or in the mirror in which the point is seen.
+// In front of a mirror, its texels are as any that are farther away.
+bool shows_space_of(const DistanceMap& map, size_t texel, const PieceMesh& mesh, vec3 point) {
+  if (mesh.mirror >= 0) return map.mirrors[texel] == mesh.mirror;
+  return !hides_by_mirror(map, texel, mesh, point);
+}
+
+}  // namespace
+
 bool sees(const DistanceMap& map, const PieceMesh& mesh, vec3 point, vec3 normal, int reach) {
   const vec3 ray = point - map.place;
   const float distance = length(ray);
@@ -106,11 +127,15 @@ bool sees(const DistanceMap& map, const PieceMesh& mesh, vec3 point, vec3 normal
   if (cosine < -kGrazing) return false;
   const float nearest = distance - depth_tolerance(mesh, cosine);
   const auto [page, at] = place_in_pages(map.grid, ray);
+  const int last = map.grid.size() - 1;
+  const Texel own{page, std::min(static_cast<int>(at.x), last), std::min(static_cast<int>(at.y), last)};
+  if (hides_by_mirror(map, index_of(map.grid, own), mesh, point)) return false;
   for (int dy = -reach; dy <= reach; dy++) {
     for (int dx = -reach; dx <= reach; dx++) {
       const int x = std::clamp(static_cast<int>(at.x) + dx, 0, map.grid.size() - 1);
       const int y = std::clamp(static_cast<int>(at.y) + dy, 0, map.grid.size() - 1);
-      if (map.distances[index_of(map.grid, {page, x, y})] >= nearest) return true;
+      const size_t texel = index_of(map.grid, {page, x, y});
+      if (map.distances[texel] >= nearest && shows_space_of(map, texel, mesh, point)) return true;
     }
   }
   return false;
@@ -199,6 +224,19 @@ Share seen_share(const Probe& probe, const PieceMesh& mesh, const Piece& piece, 
   });
 }
 
+// Returns whether a part of a piece is behind a mirror, where it would hide what the mirror shows.
+bool is_behind_mirror(const Probe& probe, const PieceMesh& mesh, const Piece& piece, float texels) {
+  if (probe.mirrors.empty() || mesh.mirror >= 0) return false;
+  return share_of_points(mesh, piece, texels, [&](vec3 point) {
+           return std::any_of(probe.maps.begin(), probe.maps.end(), [&](const DistanceMap& map) {
+             const auto [page, at] = place_in_pages(map.grid, point - map.place);
+             const int last = map.grid.size() - 1;
+             const Texel texel{page, std::min(static_cast<int>(at.x), last), std::min(static_cast<int>(at.y), last)};
+             return hides_by_mirror(map, index_of(map.grid, texel), mesh, point);
+           });
+         }) != Share::kNothing;
+}
+
 // The state of a piece; kUnknown if it must be divided first.
 PieceState decide(const PanoramaPages& pages, const PieceMesh& mesh, const Piece& piece, float pixel) {
   const vec3 normal =
@@ -214,8 +252,9 @@ PieceState decide(const PanoramaPages& pages, const PieceMesh& mesh, const Piece
   }
   const Share seen = seen_share(pages.probe(), mesh, piece, normal, texels);
   if (seen == Share::kNothing) return PieceState::kDropped;
+  const float partly = is_behind_mirror(pages.probe(), mesh, piece, texels) ? kAtMirror : kPartlyHidden;
   const float largest =
-      seen == Share::kSome ? kPartlyHidden : std::min(kMaxChartPiece, 0.4f * static_cast<float>(pages.grid().size()));
+      seen == Share::kSome ? partly : std::min(kMaxChartPiece, 0.4f * static_cast<float>(pages.grid().size()));
   return texels > largest ? PieceState::kUnknown : PieceState::kChart;
 }
 

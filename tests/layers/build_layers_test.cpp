@@ -134,6 +134,93 @@ TEST(BuildLayers, ShowsEveryEyeWhatItSees) {
   EXPECT_GT(skies, 500);
 }
 
+constexpr float kMirrorAt = -2.98f, kReflectedAt = 2.0f * kMirrorAt - 2.0f;  // z, of a rectangle at z = 2
+
+// A mirror on a wall, and a red rectangle behind the viewer; the rest of the mirror shows the sky.
+Scene mirror_on_wall() {
+  Scene scene;
+  add_painted(scene, vec3(-2, -2, -3), vec3(4, 0, 0), vec3(0, 4, 0), unlit(scene));
+  const int silver = add_material(scene, metal(vec3(0.8f), 0.0f));
+  add_rectangle(scene, vec3(-0.5f, -0.5f, kMirrorAt), vec3(1, 0, 0), vec3(0, 1, 0), silver);
+  const int red = unlit(scene);
+  scene.materials[static_cast<size_t>(red)].base_color = vec4(1, 0, 0, 1);
+  add_rectangle(scene, vec3(-0.6f, -0.6f, 2), vec3(0, 1.2f, 0), vec3(1.2f, 0, 0), red);
+  scene.environment.radiance = vec3(0, 0, 1);
+  return scene;
+}
+
+// The reflection has its place behind the mirror, for every eye, and the light that the mirror leaves of it.
+TEST(BuildLayers, PutsReflectionsBehindMirrors) {
+  const Scene scene = mirror_on_wall();
+  HeadBox box;
+  box.size = vec3(0.4f);
+  const LayeredScene layers = layers_of(scene, box);
+  vec2 low(1.0f), high(-1.0f);
+  for (const LayerMesh& mesh : layers.meshes) {
+    for (const vec3& at : mesh.positions) {
+      if (mesh.kind == LayerKind::kSky || abs(at.z - kReflectedAt) > 1e-4f) continue;
+      low = min(low, vec2(at.x, at.y)), high = max(high, vec2(at.x, at.y));
+    }
+  }
+  EXPECT_LT(length(low + 0.6f) + length(high - 0.6f), 1e-5f);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> any(-0.5f, 0.5f);
+  int reds = 0, skies = 0, walls = 0;
+  for (int i = 0; i < 8000; i++) {
+    const vec3 eye = box.size * vec3(any(random), any(random), any(random));
+    const vec3 direction = normalize(vec3(0.8f * any(random), 0.8f * any(random), -1.0f));
+    const vec3 at_mirror = eye + direction * ((kMirrorAt - eye.z) / direction.z);
+    const vec3 at_red = eye + direction * ((kReflectedAt - eye.z) / direction.z);
+    const vec3 at_wall = eye + direction * ((-3.0f - eye.z) / direction.z);
+    const float outside = std::max(std::abs(at_mirror.x), std::abs(at_mirror.y)) - 0.5f;
+    const float beside = std::max(std::abs(at_red.x), std::abs(at_red.y)) - 0.6f;
+    if (std::abs(outside) < 0.15f || std::abs(beside) < 0.3f) continue;   // four pixels of an outline, three of another
+    const float left = 0.8f + 0.2f * std::pow(1.0f + direction.z, 5.0f);  // Schlick's reflectance
+    const vec3 wanted = outside > 0.0f ? painted(at_wall) : left * (beside < 0.0f ? vec3(1, 0, 0) : vec3(0, 0, 1));
+    (outside > 0.0f ? walls : beside < 0.0f ? reds : skies)++;
+    ASSERT_LT(length(look(layers, eye, direction).colour - wanted), 0.01f)
+        << at_mirror.x << " " << at_mirror.y << " from " << eye.x << " " << eye.y << " " << eye.z;
+  }
+  EXPECT_GT(reds, 10);
+  EXPECT_GT(skies, 100);
+  EXPECT_GT(walls, 300);
+}
+
+// A pane of thin glass before the wall, whose colour is that of the sky that it reflects.
+TEST(BuildLayers, BlendsGlassOverWhatIsBehind) {
+  Scene scene;
+  add_painted(scene, vec3(-2, -2, -3), vec3(4, 0, 0), vec3(0, 4, 0), unlit(scene));
+  Material sheet = glass(1.5f);
+  sheet.thickness = 0.0f;
+  add_rectangle(scene, vec3(-0.5f, -0.5f, -1.5f), vec3(1, 0, 0), vec3(0, 1, 0), add_material(scene, sheet));
+  scene.environment.radiance = vec3(0, 0, 0.5f);
+  LayeredScene layers = layers_of(scene, {});
+  std::vector<LayerMesh> panes;
+  for (LayerMesh& mesh : layers.meshes) {
+    if (mesh.kind == LayerKind::kBlended) panes.push_back(mesh);
+  }
+  std::erase_if(layers.meshes, [](const LayerMesh& mesh) { return mesh.kind == LayerKind::kBlended; });
+  ASSERT_EQ(panes.size(), 1u);
+  EXPECT_LT(length(look(layers, vec3(0.05f), vec3(0, 0, -1)).colour - painted(vec3(0.05f, 0.05f, -3))), 0.01f);
+  // At normal incidence, 4 % are reflected: the rest of the pane's light is from behind.
+  int found = 0;
+  for (const uvec3& corners : panes[0].triangles) {
+    for (int i = 0; i < 3; i++) {
+      const vec3 at = panes[0].positions[corners[i]];
+      EXPECT_NEAR(at.z, -1.5f, 1e-5f);
+      if (length(vec2(at.x, at.y)) > 0.1f) continue;
+      const Image& texture = panes[0].texture;
+      const vec2 uv = panes[0].uvs[corners[i]] * vec2(texture.width, texture.height);
+      const float* const texel = texture.at(static_cast<int>(uv.x), static_cast<int>(uv.y));
+      EXPECT_NEAR(texel[3], 0.04f, 1e-4f);
+      EXPECT_NEAR(srgb_decode(texel[2]), 0.5f, 2e-3f);
+      EXPECT_EQ(texel[0], 0.0f);
+      found++;
+    }
+  }
+  EXPECT_GT(found, 0);
+}
+
 TEST(BuildLayers, LeavesOutWhatNobodySees) {
   Scene scene = pillar();
   const int unseen = unlit(scene);

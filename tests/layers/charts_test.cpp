@@ -44,7 +44,7 @@ Probe open_probe() {
   Probe probe;
   probe.box.size = vec3(0.2f);
   for (const vec3& place : places_of(probe.box)) {
-    DistanceMap& map = probe.maps.emplace_back(DistanceMap{place, PageGrid(16, 1), {}});
+    DistanceMap& map = probe.maps.emplace_back(DistanceMap{place, PageGrid(16, 1), {}, {}});
     map.distances.assign(static_cast<size_t>(map.grid.pages() * map.grid.size() * map.grid.size()), 100.0f);
   }
   return probe;

@@ -26,8 +26,11 @@ inline Image gradient(int size, int channels, int number) {
 inline LayerMesh square(LayerKind kind, vec3 middle, vec3 right, vec3 up, int n, int number) {
   LayerMesh mesh;
   mesh.kind = kind;
-  mesh.noun = kind == LayerKind::kMasked ? "charts" : kind == LayerKind::kSky ? "sky" : "page";
-  mesh.texture = gradient(64, kind == LayerKind::kMasked ? 4 : 3, number);
+  mesh.noun = kind == LayerKind::kMasked    ? "charts"
+              : kind == LayerKind::kBlended ? "panes"
+              : kind == LayerKind::kSky     ? "sky"
+                                            : "page";
+  mesh.texture = gradient(64, has_alpha(kind) ? 4 : 3, number);
   for (int j = 0; j <= n; j++) {
     for (int i = 0; i <= n; i++) {
       const vec2 uv = vec2(i, j) / float(n);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "ods/image/image_file.h"
+#include "ods/image/tone.h"
 #include "tests/support/compressed_gltf.h"
 
 namespace ods::layered_room {
@@ -16,7 +17,7 @@ constexpr int kCells = 4;       // surfaces in it, each way
 constexpr int kSquares = 4;     // of a surface, each way
 constexpr float kHuge = 20.0f;  // the sky's cube, metres
 
-enum Page { kSky, kWalls, kLattice, kPages };
+enum Page { kSky, kWalls, kLattice, kPane };
 
 // A rectangle seen from its front: its upper left corner, and the edges to the right and down.
 struct Sheet {
@@ -49,6 +50,7 @@ static const std::vector<Sheet>& sheets() {
     add_box(list, kWalls, 6, vec3(-0.1f, 0, -1.3f), vec3(0.25f, 2.0f, -0.9f), true, false);
     list.push_back({kWalls, 10, vec3(1.2f, 2, -1), vec3(0, 0, -0.8f), vec3(0, -2, 0)});  // seen from the high x only
     list.push_back({kLattice, 0, vec3(0.6f, 1.9f, -1.2f), vec3(0.6f, 0, 0), vec3(0, -0.8f, 0)});
+    list.push_back({kPane, 0, vec3(-0.9f, 1.9f, -1.0f), vec3(0.6f, 0, 0), vec3(0, -0.8f, 0)});
     return list;
   }();
   return all;
@@ -70,12 +72,17 @@ static vec3 color_of(int square) {
   return {part(37), part(91), part(53)};
 }
 
+static float alpha_of(const Sheet& sheet, int square) {
+  if (sheet.page == kPane) return static_cast<float>(51 * (1 + square % 4)) / 255.0f;
+  return is_hole(sheet, square) ? 0.0f : 1.0f;
+}
+
 static std::string page_png(Page page) {
   FileHeader header;
   header.format = FileFormat::kPng;
   header.width = header.height = kPage;
   header.channels = {{"R"}, {"G"}, {"B"}};
-  if (page == kLattice) header.channels.push_back({"A"});
+  if (page == kLattice || page == kPane) header.channels.push_back({"A"});
   const size_t channels = header.channels.size();
   return image_bytes("page.png", header, [page, channels](int y, std::span<float> row) {
     constexpr int kCell = kPage / kCells;
@@ -84,7 +91,7 @@ static std::string page_png(Page page) {
       const int square = square_at(sheet, vec2(float(x % kCell) + 0.5f, float(y % kCell) + 0.5f) / float(kCell));
       const vec3 color = color_of(square);
       for (size_t c = 0; c < 3; c++) row[size_t(x) * channels + c] = color[int(c)];
-      if (channels == 4) row[size_t(x) * channels + 3] = is_hole(sheet, square) ? 0.0f : 1.0f;
+      if (channels == 4) row[size_t(x) * channels + 3] = alpha_of(sheet, square);
     }
   });
 }
@@ -164,6 +171,7 @@ static void add_page(GltfBuilder& file, Page page, Storage storage) {
   GltfJson material = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", number}}}}}};
   material["extensions"]["KHR_materials_unlit"] = GltfJson::object();
   if (page == kLattice) material["alphaMode"] = "MASK";
+  if (page == kPane) material["alphaMode"] = "BLEND";
   file.json["materials"].push_back(material);
   file.json["meshes"].push_back(
       {{"primitives", {{{"attributes", attributes}, {"indices", indices}, {"material", number}}}}});
@@ -182,7 +190,7 @@ Binary room_glb(Storage storage, const std::string& fallback) {
   for (const char* const list : {"accessors", "bufferViews", "images", "textures", "materials", "meshes", "nodes"}) {
     file.json[list] = GltfJson::array();
   }
-  for (const Page page : {kLattice, kWalls, kSky}) add_page(file, page, storage);  // the player sorts them
+  for (const Page page : {kPane, kLattice, kWalls, kSky}) add_page(file, page, storage);  // the player sorts them
   GltfJson ours = {{"layers", 1},
                    {"center", {kCenter.x, kCenter.y, kCenter.z}},
                    {"box", {kBox.x, kBox.y, kBox.z}},
@@ -190,10 +198,22 @@ Binary room_glb(Storage storage, const std::string& fallback) {
                    {"width", 8192}};
   if (!fallback.empty()) ours["fallback"] = fallback;
   file.json["asset"]["extras"]["omnistereo"] = ours;
-  file.json["scenes"] = {{{"nodes", {0, 1, 2}}}};
+  file.json["scenes"] = {{{"nodes", {0, 1, 2, 3}}}};
   if (!file.json.contains("buffers")) file.json["buffers"] = {GltfJson::object()};
   file.json["buffers"][0]["byteLength"] = file.binary.size();
   return file.glb();
+}
+
+// What glass with this square shows, blended in light.
+static Seen through(const Sheet& pane, int square, const Seen& behind) {
+  constexpr int kMany = 10000;  // more than there are squares
+  const float alpha = alpha_of(pane, square);
+  const vec3 own = color_of(square);
+  Seen seen{behind.surface + kMany * (1 + square), behind.color};
+  for (int c = 0; c < 3; c++) {
+    seen.color[c] = srgb_encode(alpha * srgb_decode(own[c]) + (1.0f - alpha) * srgb_decode(behind.color[c]));
+  }
+  return seen;
 }
 
 Seen look(vec3 from, vec3 direction) {
@@ -212,6 +232,10 @@ Seen look(vec3 from, vec3 direction) {
     const float order = sheet.page == kSky ? 1e6f : distance;  // behind everything
     const int square = square_at(sheet, uv);
     if (!is_met || order >= nearest || is_hole(sheet, square)) continue;
+    if (sheet.page == kPane) {  // the last in the list
+      seen = through(sheet, square, seen);
+      continue;
+    }
     nearest = order;
     seen = {square, color_of(square)};
   }

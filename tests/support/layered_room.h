@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A layered scene whose every pixel has a closed form: a room without a ceiling under a sky, a pillar in front of a wall,
-// a lattice with holes, and the back of a curtain that is not to be seen.
+// a lattice with holes, a pane of coloured glass, and the back of a curtain that is not to be seen.
 #pragma once
 #include <string>
 #include <vector>

@@ -23,7 +23,7 @@ namespace ods {
 static std::string encoded(const LayerMesh& mesh, FileFormat format, int quality, const std::string& name,
                            const std::function<void()>& band_done) {
   const Image& image = mesh.texture;
-  assert(image.width > 0 && image.height > 0 && image.channels == (mesh.kind == LayerKind::kMasked ? 4 : 3));
+  assert(image.width > 0 && image.height > 0 && image.channels == (has_alpha(mesh.kind) ? 4 : 3));
   FileHeader header;
   header.format = format;
   header.width = image.width, header.height = image.height;
@@ -38,7 +38,7 @@ static std::string encoded(const LayerMesh& mesh, FileFormat format, int quality
   return sink.take();
 }
 
-std::vector<LayerPart> layer_parts(const LayeredScene& scene, FileFormat opaque, FileFormat masked, int quality,
+std::vector<LayerPart> layer_parts(const LayeredScene& scene, FileFormat opaque, FileFormat alpha, int quality,
                                    const Progress& progress) {
   std::vector<LayerPart> parts;
   std::map<std::string, int> numbers;
@@ -47,7 +47,7 @@ std::vector<LayerPart> layer_parts(const LayeredScene& scene, FileFormat opaque,
     const int number = numbers[mesh.noun]++;
     const bool is_first_sky = mesh.kind == LayerKind::kSky && number == 0;
     const std::string name = is_first_sky ? "sky" : fmt::format("{} {}", mesh.noun, number);
-    parts.push_back({&mesh, name, mesh.kind == LayerKind::kMasked ? masked : opaque, ""});
+    parts.push_back({&mesh, name, has_alpha(mesh.kind) ? alpha : opaque, ""});
   }
   const auto check = [&] {
     if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
@@ -62,6 +62,23 @@ std::vector<LayerPart> layer_parts(const LayeredScene& scene, FileFormat opaque,
     if (progress.report) progress.report(static_cast<double>(done) / static_cast<double>(parts.size()));
   });
   return parts;
+}
+
+MeshOrder order_of(const LayerMesh& mesh) {
+  if (mesh.kind != LayerKind::kBlended) return drawing_order(mesh.triangles, mesh.positions.size());
+  MeshOrder order;
+  std::vector<uint> places(mesh.positions.size(), ~0u);  // of the old vertices
+  for (const uvec3& corners : mesh.triangles) {
+    for (int i = 0; i < 3; i++) {
+      uint& place = places[corners[i]];
+      if (place == ~0u) {
+        place = static_cast<uint>(order.vertices.size());
+        order.vertices.push_back(corners[i]);
+      }
+      order.corners.push_back(place);
+    }
+  }
+  return order;
 }
 
 // --- positions

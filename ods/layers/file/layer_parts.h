@@ -9,6 +9,7 @@
 #include "ods/base/progress.h"
 #include "ods/image/format/file_format.h"
 #include "ods/layers/layered_scene.h"
+#include "ods/scene/gltf/meshopt.h"
 
 namespace ods {
 
@@ -20,10 +21,13 @@ struct LayerPart {
   std::string texture;  // the bytes of a file of this format
 };
 
-// The meshes that have triangles, with encoded textures. opaque, masked: the format of textures without and with alpha.
+// The meshes that have triangles, with encoded textures. opaque, alpha: the format of textures without and with alpha.
 // Throws Error(kCancelled).
-std::vector<LayerPart> layer_parts(const LayeredScene& scene, FileFormat opaque, FileFormat masked, int quality,
+std::vector<LayerPart> layer_parts(const LayeredScene& scene, FileFormat opaque, FileFormat alpha, int quality,
                                    const Progress& progress);
+
+// The order in which files have a mesh: what is drawn fastest, but blended triangles keep theirs.
+MeshOrder order_of(const LayerMesh& mesh);
 
 // A position as files have it: from the box's centre, or the direction of a sky.
 vec3 stored_position(const LayeredScene& scene, const LayerMesh& mesh, size_t vertex);

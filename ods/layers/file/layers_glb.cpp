@@ -174,6 +174,7 @@ void add_material(Glb& glb, const LayerPart& part) {
                      {"metallicFactor", 0},
                      {"roughnessFactor", 1}}}};
   if (part.mesh->kind == LayerKind::kMasked) material["alphaMode"] = "MASK", material["alphaCutoff"] = 0.5;
+  if (part.mesh->kind == LayerKind::kBlended) material["alphaMode"] = "BLEND";
   material["extensions"][kUnlit] = Json::object();
   glb.json["materials"].push_back(material);
 }
@@ -181,7 +182,7 @@ void add_material(Glb& glb, const LayerPart& part) {
 // The mesh, its material of the same number, and its node.
 void add_part(Glb& glb, const LayeredScene& scene, const LayerPart& part) {
   const LayerMesh& mesh = *part.mesh;
-  const MeshOrder order = drawing_order(mesh.triangles, mesh.positions.size());
+  const MeshOrder order = order_of(mesh);
   Json primitive;
   primitive["attributes"]["POSITION"] = add_positions(glb, scene, mesh, order.vertices);
   primitive["attributes"]["TEXCOORD_0"] = add_uvs(glb, mesh, order.vertices);

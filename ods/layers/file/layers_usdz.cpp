@@ -66,7 +66,7 @@ void append_list(std::string& text, const char* name, size_t count, const Append
 void append_mesh(std::string& text, const LayeredScene& scene, const LayerPart& part) {
   constexpr int kUvDecimals = 5;  // a fiftieth of a texel of 2048
   const LayerMesh& mesh = *part.mesh;
-  const MeshOrder order = drawing_order(mesh.triangles, mesh.positions.size());
+  const MeshOrder order = order_of(mesh);
   vec3 low(INFINITY), high(-INFINITY);
   for (const uint vertex : order.vertices) {
     low = min(low, stored_position(scene, mesh, vertex)), high = max(high, stored_position(scene, mesh, vertex));
@@ -102,7 +102,7 @@ void append_mesh(std::string& text, const LayeredScene& scene, const LayerPart& 
 
 // No light is reflected: the base is black, and nothing mirrors without refraction.
 void append_material(std::string& text, const LayerPart& part) {
-  const bool is_masked = part.mesh->kind == LayerKind::kMasked;
+  const bool is_masked = part.mesh->kind == LayerKind::kMasked, has_opacity = has_alpha(part.mesh->kind);
   const std::string name = identifier(part.name), path = "/layers/materials/" + name;
   text += fmt::format("        def Material \"{}\"\n        {{\n", name);
   text += fmt::format("            token outputs:surface.connect = <{}/surface.outputs:surface>\n\n", path);
@@ -111,10 +111,8 @@ void append_material(std::string& text, const LayerPart& part) {
   text += "                color3f inputs:diffuseColor = (0, 0, 0)\n";
   text += fmt::format("                color3f inputs:emissiveColor.connect = <{}/texture.outputs:rgb>\n", path);
   text += "                float inputs:ior = 1\n                float inputs:metallic = 0\n";
-  if (is_masked) {
-    text += fmt::format("                float inputs:opacity.connect = <{}/texture.outputs:a>\n", path);
-    text += "                float inputs:opacityThreshold = 0.5\n";
-  }
+  if (has_opacity) text += fmt::format("                float inputs:opacity.connect = <{}/texture.outputs:a>\n", path);
+  if (is_masked) text += "                float inputs:opacityThreshold = 0.5\n";
   text += "                float inputs:roughness = 1\n                token outputs:surface\n            }\n\n";
   text += "            def Shader \"texture\"\n            {\n";
   text += "                uniform token info:id = \"UsdUVTexture\"\n";
@@ -122,7 +120,7 @@ void append_material(std::string& text, const LayerPart& part) {
   text += "                token inputs:sourceColorSpace = \"sRGB\"\n";
   text += fmt::format("                float2 inputs:st.connect = <{}/coordinates.outputs:result>\n", path);
   text += "                token inputs:wrapS = \"clamp\"\n                token inputs:wrapT = \"clamp\"\n";
-  if (is_masked) text += "                float outputs:a\n";
+  if (has_opacity) text += "                float outputs:a\n";
   text += "                float3 outputs:rgb\n            }\n\n";
   text += "            def Shader \"coordinates\"\n            {\n";
   text += "                uniform token info:id = \"UsdPrimvarReader_float2\"\n";

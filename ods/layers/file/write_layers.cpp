@@ -41,8 +41,8 @@ uint64_t write_layers(const LayeredScene& scene, const std::string& path, const 
   check_layers_path(path);
   const bool is_webp = !options.plain && !is_usdz(path) && options.textures == LayerTextures::kWebp;
   const FileFormat opaque = is_webp ? FileFormat::kWebp : FileFormat::kJpeg;
-  const FileFormat masked = is_webp ? FileFormat::kWebp : FileFormat::kPng;
-  const std::vector<LayerPart> parts = layer_parts(scene, opaque, masked, options.quality, progress);
+  const FileFormat alpha = is_webp ? FileFormat::kWebp : FileFormat::kPng;
+  const std::vector<LayerPart> parts = layer_parts(scene, opaque, alpha, options.quality, progress);
   const std::string bytes =
       is_usdz(path) ? layers_usdz(scene, parts, path) : layers_glb(scene, parts, options.plain, path);
   write_file(path, bytes);

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <map>
 #include <numbers>
+#include <random>
 #include <set>
 
 #include "ods/base/error.h"
@@ -127,6 +128,32 @@ TEST_F(WriteLayers, KeepsEveryTriangle) {
         EXPECT_LT(least.position.x, is_plain ? 1e-5f * distance : quarter * distance) << kNames[m];
         EXPECT_LE(least.uv.x, 1.0f / 65535.0f) << kNames[m];
       }
+    }
+  }
+}
+
+// Blended triangles are drawn in their order, so files keep it.
+TEST_F(WriteLayers, BlendsPanesInTheirOrder) {
+  LayeredScene glass = box;
+  glass.meshes.push_back(
+      square(LayerKind::kBlended, box.box.center - vec3(0, 0, 1), vec3(0.4f, 0, 0), vec3(0, 0.4f, 0), 4, 7));
+  std::vector<uvec3>& triangles = glass.meshes.back().triangles;
+  std::mt19937 random(3);
+  std::ranges::shuffle(triangles, random);
+  for (const bool is_plain : {false, true}) {
+    const Scene scene = written(glass, {.plain = is_plain});
+    const Material& material = material_named(scene, "panes 0");
+    EXPECT_EQ(material.alpha_mode, kAlphaBlend);
+    EXPECT_EQ(material.unlit, 1);
+    const std::vector<Triangle> found = triangles_of(scene, "panes 0");
+    ASSERT_EQ(found.size(), triangles.size());
+    for (size_t i = 0; i < triangles.size(); i++) {
+      Triangle wanted;
+      for (int k = 0; k < 3; k++) {
+        const uint corner = triangles[i][k];
+        wanted[static_cast<size_t>(k)] = {glass.meshes.back().positions[corner], glass.meshes.back().uvs[corner]};
+      }
+      EXPECT_LT(difference(wanted, found[i]).position.x, 1e-3f);
     }
   }
 }
