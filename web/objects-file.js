@@ -45,7 +45,7 @@ function materialOf(glb, number) {
   };
 }
 
-// A part: positions and normals of each frame, or of one; matrices likewise.
+// A part: positions and normals of each frame, or of one; matrices, too.
 function partOf(glb, { attributes, indices, material, mode = 4, extras }, matrices, frames) {
   check(mode === 4 && indices !== undefined, 'it has something else than triangles with indices');
   const moving = extras?.omnistereo?.frames;

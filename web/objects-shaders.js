@@ -131,7 +131,7 @@ void main() {
   color = vec4(1.0, height, 1.0 - height, 0.0) * (cutoff > 0.0 ? 1.0 : covers);
 }`;
 
-// What remains of the light of a layer's triangles, to be multiplied with what they show. Two maps of what the object
+// The remaining part of the light of a layer's triangles, to be multiplied with what they show. Two maps of what the object
 // covers: seen from the brightest direction, and from above.
 export const SHADE = (bias) => `#version 300 es
 precision highp float;

@@ -36,7 +36,7 @@ function boxOf({ positions, indices }, from, to) {
   return box;
 }
 
-// Whether a ray comes into a box before a distance.
+// Returns whether a ray comes into a box before a distance.
 function enters(box, from, along, most) {
   let near = 0;
   let far = most;
@@ -89,7 +89,7 @@ export class Surfaces {
     });
   }
 
-  // What a ray meets first, seen from its front: { distance, at, normal }, or null. along: of length 1.
+  // The first triangle that a ray meets, seen from its front: { distance, at, normal }, or null. along: of length 1.
   cast(from, along) {
     let found = { distance: Infinity };
     for (const mesh of this.meshes) {

@@ -122,7 +122,7 @@ function shown(light, tone = 'neutral') {
 }
 
 const linear = (code) => (code / 255 <= 0.04045 ? code / 255 / 12.92 : ((code / 255 + 0.055) / 1.055) ** 2.4);
-// Of a colour whose smallest part is above 0.04 and whose largest is below 0.76.
+// The inverse for a colour whose smallest part is above 0.04 and whose largest is below 0.76.
 const untoned = (codes) => codes.map((code) => linear(code) + 0.04);
 const near = (a, b, most) => a.every((value, i) => Math.abs(value - b[i]) <= most);
 const same = (a, b) => near(a, b, 0);
