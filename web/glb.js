@@ -1,20 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Reads a binary glTF file (.glb): what a layered scene needs of it, and everything that it names is checked to be
-// there. Faults are one line each.
+// Reads a binary glTF file (.glb): what layered scenes and objects in them need of it, and everything that it names is
+// checked to be there. Faults are one line each.
 import { check, decodeMeshopt } from './meshopt.js';
 
 const MAX_BYTES = 2 ** 29; // of a decoded buffer view
 const MAX_NODES = 4096;
 const SIZES = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 }; // bytes, by component type
-const COMPONENTS = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4 };
+const COMPONENTS = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT4: 16 };
 const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
 const isCount = (value) => Number.isInteger(value) && value >= 0 && value < 2 ** 31;
 
 // The matrices are given by columns.
-const multiplied = (a, b) => IDENTITY.map((_, i) => [0, 1, 2, 3].reduce((sum, k) => sum + a[4 * k + (i % 4)] * b[4 * Math.floor(i / 4) + k], 0));
+export const multiplied = (a, b) => IDENTITY.map((_, i) => [0, 1, 2, 3].reduce((sum, k) => sum + a[4 * k + (i % 4)] * b[4 * Math.floor(i / 4) + k], 0));
 
 function matrixOf({ matrix, translation: t = [0, 0, 0], rotation: [x, y, z, w] = [0, 0, 0, 1], scale: s = [1, 1, 1] }) {
   if (matrix) return matrix;

@@ -6,21 +6,25 @@
 import { inverse } from './headset-room.js';
 import { compile } from './panorama.js';
 
-const NEAR = 0.02; // metres
+export const NEAR = 0.02; // metres
 const SAMPLES = 4;
 
-const VERTICES = `#version 300 es
+// The place of a vertex is the same in all programs, so that what lies on a triangle passes the test of depth.
+export const VERTICES = `#version 300 es
 uniform mat4 to_world;
 uniform mat3 to_screen;
 uniform vec3 eye;
 uniform bool is_sky;
 uniform vec4 place;  // of the texture coordinates: scale, offset
-in vec3 position;
-in vec2 uv;
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec2 uv;
 out vec2 at;
+out vec3 world;
+invariant gl_Position;
 void main() {
   at = uv * place.xy + place.zw;
-  vec3 p = to_screen * ((to_world * vec4(position, 1.0)).xyz - eye);
+  world = (to_world * vec4(position, 1.0)).xyz;
+  vec3 p = to_screen * (world - eye);
   gl_Position = vec4(p.xy, is_sky ? 0.0 : p.z - ${2 * NEAR}, p.z);
 }`;
 
@@ -65,10 +69,11 @@ void main() {
 }`;
 
 export class LayeredDrawer {
-  constructor(gl) {
+  // other: shares its programs, and frees them.
+  constructor(gl, other) {
     this.gl = gl;
-    this.mesh = this.named(compile(gl, FRAGMENT, VERTICES));
-    this.show = this.named(compile(gl, SHOW));
+    this.mesh = other?.mesh ?? this.named(compile(gl, FRAGMENT, VERTICES));
+    this.show = other?.show ?? this.named(compile(gl, SHOW));
     this.size = [0, 0];
   }
 
@@ -85,12 +90,11 @@ export class LayeredDrawer {
 
   // A vertex array of a mesh. buffers: { positions, uvs, indices }, as uploaded.
   arrayOf({ positions, uvs, indices }) {
-    const { gl, mesh: { program } } = this;
+    const { gl } = this;
     const before = gl.getParameter(gl.VERTEX_ARRAY_BINDING);
     const array = gl.createVertexArray();
     gl.bindVertexArray(array);
-    for (const [name, { buffer, components, type, normalized, stride, offset }] of [['position', positions], ['uv', uvs]]) {
-      const at = gl.getAttribLocation(program, name);
+    for (const [at, { buffer, components, type, normalized, stride, offset }] of [positions, uvs].entries()) {
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
       gl.enableVertexAttribArray(at);
       gl.vertexAttribPointer(at, components, type, normalized, stride, offset);
@@ -114,10 +118,10 @@ export class LayeredDrawer {
       gl.renderbufferStorageMultisample(gl.RENDERBUFFER, SAMPLES, format, width, height);
       return buffer;
     };
-    this.buffers = [storage(gl.SRGB8_ALPHA8), storage(gl.DEPTH_COMPONENT24)];
+    this.buffers = [storage(gl.SRGB8_ALPHA8), storage(gl.DEPTH24_STENCIL8)];
     this.target = gl.createFramebuffer();
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.target);
-    for (const [i, place] of [gl.COLOR_ATTACHMENT0, gl.DEPTH_ATTACHMENT].entries()) {
+    for (const [i, place] of [gl.COLOR_ATTACHMENT0, gl.DEPTH_STENCIL_ATTACHMENT].entries()) {
       gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, this.buffers[i]);
     }
     this.eyes = [0, 1].map((eye) => {
@@ -135,22 +139,36 @@ export class LayeredDrawer {
 
   // Draws what an eye sees into the texture of its number. rays: as in panorama.js, in the world; at: the eye's place;
   // middle: the place from which the sky was made; part: of the target, all that is needed. meshes: in their order of
-  // drawing.
-  drawEye(number, meshes, { rays, at, middle, part }) {
-    const { gl, mesh: { program, at: uniforms }, view } = this;
+  // drawing. objects: draws more (objects-draw.js). alpha: of what nothing covers.
+  drawEye(number, meshes, { rays, at, middle, part, objects, alpha = 1 }) {
+    const { gl, view } = this;
     const before = gl.getParameter(gl.VERTEX_ARRAY_BINDING);
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.target);
     gl.viewport(0, 0, ...view);
     gl.scissor(...part);
     gl.enable(gl.SCISSOR_TEST);
-    gl.clearColor(0.01, 0.01, 0.01, 1); // of light: the grey of an empty page
+    gl.clearColor(0.01 * alpha, 0.01 * alpha, 0.01 * alpha, alpha); // of light: the grey of an empty page
     gl.depthMask(true);
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
+    const toScreen = inverse(rays);
+    const isPane = ({ isBlended }) => isBlended;
+    this.drawMeshes(meshes.filter((mesh) => !isPane(mesh)), { toScreen, at, middle });
+    objects?.draw({ toScreen, at, part, size: view });
+    this.drawMeshes(meshes.filter(isPane), { toScreen, at, middle });
+    for (const each of [gl.DEPTH_TEST, gl.CULL_FACE, gl.SAMPLE_ALPHA_TO_COVERAGE, gl.BLEND]) gl.disable(each);
+    gl.depthMask(true);
+    gl.bindVertexArray(before);
+    this.resolve(this.eyes[number].target);
+    gl.disable(gl.SCISSOR_TEST);
+  }
+
+  drawMeshes(meshes, { toScreen, at, middle }) {
+    const { gl, mesh: { program, at: uniforms } } = this;
     gl.useProgram(program);
     gl.enable(gl.CULL_FACE);
     gl.depthFunc(gl.LEQUAL);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ZERO, gl.ONE);
-    gl.uniformMatrix3fv(uniforms.to_screen, false, inverse(rays));
+    gl.uniformMatrix3fv(uniforms.to_screen, false, toScreen);
     gl.activeTexture(gl.TEXTURE0);
     for (const { array, texture, matrix, cutoff, isBlended, isSky, place, indices: { count, type, offset } } of meshes) {
       gl[isSky ? 'disable' : 'enable'](gl.DEPTH_TEST);
@@ -167,11 +185,6 @@ export class LayeredDrawer {
       gl.bindVertexArray(array);
       gl.drawElements(gl.TRIANGLES, count, type, offset);
     }
-    for (const each of [gl.DEPTH_TEST, gl.CULL_FACE, gl.SAMPLE_ALPHA_TO_COVERAGE, gl.BLEND]) gl.disable(each);
-    gl.depthMask(true);
-    gl.bindVertexArray(before);
-    this.resolve(this.eyes[number].target);
-    gl.disable(gl.SCISSOR_TEST);
   }
 
   // Averages the samples; the tiles of a headset's GPU need not be written to memory.
@@ -180,7 +193,7 @@ export class LayeredDrawer {
     gl.bindFramebuffer(gl.READ_FRAMEBUFFER, this.target);
     gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, target);
     gl.blitFramebuffer(0, 0, ...view, 0, 0, ...view, gl.COLOR_BUFFER_BIT, gl.NEAREST);
-    gl.invalidateFramebuffer(gl.READ_FRAMEBUFFER, [gl.COLOR_ATTACHMENT0, gl.DEPTH_ATTACHMENT]);
+    gl.invalidateFramebuffer(gl.READ_FRAMEBUFFER, [gl.COLOR_ATTACHMENT0, gl.DEPTH_STENCIL_ATTACHMENT]);
   }
 
   // Shows the eyes' textures in a box of a target. show: 0 for the first one, 1 for an anaglyph, 2 for the difference.

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A layered scene (ods layers): triangles with baked light, seen from wherever the eyes are in a small box. Loaded with
-// the first such scene. It is a picture (picture.js) that draws itself, knows its box, and has keys of its own.
+// the first such scene. It is a picture (picture.js) that draws itself, knows its box, and has keys of its own. Objects
+// in it are in objects.js.
 //
 // Positions are metres from the middle of the box: x to the right, y up and z back, of a head that looks at yaw 0.
 import { clamp, radians } from './geometry.js';
@@ -82,17 +83,17 @@ function readMeshes(glb) {
 }
 
 // A texture of a decoded image.
-function textureOf(gl, source) {
-  const most = gl.getParameter(gl.MAX_TEXTURE_SIZE);
-  check(Math.max(source.width, source.height) <= most, `its textures are larger than this GPU can hold, ${most} pixels`);
+export function textureOf(gl, source, { levels: most = LEVELS, wrap = gl.CLAMP_TO_EDGE } = {}) {
+  const largest = gl.getParameter(gl.MAX_TEXTURE_SIZE);
+  check(Math.max(source.width, source.height) <= largest, `its textures are larger than this GPU can hold, ${largest} pixels`);
   const texture = gl.createTexture();
   gl.activeTexture(gl.TEXTURE0);
   gl.bindTexture(gl.TEXTURE_2D, texture);
-  const levels = Math.min(LEVELS, 1 + Math.floor(Math.log2(Math.max(source.width, source.height))));
+  const levels = Math.min(most, 1 + Math.floor(Math.log2(Math.max(source.width, source.height))));
   gl.texStorage2D(gl.TEXTURE_2D, levels, gl.SRGB8_ALPHA8, source.width, source.height);
   gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, source.width, source.height, gl.RGBA, gl.UNSIGNED_BYTE, source);
   gl.generateMipmap(gl.TEXTURE_2D);
-  for (const axis of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, axis, gl.CLAMP_TO_EDGE);
+  for (const axis of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, axis, wrap);
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
   const sharp = gl.getExtension('EXT_texture_filter_anisotropic');
   if (sharp) gl.texParameterf(gl.TEXTURE_2D, sharp.TEXTURE_MAX_ANISOTROPY_EXT, 4);
@@ -124,6 +125,7 @@ class LayeredPicture {
       this.textures.set(image, textureOf(gl, source));
       source.close();
     }
+    if (this.item.objects?.length) this.read = { glb, meshes: meshes.map(({ positions, indices, matrix }) => ({ positions, indices, matrix })) };
     for (const mesh of meshes) {
       for (const name of ['positions', 'uvs']) mesh[name] = upload(gl, this.buffers, gl.ARRAY_BUFFER, mesh[name]);
       const before = gl.getParameter(gl.VERTEX_ARRAY_BINDING);
@@ -133,6 +135,24 @@ class LayeredPicture {
       Object.assign(mesh, { texture: this.textures.get(mesh.image), array: this.drawer.arrayOf(mesh) });
       this.meshes.push(mesh);
     }
+  }
+
+  // The viewer shows it from now on. Objects come after the scene, which does not wait for them.
+  enter(viewer) {
+    const { item, read } = this;
+    if (!item.objects?.length) return;
+    const begin = async () => {
+      const { Objects } = await import('./objects.js');
+      if (this.heard.signal.aborted) return;
+      this.objects = new Objects(this, viewer, read);
+      await this.objects.load();
+    };
+    begin().catch((error) => this.heard.signal.aborted || console.warn(error.message));
+  }
+
+  // Before every picture.
+  refresh() {
+    this.objects?.refresh();
   }
 
   // A position in the file's world, and the way back.
@@ -190,12 +210,13 @@ class LayeredPicture {
     this.isFading = fade > 0;
     if (this.isFading && this.fallback) panorama.draw(this.fallback, options);
     if (fade === 1 && this.fallback) return;
+    this.objects?.prepare();
     drawer.fit(box.slice(2));
     for (const [i, side] of shown.entries()) {
       const turn = about.turn + (side ? shift : -shift);
       const own = [0, 3, 6].flatMap((at) => turned(rays.slice(at, at + 3), turn));
       const part = [clip[0] - box[0], clip[1] - box[1], clip[2], clip[3]];
-      drawer.drawEye(i, meshes, { rays: own, at: this.toWorld(eyes[side]), middle: about.center, part });
+      drawer.drawEye(i, meshes, { rays: own, at: this.toWorld(eyes[side]), middle: about.center, part, objects: this.objects });
     }
     const cover = this.fallback ? 1 - fade : 1;
     drawer.showEyes({ box, clip, target, show: ['eye', 'anaglyph', 'difference'].indexOf(show), cover, grey: this.fallback ? 0 : GREY * fade });
@@ -224,6 +245,7 @@ class LayeredPicture {
   free() {
     const { gl } = this;
     this.heard.abort();
+    this.objects?.free();
     this.fallback?.free();
     this.meshes.forEach(({ array }) => gl.deleteVertexArray(array));
     this.buffers.forEach((buffer) => gl.deleteBuffer(buffer));

@@ -10,7 +10,7 @@ const LARGEST = 4096; // pixels of a layer around the horizon
 const CUBES = [5, 6, 7, 8]; // numbers of the kernel's projections
 const AROUND = [1, 0, 0, 0, 1, 0, 0, 0, -1];
 // The rays (panorama.js) of a cube's faces in the order of GL (OpenGL ES 3.0, table 3.19): +X, -X, +Y, -Y, +Z, -Z.
-const FACES = [
+export const FACES = [
   [0, 0, -1, 0, -1, 0, 1, 0, 0], [0, 0, 1, 0, -1, 0, -1, 0, 0], [1, 0, 0, 0, 0, 1, 0, 1, 0],
   [1, 0, 0, 0, 0, -1, 0, -1, 0], [1, 0, 0, 0, -1, 0, 0, 0, 1], [-1, 0, 0, 0, -1, 0, 0, 0, -1],
 ];

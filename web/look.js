@@ -14,7 +14,7 @@ export function followPointer(viewer, element = viewer.element, hasWheel = () =>
     return Math.hypot(a.x - b.x, a.y - b.y);
   };
   element.addEventListener('pointerdown', (event) => {
-    if (event.button) return;
+    if (event.button || event.defaultPrevented) return;
     element.setPointerCapture(event.pointerId);
     held.set(event.pointerId, { x: event.clientX, y: event.clientY });
   });
@@ -41,7 +41,7 @@ export function followPointer(viewer, element = viewer.element, hasWheel = () =>
     element.addEventListener(end, (event) => held.delete(event.pointerId));
   }
   element.addEventListener('wheel', (event) => {
-    if (!hasWheel()) return;
+    if (event.defaultPrevented || !hasWheel()) return;
     event.preventDefault();
     const lines = event.deltaMode === 0 ? event.deltaY / 40 : event.deltaY;
     viewer.set({ fov: viewer.state.fov * Math.exp(lines * 0.03) });

@@ -5,7 +5,8 @@
 //   { eyes: [left, right] as EyeTexture, camera, mono, changed, free() }
 // and the members that video.js adds for a video, `pager` for a large picture, `light` and develop() for one of light.
 // It calls changed() when there is something new to draw. A layered scene (layered.js) is a picture, too: it has draw(),
-// hold(), drag(), the `actions` that it adds, and the names of those that it `lacks`.
+// hold(), drag(), the `actions` that it adds, and the names of those that it `lacks`; the viewer that has opened it calls
+// enter().
 import { cropOf, formOf, hasOtherLayouts, isRound, same } from './form.js';
 import { EyeTexture, FrameCutter } from './tiles.js';
 

@@ -275,6 +275,7 @@ export class Viewer extends EventTarget {
       this.redraw();
       this.say('change');
     };
+    picture.enter?.(this);
     this.redraw();
     this.say('open');
   }

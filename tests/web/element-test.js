@@ -187,7 +187,8 @@ async function testTranslations() {
   const { MODES } = await import('./src/modes.js');
   const texts = new Set(['A panorama']);
   const { MOVES } = await import('./src/layered.js');
-  for (const { label, group } of [...ACTIONS, ...MOVES]) if (label) texts.add(label).add(group);
+  const { OBJECT_KEYS } = await import('./src/objects.js');
+  for (const { label, group } of [...ACTIONS, ...MOVES, ...OBJECT_KEYS]) if (label) texts.add(label).add(group);
   for (const { label, visitors } of MODES) texts.add(label).add(visitors ?? label);
   for (const file of ['actions', 'compare', 'controls', 'markup', 'player', 'stereo-360']) {
     const source = await (await fetch(`src/${file}.js`)).text();
