@@ -3,7 +3,6 @@
 //
 // ods layers as users call it.
 #include <csignal>
-#include <thread>
 
 #include "ods/layers/file/layers_info.h"
 #include "ods/scene/load/load.h"
@@ -61,7 +60,7 @@ TEST_F(LayersCommand, KeepsTheLightWhenInterrupted) {
   const std::string output = folder.path("long.glb"), kept = output + ".unfinished";
   Ods interrupted({"layers", "spheres", "--width", "512", "--samples", "100000", "--noise", "none", "-o", output});
   interrupted.wait_for("triangles are seen");
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  interrupted.wait_for(" left");  // while the light cache is filled, there is nothing to keep
   interrupted.kill(SIGINT);
   EXPECT_EQ(interrupted.finish(), 128 + SIGINT);
   EXPECT_NE(interrupted.err.find("the same command resumes"), std::string::npos) << interrupted.err;
