@@ -33,7 +33,7 @@ export class Objects {
   // read: of the scene's file: { glb, meshes }, as layered.js has read them.
   constructor(picture, viewer, { glb, meshes }) {
     Object.assign(this, { picture, viewer, all: [], chosen: null, past: [], isStill: matchMedia('(prefers-reduced-motion: reduce)').matches });
-    this.solid = picture.meshes.filter(({ isSky }) => !isSky);
+    this.solid = picture.meshes.filter(({ isSky, isBlended }) => !isSky && !isBlended);
     this.surfaces = new Surfaces(meshes.filter((_, i) => !picture.meshes[i].isSky));
     picture.read = null; // as large as the file
     this.panel = new ObjectsPanel(this);

@@ -82,10 +82,10 @@ TEST_F(SceneOptionsOf, ObjectsAreInThePicture) {
   };
   ASSERT_EQ(run(words), 0) << err;
   EXPECT_EQ(black(), 0);
-  ASSERT_EQ(run(words + with + " --at 0,0,-0.4"), 0) << err;
+  ASSERT_EQ(run(words + with + " --at 0.3,0.2,-0.9"), 0) << err;
   const int one = black();
   EXPECT_GT(one, 10);
-  ASSERT_EQ(run(words + with + " --at 0,0,-0.4" + with + " --at 0,0,0.4 --turn 0 --turn 180"), 0) << err;
+  ASSERT_EQ(run(words + with + " --at 0.3,0.2,-0.9" + with + " --at 0.3,0.2,0.1 --turn 0 --turn 180"), 0) << err;
   EXPECT_NEAR(black(), 2 * one, 4);
 }
 
