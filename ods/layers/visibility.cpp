@@ -22,6 +22,7 @@ constexpr float kBehindMirror = 0.005f;  // metres behind a mirror's plane, from
 constexpr float kPartlySeen = 64.0f;     // texels: shorter pieces that are partly seen are not divided
 constexpr float kPartlyHidden = 80.0f;
 constexpr float kAtMirror = 2.0f;
+constexpr int kMirrorReach = 3;  // texels: behind a mirror's outline, the points between others
 constexpr float kMaxChartPiece = 100.0f;
 constexpr float kSampleSpacing = 5.0f;  // texels
 constexpr int kMaxSamples = 24;         // along an edge
@@ -218,9 +219,10 @@ bool is_shown_somewhere(const PanoramaPages& pages, const PieceMesh& mesh, const
 
 // The share of a piece that any place sees.
 Share seen_share(const Probe& probe, const PieceMesh& mesh, const Piece& piece, vec3 normal, float texels) {
+  const int reach = mesh.mirror >= 0 ? kMirrorReach : 1;
   return share_of_points(mesh, piece, texels, [&](vec3 point) {
     return std::any_of(probe.maps.begin(), probe.maps.end(),
-                       [&](const DistanceMap& map) { return sees(map, mesh, point, normal); });
+                       [&](const DistanceMap& map) { return sees(map, mesh, point, normal, reach); });
   });
 }
 
