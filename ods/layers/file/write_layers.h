@@ -4,9 +4,8 @@
 // Writes a layered scene as one file, completely or not at all:
 //
 // NAME.glb, glTF 2.0. Every mesh is a node, a primitive and a material of its own, unlit (KHR_materials_unlit), clamped
-// and mipmapped; a masked one has alpha mode MASK with a cutoff of 0.5, a blended one
-// BLEND. The names say what they are: "page 0",
-// "charts 1", "sky". The tree of nodes:
+// and mipmapped; a masked one has alpha mode MASK with a cutoff of 0.5, a blended one BLEND.
+// The names say what they are: "page 0", "charts 1", "sky". The tree of nodes:
 //
 //   layers                     at the box's centre, from which all positions are measured
 //     page 0, page 1, ...      without a transform of their own
