@@ -275,7 +275,8 @@ void add_chart_rays(const FirstHits& hits, const Probe& probe, PieceMesh& mesh, 
       if (lit) lit_texels++;
       return true;
     });
-    if (contained_texels >= kSeveral && lit_texels == 0) mesh.pieces[index].state = PieceState::kDropped;
+    const bool is_hidden = contained_texels >= kSeveral && lit_texels == 0;
+    if (is_hidden && !mirror) mesh.pieces[index].state = PieceState::kDropped;
   }
 }
 

@@ -21,8 +21,8 @@ void add_page_rays(const PanoramaPages& pages, const std::vector<char>& read, co
 // surface's edge remain empty; those of masked surfaces get their coverage. Rays to what a mirror shows start in front of
 // the mirror. Those of panes start on them, in the direction that they mirror for the middle, and the texels get the
 // pane's alpha and reflectance. A piece of several texels none of which has a ray is dropped: it was kept because of
-// tolerances, and would be in front of what hides it. owner: of the texels. Safe from several threads at once for
-// different charts.
+// tolerances, and would be in front of what hides it. Not in mirrors, where a chart's place does not see every piece.
+// owner: of the texels. Safe from several threads at once for different charts.
 void add_chart_rays(const FirstHits& hits, const Probe& probe, PieceMesh& mesh, const Chart& chart, int owner,
                     LayerGeometry& geometry);
 
