@@ -33,8 +33,9 @@ export class Objects {
   // read: of the scene's file: { glb, meshes }, as layered.js has read them.
   constructor(picture, viewer, { glb, meshes }) {
     Object.assign(this, { picture, viewer, all: [], chosen: null, past: [], isStill: matchMedia('(prefers-reduced-motion: reduce)').matches });
-    this.solid = picture.meshes.filter(({ isSky, isBlended }) => !isSky && !isBlended);
-    this.surfaces = new Surfaces(meshes.filter((_, i) => !picture.meshes[i].isSky));
+    const isSolid = ({ isSky, isBlended }) => !isSky && !isBlended;
+    this.solid = picture.meshes.filter(isSolid);
+    this.surfaces = new Surfaces(meshes.filter((_, i) => isSolid(picture.meshes[i]))); // in the same order
     picture.read = null; // as large as the file
     this.panel = new ObjectsPanel(this);
     viewer.panorama.canvas.addEventListener('webglcontextlost', () => this.free(), { once: true, signal: picture.heard.signal }); // the next picture has its own
