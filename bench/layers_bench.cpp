@@ -7,7 +7,8 @@
 // Colours are unlit, so that neither noise nor gloss matters: 12 poses in a box of 0.3 m, views of 90 degrees with
 // 512 x 512 pixels of 4 x 4 samples, because fewer would measure the aliasing of the scene's own textures. dB: PSNR of
 // displayed values. off: pixels that differ by more than a tenth of white. holes: samples for which the scene has a
-// surface and the layers have none. mono: the panorama from the middle of the box, which ignores the head.
+// surface and the layers have none. mono: the panorama from the middle of the box, which ignores the head. Mirrors and
+// panes are painted surfaces here, as unlit colours know no reflection.
 //
 // layers_bench lit [WIDTH [SCENE...]] compares with light: 6 poses of 256 x 256 pixels, path traced and denoised, against
 // layers that are baked as ods layers does. "+pane" after a scene's name adds a sheet of thin glass.
@@ -110,7 +111,7 @@ Scene to_scene(const Colours& truth, const LayerGeometry& geometry) {
 }
 
 void judge(const std::string& name, int width) {
-  const Scene scene = scene_named(name);
+  const Scene scene = with_painted_glass(scene_named(name));
   const HeadBox box = box_in(name, scene);
   LayerCounts counts;
   const double start = cpu_seconds();
