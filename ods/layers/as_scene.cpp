@@ -39,6 +39,7 @@ int add_unlit(Scene& scene, const LayerMesh& mesh) {
   material.double_sided = 0;
   if (mesh.texture.width > 0) material.base_color_slot.texture = add_texture(scene, mesh.texture);
   if (mesh.kind == LayerKind::kMasked) material.alpha_mode = kAlphaMask, material.alpha_cutoff = 0.5f;
+  if (mesh.kind == LayerKind::kBlended) material.alpha_mode = kAlphaBlend;
   scene.materials.push_back(material);
   return static_cast<int>(scene.materials.size()) - 1;
 }

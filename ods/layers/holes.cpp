@@ -42,11 +42,12 @@ bool meets_front(const FirstHits& layers, vec3 from, vec3 direction, FirstHit se
   return seen.instance >= 0 && seen.front;
 }
 
-LayeredScene without_sky(const LayeredScene& layers) {
+// The surfaces that hide what is behind them.
+LayeredScene surfaces_of(const LayeredScene& layers) {
   LayeredScene surfaces;
   surfaces.box = layers.box;
   for (const LayerMesh& mesh : layers.meshes) {
-    if (mesh.kind == LayerKind::kSky) continue;
+    if (mesh.kind == LayerKind::kSky || mesh.kind == LayerKind::kBlended) continue;
     surfaces.meshes.push_back({mesh.kind, mesh.noun, mesh.positions, mesh.uvs, mesh.triangles, {}});
     surfaces.meshes.back().kind = LayerKind::kOpaque;
   }
@@ -73,7 +74,7 @@ double share_from(const FirstHits& hits, const FirstHits& layers, vec3 place, co
 }  // namespace
 
 LayerHoles find_holes(const FirstHits& hits, const LayeredScene& layers, const Progress& progress) {
-  const Scene surfaces = as_scene(without_sky(layers));
+  const Scene surfaces = as_scene(surfaces_of(layers));
   const FirstHits of_layers(surfaces);
   const PageGrid grid(kGrid, 1);
   LayerHoles holes;

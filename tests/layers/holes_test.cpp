@@ -74,16 +74,17 @@ TEST(Holes, ABackIsInvisible) {
   EXPECT_EQ(find_holes(hits, turned).share, find_holes(hits, layers).share);
 }
 
-// The sky behind a missing wall does not make it less of a hole.
-TEST(Holes, TheSkyIsNotASurface) {
+// Neither the sky nor a pane in front of a missing wall makes it less of a hole.
+TEST(Holes, TheSkyAndPanesHideNothing) {
   const Scene scene = room();
   const FirstHits hits(scene);
   LayeredScene layers = walls_up_to(0.0f);
   const double before = find_holes(hits, layers).share;
-  LayerMesh sky = walls_up_to(1.0f).meshes[0];
-  sky.kind = LayerKind::kSky;
-  layers.meshes.push_back(sky);
-  EXPECT_EQ(find_holes(hits, layers).share, before);
+  for (const LayerKind kind : {LayerKind::kSky, LayerKind::kBlended}) {
+    layers.meshes.push_back(walls_up_to(1.0f).meshes[0]);
+    layers.meshes.back().kind = kind;
+    EXPECT_EQ(find_holes(hits, layers).share, before);
+  }
 }
 
 TEST(Holes, OfARoomThatWasBuiltAreFew) {

@@ -84,6 +84,22 @@ TEST_F(LayeredPicture, HasTheParallaxOfBothEyes) {
   EXPECT_NEAR(seam(eyes[1]), kWidth / 2 - shift, 1.0);
 }
 
+// A pane is blended in linear light: its share of the samples is random.
+TEST_F(LayeredPicture, PanesAreBlended) {
+  LayeredScene layers = two_walls(1.0f);
+  LayerMesh pane = rectangle(layers.box.center, -1, 1, 0.5f, vec3(1.0f));
+  pane.kind = LayerKind::kBlended;
+  pane.texture = Image(1, 1, 4);
+  pane.texture.pixels = {1.0f, 1.0f, 1.0f, 0.25f};
+  layers.meshes.push_back(pane);
+  const Image eye = eyes_of(layers)[0];
+  for (int c = 0; c < 3; c++) {
+    double sum = 0.0;
+    for (int i = 0; i < 400; i++) sum += eye.at(kWidth / 2 - 48 + i % 20, kWidth / 4 - 10 + i / 20)[c];
+    EXPECT_NEAR(sum / 400.0, 0.25 + 0.75 * srgb_decode(kLeftColour[c]), 0.03);
+  }
+}
+
 TEST_F(LayeredPicture, TheEyesAreInASmallBox) {
   LayeredScene layers = two_walls(0.5f);
   layers.box.size = vec3(0.02f);
