@@ -26,7 +26,7 @@ const minus = (a, b) => a.map((value, i) => value - b[i]);
 
 const isVector = (value) => Array.isArray(value) && value.length === 3 && value.every(Number.isFinite);
 
-// What the file says of itself.
+// The metadata of the file.
 function aboutOf({ json }) {
   const about = json.asset?.extras?.omnistereo;
   check(about, 'it is a glTF scene, but not a layered one: ods layers makes one of it');
@@ -100,7 +100,7 @@ export function textureOf(gl, source, { levels: most = LEVELS, wrap = gl.CLAMP_T
   return texture;
 }
 
-// What a file holds, on this side of the GPU. Throws a Fault, or what damaged JSON throws.
+// Reads a file into memory, without the GPU. Throws a Fault, or what damaged JSON throws.
 export function readScene(buffer) {
   const glb = new Glb(buffer);
   return { glb, about: aboutOf(glb), meshes: readMeshes(glb) };

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of the whole time: when each step ends.
+// The ends of the steps, as fractions of the whole time.
 constexpr double kGeometry = 0.15, kLight = 0.92;
 
 std::string unfinished_path(const RenderJob& job) {

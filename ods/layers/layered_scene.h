@@ -81,7 +81,7 @@ struct LayeredScene {
   HeadBox box;
   float yaw = 0.0f;      // degrees: the heading of the panorama's centre, as in StereoCamera
   int width = 8192;      // of the lat-long panorama whose pixel is the unit of all errors
-  std::string fallback;  // name of a stereo picture from the middle, in the same folder; empty if there is none
+  std::string fallback;  // name of a stereo picture from the middle, in the same folder; may be empty
   std::vector<LayerMesh> meshes;
 };
 

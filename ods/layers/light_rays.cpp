@@ -18,7 +18,7 @@ namespace {
 constexpr float kLift = 1e-3f;  // metres in front of a surface that the probe's own ray has met
 constexpr int kMaskGrid = 4;    // coverage is sampled kMaskGrid x kMaskGrid times in a texel
 constexpr float kFlatness = 1e-3f;
-constexpr int kSeveral = 4;     // texels of a piece that is dropped if none has a ray
+constexpr int kSeveral = 4;              // texels of a piece that is dropped if none has a ray
 constexpr float kGrazingJitter = 0.02f;  // cosine: steps on steeper surfaces become no longer
 
 size_t texel_index(int size, int texture, int x, int y) {

@@ -204,7 +204,7 @@ Binary room_glb(Storage storage, const std::string& fallback) {
   return file.glb();
 }
 
-// What glass with this square shows, blended in light.
+// The colour of glass with this square over what is behind it, blended in linear light.
 static Seen through(const Sheet& pane, int square, const Seen& behind) {
   constexpr int kMany = 10000;  // more than there are squares
   const float alpha = alpha_of(pane, square);

@@ -28,7 +28,7 @@ struct Seen {
   vec3 color{0.0f};  // code values, 0..1
 };
 
-// What a ray in the file's world meets.
+// The surface that a ray in the file's world meets.
 Seen look(vec3 from, vec3 direction);
 
 // A position or a direction turned to the right by degrees.

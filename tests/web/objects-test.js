@@ -268,7 +268,7 @@ async function animate() {
     drawn++;
     draw(now);
   };
-  await until(() => drawn > 5, 'goes on by itself');
+  await until(() => drawn > 5, 'continues by itself');
   document.dispatchEvent(new KeyboardEvent('keydown', { key: ' ', bubbles: true, cancelable: true }));
   await sleep(500);
   drawn = 0;

@@ -44,7 +44,7 @@ class Tracing {
     tracer_.straight_solids = options.render.caustics == Caustics::kStraight;
   }
 
-  // The distance of the first surface that the camera sees along a ray; kFarAway if there is none.
+  // The distance of the first surface that the camera sees along a ray; kFarAway if the ray meets nothing.
   float distance(vec3 from, vec3 direction) const {
     PathTracer tracer = tracer_;
     tracer.start_path({from, direction}, no_media(), 0u, 0u);

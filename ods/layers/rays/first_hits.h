@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What rays meet of a scene: past thin glass, and after one reflection in flat mirrors.
+// The first surfaces of a scene along rays, past thin glass and after one reflection in flat mirrors.
 //
-// What a mirror shows has numbers of instances of its own, as if it were a second scene behind the mirror's plane.
+// The surfaces that a mirror shows have numbers of instances of their own, as if it were a second scene behind the mirror's plane.
 #pragma once
 #include <memory>
 #include <vector>

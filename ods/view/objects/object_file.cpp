@@ -201,7 +201,7 @@ vec4 code_values(const Scene& scene, const Texture& texture, int x, int y) {
   return vec4(bits & 255u, bits >> 8 & 255u, bits >> 16 & 255u, bits >> 24) / 255.0f;
 }
 
-// The mean of a texture, 0..1, of code values; 1 if there is none.
+// The mean code value of a texture, 0..1; 1 without a texture.
 vec4 mean_of_slot(const Scene& scene, const TextureSlot& slot) {
   if (slot.texture < 0) return vec4(1.0f);
   const Texture& texture = scene.textures[static_cast<size_t>(slot.texture)];
