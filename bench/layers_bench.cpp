@@ -24,6 +24,7 @@
 #include "bench/layers_lit.h"
 #include "bench/layers_views.h"
 #include "bench/measure.h"
+#include "ods/layers/as_scene.h"
 #include "ods/layers/build_layers.h"
 
 namespace {
@@ -32,15 +33,8 @@ using namespace ods;
 
 constexpr int kView = 512, kPoses = 12;
 
-uint packed(vec3 color, float alpha) {
-  const auto byte = [](float value) { return static_cast<uint>(std::lrint(std::clamp(value, 0.0f, 1.0f) * 255.0f)); };
-  return byte(srgb_encode(color.x)) | byte(srgb_encode(color.y)) << 8 | byte(srgb_encode(color.z)) << 16 |
-         byte(alpha) << 24;
-}
-
-// The texels of one texture: light found along the rays, pushed to where filters read it.
-std::vector<uint> texels_of(const Colours& truth, const LayerGeometry& geometry, size_t mesh,
-                            std::vector<vec3>& light) {
+// One texture: light found along the rays, pushed to where filters read it.
+Image texture_of(const Colours& truth, const LayerGeometry& geometry, size_t mesh, std::vector<vec3>& light) {
   const size_t size = static_cast<size_t>(geometry.texture_size);
   const size_t first = mesh * size * size;
   tbb::parallel_for(first, first + size * size, [&](size_t i) {
@@ -61,7 +55,7 @@ std::vector<uint> texels_of(const Colours& truth, const LayerGeometry& geometry,
   // Empty texels that filters read: the mean of lit neighbours.
   std::vector<char> lit(size * size);
   for (size_t i = 0; i < size * size; i++) lit[i] = light[first + i].x >= 0.0f;
-  std::vector<uint> texels(size * size);
+  Image texture(geometry.texture_size, geometry.texture_size, 4);
   for (size_t i = 0; i < size * size; i++) {
     const int x = static_cast<int>(i % size), y = static_cast<int>(i / size);
     vec3 colour = light[first + i];
@@ -78,36 +72,19 @@ std::vector<uint> texels_of(const Colours& truth, const LayerGeometry& geometry,
       }
       colour = count > 0 ? sum / static_cast<float>(count) : vec3(0.0f);
     }
-    texels[i] = packed(colour, geometry.coverage.empty() ? 1.0f : geometry.coverage[first + i]);
+    float* const texel = texture.at(x, y);
+    for (int c = 0; c < 3; c++) texel[c] = srgb_encode(colour[c]);
+    texel[3] = geometry.coverage.empty() ? 1.0f : geometry.coverage[first + i];
   }
-  return texels;
+  return texture;
 }
 
+// The layers with the colours that the scene has.
 Scene to_scene(const Colours& truth, const LayerGeometry& geometry) {
-  Scene scene;
+  LayeredScene layers = geometry.scene;
   std::vector<vec3> light(geometry.rays.rays.size(), vec3(-1.0f));
-  for (size_t i = 0; i < geometry.scene.meshes.size(); i++) {
-    const LayerMesh& mesh = geometry.scene.meshes[i];
-    const std::vector<uint> texels = texels_of(truth, geometry, i, light);
-    Texture texture{};
-    texture.first_texel = static_cast<uint>(scene.texels.size());
-    texture.width = texture.height = geometry.texture_size;
-    texture.wrap_u = texture.wrap_v = kWrapClamp;
-    texture.srgb = 1;
-    scene.textures.push_back(texture);
-    scene.texels.insert(scene.texels.end(), texels.begin(), texels.end());
-    Material material = default_material();
-    material.base_color_slot = no_texture();
-    material.base_color_slot.texture = static_cast<int>(i);
-    if (mesh.kind == LayerKind::kMasked) material.alpha_mode = kAlphaMask, material.alpha_cutoff = 0.5f;
-    scene.materials.push_back(material);
-    std::vector<Vertex> vertices;
-    for (size_t v = 0; v < mesh.positions.size(); v++) {
-      vertices.push_back({mesh.positions[v], vec3(0, 1, 0), vec4(0.0f), mesh.uvs[v], vec2(0.0f), vec4(1.0f)});
-    }
-    add_instance(scene, add_mesh(scene, vertices, mesh.triangles, static_cast<int>(i)), glm::mat4(1.0f));
-  }
-  return scene;
+  for (size_t i = 0; i < layers.meshes.size(); i++) layers.meshes[i].texture = texture_of(truth, geometry, i, light);
+  return as_scene(layers);
 }
 
 void judge(const std::string& name, int width) {
