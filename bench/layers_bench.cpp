@@ -7,8 +7,9 @@
 // Colours are unlit, so that neither noise nor gloss matters: 12 poses in a box of 0.3 m, views of 90 degrees with
 // 512 x 512 pixels of 4 x 4 samples, because fewer would measure the aliasing of the scene's own textures. dB: PSNR of
 // displayed values. off: pixels that differ by more than a tenth of white. holes: samples for which the scene has a
-// surface and the layers have none. mono: the panorama from the middle of the box, which ignores the head. Mirrors and
-// panes are painted surfaces here, as unlit colours know no reflection.
+// surface and the layers have none. stereo, depth: layers of a picture with depth of two eyes, or of one. mono: the
+// panorama from the middle of the box, which ignores the head. Mirrors and panes are painted surfaces here, as unlit
+// colours know no reflection.
 //
 // layers_bench lit [WIDTH [SCENE...]] compares with light: 6 poses of 256 x 256 pixels, path traced and denoised, against
 // layers that are baked as ods layers does. "+pane" after a scene's name adds a sheet of thin glass.
@@ -21,6 +22,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "bench/layers_depth.h"
 #include "bench/layers_lit.h"
 #include "bench/layers_views.h"
 #include "bench/measure.h"
@@ -87,6 +89,36 @@ Scene to_scene(const Colours& truth, const LayerGeometry& geometry) {
   return as_scene(layers);
 }
 
+// Saves a view for whoever looks at it.
+void save_view(const std::string& name, const std::vector<vec3>& pixels) {
+  if (const char* folder = std::getenv("LAYERS_BENCH_PICTURES")) {
+    save_ppm(fmt::format("{}/{}.ppm", folder, name), kView, pixels);
+  }
+}
+
+// The views of the poses, as a function shows them, against those of the scene. shows: sets whether a ray meets anything.
+template <typename Shows>
+Likeness likeness_of(const Colours& truth, const std::vector<Pose>& poses, const std::vector<std::vector<vec3>>& wanted,
+                     const std::string& title, const Shows& shows) {
+  Likeness likeness;
+  for (size_t pose = 0; pose < poses.size(); pose++) {
+    std::atomic<size_t> holes = 0;
+    const std::vector<vec3> got = view_from(poses[pose], kView, [&](const Ray& ray) {
+      bool ours = false, theirs = false;
+      const vec3 colour = shows(ray, ours);
+      if (ours) return colour;
+      truth.at(ray, false, theirs);
+      if (theirs) holes++;
+      return colour;
+    });
+    likeness.holes += holes;
+    likeness.samples += got.size() * kGrid * kGrid;
+    compare(wanted[pose], got, likeness);
+    save_view(fmt::format("{}_{}", title, pose), got);
+  }
+  return likeness;
+}
+
 void judge(const std::string& name, int width) {
   const Scene scene = with_painted_glass(scene_named(name));
   const HeadBox box = box_in(name, scene);
@@ -102,40 +134,30 @@ void judge(const std::string& name, int width) {
       geometry.texture_size, counts.charts, static_cast<double>(counts.page_texels) * 1e-6,
       static_cast<double>(counts.chart_texels) * 1e-6);
   const Colours truth(scene);
-  const Scene layers = to_scene(truth, geometry);
-  const Colours shown_layers(layers);
-  Likeness all, mono;
   const std::vector<Pose> poses = poses_in(box, kPoses);
-  for (size_t pose = 0; pose < poses.size(); pose++) {
-    std::atomic<size_t> holes = 0;
-    const std::vector<vec3> wanted = view_from(poses[pose], kView, [&](const Ray& ray) {
-      bool m;
-      return truth.at(ray, false, m);
-    });
-    const std::vector<vec3> got = view_from(poses[pose], kView, [&](const Ray& ray) {
-      bool ours = false, theirs = false;
-      const vec3 colour = shown_layers.at(ray, true, ours);
-      if (!ours) {
-        truth.at(ray, false, theirs);
-        if (theirs) holes++;
-      }
-      return colour;
-    });
-    const std::vector<vec3> flat = view_from(poses[pose], kView, [&](const Ray& ray) {
-      bool m;
-      return truth.at({box.center, ray.direction}, false, m);
-    });
-    all.holes += holes;
-    all.samples += wanted.size() * kGrid * kGrid;
-    mono.samples = all.samples;
-    compare(wanted, got, all);
-    compare(wanted, flat, mono);
-    if (const char* folder = std::getenv("LAYERS_BENCH_PICTURES")) {
-      save_ppm(fmt::format("{}/{}_{}_truth.ppm", folder, name, pose), kView, wanted);
-      save_ppm(fmt::format("{}/{}_{}_layers.ppm", folder, name, pose), kView, got);
-    }
+  std::vector<std::vector<vec3>> wanted;
+  for (const Pose& pose : poses) {
+    wanted.push_back(view_from(pose, kView, [&](const Ray& ray) {
+      bool met;
+      return truth.at(ray, false, met);
+    }));
+    save_view(fmt::format("{}_truth_{}", name, wanted.size() - 1), wanted.back());
   }
-  fmt::print("  layers {}\n  mono   {}\n", all.text(), mono.text());
+  const auto print = [&](const std::string& row, const std::string& about, const auto& shows) {
+    fmt::print("  {:7} {}{}{}\n", row, likeness_of(truth, poses, wanted, name + "_" + row, shows).text(),
+               about.empty() ? "" : "; ", about);
+  };
+  const auto print_layers = [&](const std::string& row, const std::string& about, const Scene& layers) {
+    const Colours shown(layers);
+    print(row, about, [&](const Ray& ray, bool& met) { return shown.at(ray, true, met); });
+  };
+  print_layers("layers", "", to_scene(truth, geometry));
+  for (const float ipd : {0.065f, 0.0f}) {
+    std::string about;
+    const Scene layers = scene_of_depth(truth, box, width, ipd, about);
+    print_layers(ipd > 0.0f ? "stereo" : "depth", about, layers);
+  }
+  print("mono", "", [&](const Ray& ray, bool& met) { return truth.at({box.center, ray.direction}, false, met); });
 }
 
 }  // namespace

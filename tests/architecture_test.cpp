@@ -47,7 +47,7 @@ const std::map<std::string, std::set<std::string>> kHidden = {
       "ods/image/format/inflate.cpp", "ods/video/container/mesh_box.cpp"}},
     {"zstd.h", {"ods/image/codec/ktx2.cpp"}},
     {"draco/", {"ods/scene/gltf/draco.cpp"}},
-    {"meshoptimizer.h", {"ods/layers/surfaces.cpp", "ods/scene/gltf/meshopt.cpp"}},
+    {"meshoptimizer.h", {"ods/layers/simplify.cpp", "ods/scene/gltf/meshopt.cpp"}},
     {"zip.h", {"ods/files/zip_archive.cpp"}},
     {"openssl/", {"cli/http/certificate.cpp", "cli/http/web_stream.cpp"}},
     {"qrencode.h", {"cli/view/qr_code.cpp"}},

@@ -183,6 +183,15 @@ void Options::refuse(const std::vector<std::string>& names, const std::string& w
   }
 }
 
+void Options::refuse_others(const std::vector<std::string>& names, const std::string& why) const {
+  for (const CLI::Option* option : app_->get_options()) {
+    if (option->count() == 0 || option->get_positional()) continue;
+    if (std::ranges::none_of(names, [&](const std::string& name) { return option->check_name(name); })) {
+      throw UsageError(option->get_name() + " " + why);
+    }
+  }
+}
+
 std::vector<GivenWord> Options::given_words() const {
   std::vector<GivenWord> arguments, words;
   for (const CLI::Option* option : app_->get_options()) {

@@ -99,6 +99,9 @@ class Options {
   // Throws UsageError, "NAME why", if one of these options was given.
   void refuse(const std::vector<std::string>& names, const std::string& why) const;
 
+  // Throws UsageError, "NAME why", if any option was given but these. Arguments are not looked at.
+  void refuse_others(const std::vector<std::string>& names, const std::string& why) const;
+
   // Returns the options and arguments given, in the order in which they were added, arguments first: the same command
   // line without repetitions.
   std::vector<GivenWord> given_words() const;

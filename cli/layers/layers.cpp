@@ -13,6 +13,7 @@
 #include "cli/console/long_job.h"
 #include "cli/layers/layer_files.h"
 #include "cli/layers/layers_job.h"
+#include "cli/layers/layers_of_picture.h"
 #include "cli/render/device.h"
 #include "cli/render/first_look.h"
 #include "cli/render/plan.h"
@@ -92,9 +93,8 @@ void bake_layers(const LayersJob& given, ProgressLines& lines) {
     geometry.scene.fallback = given.fallback;
     geometry.scene.name = fs::path(job.scene.name).filename().string();
     report_geometry(counts, seconds_since(start));
-    ods::LayeredScene layers =
-        ods::light_layers(std::move(geometry), scene, renderer.renderer(), light_of(job, shot.options, options),
-                          report_from(kGeometry, kLight));
+    ods::LayeredScene layers = ods::light_layers(std::move(geometry), scene, renderer.renderer(),
+                                                 light_of(job, shot.options, options), report_from(kGeometry, kLight));
     layers.light.probes = probes_of(scene, layers.box, shot.options);
     write_layer_files(given, layers, report_from(kLight, 1.0), lines);
   } catch (const ods::Error& error) {
@@ -106,6 +106,7 @@ void bake_layers(const LayersJob& given, ProgressLines& lines) {
 
 void layers(const LayersJob& given) {
   check_layer_files(given);
+  if (given.is_picture) return layers_of_picture(given);
   LayersJob job = given;
   job.render = settled(given.render);
   run_long_job(job.render.progress, job.render.render.threads, [&](ProgressLines& lines) { bake_layers(job, lines); });

@@ -6,6 +6,7 @@
 
 #include "cli/console/long_job.h"
 #include "cli/render/device.h"
+#include "ods/image/format/file_format.h"
 
 namespace {
 
@@ -15,6 +16,8 @@ constexpr const char* kLayersExamples =
     "  ods layers scene.glb -o scene.layers.glb --plain     for Blender and every viewer of glTF\n"
     "  ods layers scene.glb -o site/ --export               a web page, also for browsers without a headset\n"
     "  ods layers room -o room.layers.glb --box 0.5 --quality final\n"
+    "  ods layers picture_360_TB.exr -o picture.layers.glb  a picture with depth, without its scene\n"
+    "  ods layers photo_360.jpg --depth depth.png --depth-kind inverse --near 0.7 -o photo.layers.glb\n"
     "  ods view scene.layers.glb";
 
 void add_layers_options(Options& options, LayersJob& job) {
@@ -48,12 +51,34 @@ void name_page(LayersJob& job) {
   job.fallback = stem + "_360_TB.jpg";
 }
 
+// The options for pictures with depth; all others are for scenes.
+std::vector<std::string> picture_options() {
+  std::vector<std::string> names{"--output",   "--export",          "--width",    "--box",      "--plain",
+                                 "--textures", "--texture-quality", "--fallback", "--exposure", "--brighter",
+                                 "--tone",     "--depth",           "--threads",  "--progress", "--quiet"};
+  const std::vector<std::string> depth = depth_option_names();
+  names.insert(names.end(), depth.begin(), depth.end());
+  return names;
+}
+
+void check_picture_options(const Options& options, const LayersJob& job) {
+  if (job.is_picture) {
+    options.refuse_others(picture_options(), "is for scenes: a picture has its place and its light");
+    if (job.depth.path.empty()) options.refuse(depth_option_names(), "goes with --depth FILE");
+  } else {
+    options.refuse({"--depth"}, "is for pictures: a scene has its own depth");
+    options.refuse(depth_option_names(), "is for pictures: a scene has its own depth");
+  }
+}
+
 }  // namespace
 
 LayersJob parse_layers(Options& options) {
   LayersJob job;
-  options.describe("Bakes what eyes see of a scene that move within a box: triangles with light, for headsets.",
-                   kLayersExamples);
+  options.describe(
+      "Bakes what eyes see of a scene that move within a box: triangles with light, for headsets. Of a picture with\n"
+      "depth it shows the surfaces that the picture shows, and guesses what is behind their edges.",
+      kLayersExamples);
   add_scene_argument(options, job.render.scene);
   add_light_options(options, job.render.scene.light);
   add_layers_options(options, job);
@@ -66,7 +91,10 @@ LayersJob parse_layers(Options& options) {
   options.group("Console");
   add_restart_option(options, job.render.restart);
   add_progress_options(options, job.render.progress);
+  add_depth_options(options, job.depth);
   options.parse();
+  job.is_picture = ods::names_picture(job.render.scene.name);
+  check_picture_options(options, job);
   if (job.render.output.empty()) throw UsageError("no output file: add -o scene.layers.glb");
   finish_render_options(options, job.render);
   if (!job.fallback.empty() && std::filesystem::path(job.fallback).has_parent_path()) {

@@ -6,11 +6,14 @@
 #include <optional>
 #include <string>
 
+#include "cli/convert/depth_input.h"
 #include "cli/render/render_job.h"
 #include "ods/layers/file/write_layers.h"
 
 struct LayersJob {
-  RenderJob render;  // the scene, its light, the viewer's place, and the quality of the light
+  RenderJob render;         // the scene, its light, the viewer's place, and the quality of the light
+  bool is_picture = false;  // the scene is named by a picture with depth
+  DepthInput depth;         // of the picture
   std::optional<int> width;
   float box = 0.3f;
   std::string fallback;   // the name of the stereo picture beside the file, which is made if it does not exist

@@ -89,8 +89,7 @@ Reprojection make_reprojection(const Source& source) {
   return reprojection;
 }
 
-// Interpolates between texels of one surface; otherwise uses the nearest texel.
-static float nearness_of(const Reprojection& reprojection, const Place& place) {
+float nearness_of(const Reprojection& reprojection, const Place& place) {
   const Source& source = *reprojection.source;
   const Cell cell = cell_of(source.camera.projection, source.picture->size, place.at);
   const vec2 from = place.at - 0.5f, base = floor(from), beyond = from - base;

@@ -40,6 +40,10 @@ Reprojection make_reprojection(const Source& source);
 // The row's texels as 1 / metres, from the left; 0 where the picture is empty.
 void read_nearness(const Reprojection& reprojection, int source_eye, int y, float* out);
 
+// 1 / metres at a position, 0 where the picture is empty: interpolated between texels of one surface, otherwise the
+// nearest texel's.
+float nearness_of(const Reprojection& reprojection, const Place& place);
+
 struct SurfaceHit {
   Place place;
   float depth = kFarDepth;  // along the ray, metres

@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/layers/build_layers.h"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <numeric>
-#include <unordered_map>
 
 #include "ods/base/error.h"
+#include "ods/layers/head_room.h"
 #include "ods/layers/light_rays.h"
+#include "ods/layers/page_meshes.h"
 #include "ods/layers/rays/panes.h"
 #include "ods/layers/rays/seen_mirrors.h"
 
@@ -19,7 +19,6 @@ namespace ods {
 namespace {
 
 constexpr double kShareOfProbe = 0.4;  // of the time
-constexpr float kEyeRoom = 0.1f;       // metres: the smallest distance between the box and a surface
 
 // Half the side of the largest cube around the middle without a surface in it. Nothing in such a cube is hidden from the
 // middle, so its own map is enough.
@@ -36,45 +35,6 @@ float free_half(const Probe& probe) {
   }
   return half;
 }
-
-// Throws if a surface is in the box or too near.
-void check_room(const Probe& probe) {
-  const vec3 half = 0.5f * probe.box.size;
-  const float free = free_half(probe), largest = std::floor(200.0f * (free - kEyeRoom)) / 100.0f;
-  if (free >= std::max({half.x, half.y, half.z}) + kEyeRoom) return;
-  if (largest <= 0.0f) {
-    throw Error(
-        ErrorKind::kUsage,
-        fmt::format("the head box has no room: a surface is {:.2f} m from its middle; choose another `position`",
-                    free));
-  }
-  throw Error(
-      ErrorKind::kUsage,
-      fmt::format("the head box is too large: a surface is {:.2f} m from its middle, and the eyes need {:.1f} m "
-                  "in front of them; choose a `box` of at most {:.2f}, or another `position`",
-                  free, kEyeRoom, largest));
-}
-
-// Collects the vertices of one texture's mesh.
-class MeshBuilder {
- public:
-  explicit MeshBuilder(LayerMesh& mesh) : mesh_(mesh) {}
-
-  // key: of the vertex among those of the mesh.
-  uint vertex(uint64_t key, vec3 position, vec2 uv) {
-    const auto [found, is_new] = index_.try_emplace(key, static_cast<uint>(mesh_.positions.size()));
-    if (is_new) {
-      mesh_.positions.push_back(position);
-      mesh_.uvs.push_back(uv);
-    }
-    return found->second;
-  }
-  void triangle(uvec3 corners) { mesh_.triangles.push_back(corners); }
-
- private:
-  LayerMesh& mesh_;
-  std::unordered_map<uint64_t, uint> index_;
-};
 
 // The metres at which the sky in mirrors lies: behind all that they show.
 float mirrored_sky_distance(const Scene& scene, vec3 middle) {
@@ -121,37 +81,6 @@ std::vector<PieceMesh> make_pieces(const Scene& scene, const PanoramaPages& page
   });
   if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
   return meshes;
-}
-
-// The texture of each page: those that nothing shows have none (-1).
-std::vector<int> textures_of_pages(const PageGrid& grid, const std::vector<PieceMesh>& meshes, int& count) {
-  std::vector<int> texture_of(static_cast<size_t>(grid.pages()), -1);
-  for (const PieceMesh& mesh : meshes) {
-    for (const Piece& piece : mesh.pieces) {
-      if (piece.state == PieceState::kPage) texture_of[static_cast<size_t>(piece.page)] = 0;
-    }
-  }
-  for (int& texture : texture_of) texture = texture < 0 ? -1 : count++;
-  return texture_of;
-}
-
-void add_page_meshes(const PageGrid& grid, const std::vector<PieceMesh>& meshes, const std::vector<int>& texture_of,
-                     LayeredScene& scene) {
-  std::vector<MeshBuilder> builders;
-  for (LayerMesh& mesh : scene.meshes) builders.emplace_back(mesh);
-  for (size_t m = 0; m < meshes.size(); m++) {
-    for (const Piece& piece : meshes[m].pieces) {
-      if (piece.state != PieceState::kPage) continue;
-      MeshBuilder& builder = builders[static_cast<size_t>(texture_of[static_cast<size_t>(piece.page)])];
-      uvec3 corners;
-      for (int i = 0; i < 3; i++) {
-        const vec3 position = meshes[m].positions[piece.corners[i]];
-        const vec2 uv = to_page(grid, piece.page, position) / static_cast<float>(grid.size());
-        corners[i] = builder.vertex(uint64_t{m} << 32 | piece.corners[i], position + scene.box.center, uv);
-      }
-      builder.triangle(corners);
-    }
-  }
 }
 
 void add_chart_meshes(const std::vector<PieceMesh>& meshes, const std::vector<Chart>& charts, int size,
@@ -235,7 +164,7 @@ LayerGeometry build_layers(const Scene& scene, const HeadBox& box, int width, La
   Progress probing = progress;
   if (progress.report) probing.report = [&](double done) { progress.report(kShareOfProbe * done); };
   const Probe probe = probe_scene(hits, box, width, probing);
-  check_room(probe);
+  check_head_room(free_half(probe), box.size, ", or another `position`");
   geometry.sees_sky = probe.sees_sky;
   for (const uint8_t side : probe.sides) counts.seen_triangles += side != 0 ? 1 : 0;
   const PanoramaPages pages(probe);

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/layers/surfaces.h"
 
-#include <meshoptimizer.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+
+#include "ods/layers/simplify.h"
 
 namespace ods {
 
@@ -15,14 +16,6 @@ constexpr float kPixelsMoved = 0.5f;  // pixels by which simplified surfaces may
 
 bool has_alpha(const Material& material) {
   return material.alpha_mode != kAlphaOpaque;
-}
-
-// The first of all vertices of a mesh with the same position, for each vertex.
-std::vector<uint> weld(const std::vector<vec3>& positions) {
-  std::vector<uint> welded(positions.size());
-  meshopt_generateVertexRemap(welded.data(), nullptr, positions.size(), positions.data(), positions.size(),
-                              sizeof(vec3));
-  return welded;
 }
 
 // Adds the triangles that share a corner with one that is kept.
@@ -35,23 +28,6 @@ void add_ring(const std::vector<uvec3>& triangles, size_t corners, std::vector<c
   for (size_t i = 0; i < triangles.size(); i++) {
     if (touched[triangles[i].x] || touched[triangles[i].y] || touched[triangles[i].z]) kept[i] = 1;
   }
-}
-
-// Keeps only the vertices that triangles use.
-void compact(SeenSurface& surface) {
-  std::vector<uint> index(surface.positions.size(), ~0u);
-  std::vector<vec3> used;
-  for (uvec3& triangle : surface.triangles) {
-    for (int corner = 0; corner < 3; corner++) {
-      uint& to = index[triangle[corner]];
-      if (to == ~0u) {
-        to = static_cast<uint>(used.size());
-        used.push_back(surface.positions[triangle[corner]]);
-      }
-      triangle[corner] = to;
-    }
-  }
-  surface.positions = std::move(used);
 }
 
 // Leaves out the mirrors of an instance, which show another world in their place.
@@ -73,7 +49,7 @@ SeenSurface collect(const Scene& scene, const Probe& probe, int side) {
   surface.masked = has_alpha(scene.materials[static_cast<size_t>(mesh.material)]);
   std::vector<vec3> local;
   for (uint i = 0; i < mesh.vertex_count; i++) local.push_back(scene.vertices[mesh.first_vertex + i].position);
-  const std::vector<uint> welded = weld(local);
+  const std::vector<uint> welded = first_equal(local);
   surface.positions.resize(local.size());
   for (size_t i = 0; i < local.size(); i++) {
     const vec3 world = to_world(instance, local[i]);
@@ -100,7 +76,7 @@ SeenSurface collect(const Scene& scene, const Probe& probe, int side) {
   }
   surface.triangles.resize(count);
   if (mirror) keep_behind(*mirror, probe.box.center, surface.positions, surface.triangles);
-  compact(surface);
+  leave_out_unused(surface.positions, surface.triangles);
   return surface;
 }
 
@@ -129,20 +105,6 @@ SeenSurface mirrored_sky(const Probe& probe, int side) {
   return surface;
 }
 
-void simplify(SeenSurface& surface) {
-  if (surface.triangles.empty()) return;
-  const float* const positions = &surface.positions[0].x;
-  const size_t count = surface.positions.size();
-  const float scale = meshopt_simplifyScale(positions, count, sizeof(vec3));  // its errors are relative to the extent
-  std::vector<uvec3> simplified(surface.triangles.size());
-  const size_t indices = 3 * surface.triangles.size();
-  const size_t left = meshopt_simplify(&simplified[0].x, &surface.triangles[0].x, indices, positions, count,
-                                       sizeof(vec3), 0, surface.error / scale, 0, nullptr);
-  simplified.resize(left / 3);
-  surface.triangles = std::move(simplified);
-  compact(surface);
-}
-
 }  // namespace
 
 std::vector<SeenSurface> seen_surfaces(const Scene& scene, const Probe& probe, float pixel) {
@@ -158,7 +120,8 @@ std::vector<SeenSurface> seen_surfaces(const Scene& scene, const Probe& probe, f
     }
     surfaces[i] = collect(scene, probe, sides[i]);
     surfaces[i].error = kPixelsMoved * pixel * probe.nearest[static_cast<size_t>(sides[i])];
-    simplify(surfaces[i]);
+    surfaces[i].triangles = simplified(surfaces[i].positions, surfaces[i].triangles, surfaces[i].error);
+    leave_out_unused(surfaces[i].positions, surfaces[i].triangles);
   });
   return surfaces;
 }

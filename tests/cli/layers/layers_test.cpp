@@ -82,6 +82,33 @@ TEST_F(LayersCommand, RefusesBeforeItBakes) {
   EXPECT_FALSE(std::filesystem::exists(folder.path("room.glb")));
 }
 
+TEST_F(LayersCommand, TakesAPictureWithDepth) {
+  const std::string picture = folder.path("spheres.exr"), output = folder.path("picture.layers.glb");
+  ASSERT_EQ(run("render spheres --width 256 --samples 2 --noise none --position 0,1.4,0.5 -o " + picture), 0) << err;
+  ASSERT_EQ(run("layers " + picture + " --box 0.2 -o " + output), 0) << err;
+  EXPECT_NE(err.find("the picture does not show "), std::string::npos) << err;
+  const std::optional<LayersInfo> info = read_layers_info(output);
+  ASSERT_TRUE(info);
+  EXPECT_EQ(info->scene, "spheres.exr");
+  EXPECT_EQ(info->width, 256);
+  EXPECT_NEAR(info->box.center.y, 1.4f, 1e-5f);
+  EXPECT_EQ(info->light.probes.count.x, 1);
+  EXPECT_GT(load_scene(output).triangles.size(), 20u);
+}
+
+TEST_F(LayersCommand, TellsOptionsOfPicturesFromThoseOfScenes) {
+  const std::string output = " -o " + folder.path("x.glb");
+  EXPECT_EQ(run("layers picture.exr --samples 3" + output), 2);
+  EXPECT_NE(err.find("--samples is for scenes"), std::string::npos) << err;
+  EXPECT_EQ(run("layers picture.exr --near 3" + output), 2);
+  EXPECT_NE(err.find("--near goes with --depth FILE"), std::string::npos) << err;
+  EXPECT_EQ(run("layers spheres --depth depth.png" + output), 2);
+  EXPECT_NE(err.find("--depth is for pictures"), std::string::npos) << err;
+  ASSERT_EQ(run("render spheres --width 128 --samples 1 --noise none -o " + folder.path("flat_360_TB.png")), 0) << err;
+  EXPECT_EQ(run("layers " + folder.path("flat_360_TB.png") + output), 2);
+  EXPECT_NE(err.find("has no depth: render it as .exr with depth, or add --depth FILE"), std::string::npos) << err;
+}
+
 // Ctrl-C keeps the light so far, for the same command only (tests/layers/light/bake_test.cpp resumes).
 TEST_F(LayersCommand, KeepsTheLightWhenInterrupted) {
   const std::string output = folder.path("long.glb"), kept = output + ".unfinished";
