@@ -29,10 +29,13 @@ struct Rendered {
   ods::StereoCamera camera;
   ods::Extent eye;
   bool is_converted = false;
+  std::vector<ods::CyclesBand> bands{};
 };
 
 Rendered rendered_for(const CyclesPicture& picture) {
-  if (ods::cycles_projects(picture.camera.projection)) return {picture.camera, picture.eye, false};
+  if (ods::cycles_projects(picture.camera.projection)) {
+    return {picture.camera, picture.eye, false, ods::cycles_bands(picture.camera, picture.eye.height)};
+  }
   Rendered whole{ods::lat_long_of(picture.camera), {}, true};
   ods::StoredPicture source;
   source.size = {4096, 2048};
@@ -41,7 +44,44 @@ Rendered rendered_for(const CyclesPicture& picture) {
   const double width = 4096.0 * picture.eye.width / fitting.width;
   whole.eye.width = std::clamp(2 * static_cast<int>(std::ceil(0.5 * width)), 64, kMostWidth);
   whole.eye.height = whole.eye.width / 2;
+  whole.bands = ods::cycles_bands(whole.camera, whole.eye.height);
   return whole;
+}
+
+// Puts rows below others.
+void append(ods::EyeImage& above, const ods::EyeImage& below) {
+  using Layer = ods::Image ods::EyeImage::*;
+  using ods::EyeImage;
+  for (const Layer layer : {&EyeImage::radiance, &EyeImage::depth, &EyeImage::normal, &EyeImage::albedo,
+                            &EyeImage::alpha, &EyeImage::variance, &EyeImage::samples}) {
+    ods::Image& image = above.*layer;
+    const ods::Image& more = below.*layer;
+    image.pixels.insert(image.pixels.end(), more.pixels.begin(), more.pixels.end());
+    image.height += more.height;
+  }
+}
+
+// One eye's picture from the files of its parts, each of all bands.
+ods::EyeImage read_eye(const Rendered& rendered, const ods::FrameNames& names, int first, size_t parts,
+                       ods::CyclesPasses passes) {
+  ods::EyeImage eye;
+  for (size_t band = 0; band < rendered.bands.size(); band++) {
+    std::vector<std::string> files;
+    for (size_t part = 0; part < parts; part++) {
+      files.push_back(names.path(first + static_cast<int>(part * rendered.bands.size() + band)));
+    }
+    const ods::vec3 position = passes.camera.position;
+    const float yaw = passes.camera.yaw;
+    passes.camera = rendered.bands[band].camera;
+    passes.camera.position = position, passes.camera.yaw = yaw;
+    ods::EyeImage rows = read_cycles(files, passes);
+    if (band == 0) {
+      eye = std::move(rows);
+    } else {
+      append(eye, rows);
+    }
+  }
+  return eye;
 }
 
 void denoise_both(ods::Picture& picture, const CyclesPicture& wanted, const ods::StereoCamera& camera) {
@@ -87,7 +127,7 @@ std::vector<std::string> save_converted(const ods::Picture& picture, const Cycle
 }  // namespace
 
 std::vector<int> part_numbers(const CyclesPicture& picture) {
-  std::vector<int> numbers(picture.eyes.size() * parts_of_eye(picture));
+  std::vector<int> numbers(picture.eyes.size() * parts_of_eye(picture) * rendered_for(picture).bands.size());
   std::iota(numbers.begin(), numbers.end(), 1);
   return numbers;
 }
@@ -96,16 +136,19 @@ CyclesSaved make_picture(CyclesSession& session, const CyclesPicture& picture, c
                          const std::string& path, const std::function<void(double)>& report) {
   const Rendered rendered = rendered_for(picture);
   const std::vector<int> numbers = part_numbers(picture);
-  const size_t of_eye = parts_of_eye(picture);
+  const size_t parts_each = parts_of_eye(picture), bands = rendered.bands.size();
   CyclesShot shot = picture.shot;
   shot.camera = rendered.camera;
-  shot.size = rendered.eye;
-  shot.parts = static_cast<int>(of_eye);
+  shot.parts = static_cast<int>(parts_each);
+  shot.time_limit /= static_cast<double>(bands);
   CyclesSaved saved;
   saved.pose = session.pose(shot);
   for (size_t i = 0; i < numbers.size(); i++) {
     const std::string file = parts.path(numbers[i]);
-    shot.eye = picture.eyes[i / of_eye];
+    const ods::CyclesBand& band = rendered.bands[i % bands];
+    shot.eye = picture.eyes[i / bands / parts_each];
+    shot.camera = band.camera;
+    shot.size = {rendered.eye.width, band.rows};
     shot.seed = ods::hash_pair(picture.shot.seed, static_cast<ods::uint>(i));
     const auto of_part = [&](double done) {
       report(kShareOfCycles * (static_cast<double>(i) + done) / static_cast<double>(numbers.size()));
@@ -118,10 +161,9 @@ CyclesSaved make_picture(CyclesSession& session, const CyclesPicture& picture, c
   lat_long.yaw = camera.yaw = saved.pose.yaw;
   ods::Picture result;
   for (size_t eye = 0; eye < picture.eyes.size(); eye++) {
-    std::vector<std::string> files;
-    for (size_t part = 0; part < of_eye; part++) files.push_back(parts.path(numbers[eye * of_eye + part]));
     const ods::CyclesPasses passes{lat_long, picture.eyes[eye], session.scene().foreign.unit, picture.has_alpha};
-    result.eyes.push_back(read_cycles(files, passes));
+    const int first = numbers[eye * parts_each * bands];
+    result.eyes.push_back(read_eye(rendered, parts, first, parts_each, passes));
   }
   saved.strain = strain_of(result, lat_long);
   denoise_both(result, picture, lat_long);

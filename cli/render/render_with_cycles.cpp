@@ -131,7 +131,7 @@ void open_in_cycles(RenderJob& job) {
   check_cycles_scene(job.scene.name);
   if (job.camera.changes.merge_limit) {
     throw UsageError(
-        "--merge auto cannot be used with --renderer cycles: ods convert --merge auto changes the picture");
+        "--merge auto cannot be used with --renderer cycles: ods convert --merge auto changes an .exr that is finished");
   }
   BlenderOptions blender = job.scene.blender;
   blender.scene = job.scene.scene;

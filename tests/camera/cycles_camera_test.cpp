@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <memory>
+#include <vector>
 
 #include "ods/camera/camera_preset.h"
+#include "ods/kernel/camera/camera.h"
 
 namespace ods::cycles_camera_test {
 
@@ -22,12 +25,11 @@ TEST(CyclesCamera, HasItsOwnCamerasAndTheUsualOne) {
 
 TEST(CyclesCamera, LacksWhatItsEyesCannotDo) {
   const std::function<void(StereoCamera&)> kChanges[] = {
-      [](StereoCamera& camera) { camera.top = kUsualMerge; },  // the bottom has none
       [](StereoCamera& camera) {
-        camera.top = camera.bottom = {kMergeLinear, 60.0f, 90.0f, 1.0f};
-      },
-      [](StereoCamera& camera) {
-        camera.top = camera.bottom = {kMergeCosine, 60.0f, 90.0f, 2.0f};
+        camera.top = camera.bottom = {kMergeMap, 60.0f, 90.0f, 1.0f};
+        Image map(2, 1, 1);
+        map.pixels = {0.0f, 1.0f};
+        camera.merge_map = std::make_shared<Image>(map);
       },
       [](StereoCamera& camera) { camera.neck = 0.08f; },
       [](StereoCamera& camera) { camera.axis = vec3(0.0f, 1.0f, 0.0f); },
@@ -39,6 +41,45 @@ TEST(CyclesCamera, LacksWhatItsEyesCannotDo) {
     StereoCamera camera;
     change(camera);
     EXPECT_NE(cycles_lacks(camera), "");
+  }
+}
+
+TEST(CyclesCamera, ItsOwnMergeIsOneBand) {
+  StereoCamera usual;
+  usual.top = usual.bottom = kUsualMerge;
+  const std::vector<CyclesBand> bands = cycles_bands(usual, 512);
+  ASSERT_EQ(bands.size(), 1u);
+  EXPECT_EQ(bands[0].rows, 512);
+  EXPECT_TRUE(bands[0].camera == usual);
+}
+
+// In each row the rays of its band start where the camera's do, within a quarter of a pixel at 1 m, and look alike.
+TEST(CyclesCamera, OtherMergesAreBandsWithTheCamerasRays) {
+  StereoCamera changes[3];
+  changes[0].top = kUsualMerge;  // the bottom has none
+  changes[1].top = changes[1].bottom = {kMergeLinear, 45.0f, 90.0f, 1.0f};
+  changes[2].top = changes[2].bottom = {kMergeCosine, 30.0f, 90.0f, 2.0f};
+  changes[2].projection.latitude = {-60.0f, 75.0f};
+  changes[2].pitch = 20.0f, changes[2].convergence = kToeIn;
+  constexpr int kHeight = 700;
+  for (const StereoCamera& stereo : changes) {
+    const Camera camera = make_camera(stereo);
+    const vec2 range = stereo.projection.latitude;
+    const float most = 0.26f * glm::radians(range.y - range.x) / kHeight;
+    int row = 0;
+    for (const CyclesBand& band : cycles_bands(stereo, kHeight)) {
+      EXPECT_EQ(band.first, row);
+      EXPECT_GE(band.rows, kLeastBand);
+      const Camera own = make_camera(band.camera);
+      for (int y = 0; y < band.rows; y++, row++) {
+        const auto middle = [](int number, int all) { return (float(number) + 0.5f) / float(all); };
+        const Ray ray = camera_ray(camera, kRight, vec2(0.3f, middle(row, kHeight)));
+        const Ray other = camera_ray(own, kRight, vec2(0.3f, middle(y, band.rows)));
+        EXPECT_LT(length(ray.origin - other.origin), most) << row;
+        EXPECT_LT(length(ray.direction - other.direction), most) << row;
+      }
+    }
+    EXPECT_EQ(row, kHeight);
   }
 }
 

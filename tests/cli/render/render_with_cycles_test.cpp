@@ -134,17 +134,17 @@ void expect_same_places(const Image& a, const Image& b, double pixels, const std
 
 TEST_F(RenderWithCycles, ShowsThingsWhereOurRendererDoes) {
   const std::string scene = make();
-  const Words kViews[] = {
-      {},
-      {"--ipd", "0.2", "--merge", "none", "--position", "0.1,1.5,0.2", "--yaw", "30"},
-      {"--ipd", "0.2", "--pitch", "20", "--roll", "-10"},
-      {"--ipd", "0.2", "--convergence", "toe-in,2"},
-      {"--ipd", "0.2", "--time", "0.0416667"},  // a frame
-      {"--ipd", "0.2", "--width", "384", "--projection", "cube-3x2"},
+  const std::pair<Words, double> kViews[] = {
+      {{}, 0.05},
+      {{"--ipd", "0.2", "--merge", "none", "--position", "0.1,1.5,0.2", "--yaw", "30"}, 0.05},
+      {{"--ipd", "0.2", "--pitch", "20", "--roll", "-10"}, 0.05},
+      {{"--ipd", "0.2", "--convergence", "toe-in,2"}, 0.05},
+      {{"--ipd", "0.2", "--merge", "power,0,90,2"}, 0.25},                     // in bands
+      {{"--ipd", "0.2", "--time", "0.0416667"}, 0.05},                         // a frame
+      {{"--ipd", "0.2", "--width", "384", "--projection", "cube-3x2"}, 0.15},  // converted
   };
-  for (const Words& view : kViews) {
+  for (const auto& [view, pixels] : kViews) {
     const std::string what = view.empty() ? "the usual view" : view[view.size() - 2] + " " + view.back();
-    const double pixels = view.size() > 4 && view[3] == "384" ? 0.15 : 0.05;  // the cube is converted
     expect_same_places(render(scene, "ods", view), render(scene, "cycles", view), pixels, what);
   }
 }
@@ -184,7 +184,7 @@ TEST_F(RenderWithCycles, WhatItCannotDoIsOneLine) {
   const std::string scene = make("bpy.data.objects.remove(o)\n");
   const std::tuple<Words, int, const char*> kCases[] = {
       {{}, 3, "has no camera: --position"},
-      {{"--position", "0,1,0", "--merge", "linear,60,90"}, 2, "plain cosine"},
+      {{"--position", "0,1,0", "--eye-to-neck", "0.1"}, 2, "--eye-to-neck"},
       {{"--position", "0,1,0", "--merge", "auto"}, 2, "--merge auto"},
       {{"--camera", "Bathroom"}, 3, "no camera 'Bathroom'"},
       {{"--scene", "Kitchen"}, 3, "no scene 'Kitchen'"},
