@@ -32,6 +32,9 @@ class OmnistereoPreferences(bpy.types.AddonPreferences):
 class OmnistereoSettings(bpy.types.PropertyGroup):
     quality: EnumProperty(name="Quality", default="preview", items=[
         ("draft", "Draft", "A first look"), ("preview", "Preview", "To judge by"), ("final", "Final", "To keep")])
+    renderer: EnumProperty(name="Renderer", default="ods", items=[
+        ("ods", "Omnistereo", "Fast, and both eyes as one"),
+        ("cycles", "Cycles", "Blender's own, with our camera, for hair, smoke and any shader; the file's samples")])
     width: IntProperty(name="Width", description="Of one eye, in pixels", default=2048, min=64, max=16384, step=64)
     bake: IntProperty(name="Bake", default=0, min=0, max=8192,
                       description="Pixels of the pictures that are made of materials computed by nodes; 0: none")
@@ -67,9 +70,12 @@ def words_of(kind, settings, path):
     words = [program(), kind, path]
     if kind == "view":
         return words
-    words += ["--blender", bpy.app.binary_path, "--quality", settings.quality, "--width", str(settings.width),
+    words += ["--blender", bpy.app.binary_path, "--width", str(settings.width),
               "--progress", "json", "-o", output_of(settings, ".mp4" if kind == "video" else ".png")]
     words += ["--restart"] if settings.restart else []
+    if settings.renderer == "cycles":
+        return words + ["--renderer", "cycles"]
+    words += ["--quality", settings.quality]
     return words + (["--bake", str(settings.bake)] if settings.bake else [])
 
 
@@ -152,7 +158,7 @@ class OmnistereoPanel(bpy.types.Panel):
     def draw(self, context):
         layout, settings = self.layout, context.scene.omnistereo
         layout.use_property_split = True
-        for name in ("quality", "width", "bake", "output", "restart"):
+        for name in ("renderer", "quality", "width", "bake", "output", "restart"):
             layout.prop(settings, name)
         row = layout.row(align=True)
         for kind, icon in (("render", "RENDER_STILL"), ("view", "HIDE_OFF"), ("video", "RENDER_ANIMATION")):

@@ -79,21 +79,27 @@ static std::string system_first() {
   return fmt::format("PATH=/usr/local/bin:/usr/bin:/bin:{}", path ? path : "");
 }
 
-// Runs one of our scripts in Blender to its end. what: begins the message of an error. folder: of ours.
-static void run_script(const BlenderOptions& options, const std::vector<std::string>& flags, const char* script,
-                       const std::vector<std::string>& arguments, const std::string& folder, const std::string& what) {
-  const ods::PrivateFolder exporter;
-  write_exporter(exporter.path());
-  const fs::path path = fs::path(exporter.path()) / "omnistereo" / "bridge" / script;
-  Report report;
+Program blender_program(const BlenderOptions& options, const std::vector<std::string>& flags,
+                        const std::string& scripts, const char* script, const std::vector<std::string>& arguments) {
+  write_exporter(scripts);
+  const fs::path path = fs::path(scripts) / "omnistereo" / "bridge" / script;
   Program blender = {.words = {find_blender(options), "--background", "--disable-autoexec"},
                      .limit = options.seconds,
-                     .environment = {system_first(), "ODS_PYCACHE=" + python_cache_folder()},
-                     .folder = folder,
-                     .take_error = [&](const std::string& line) { report.take(line); }};
+                     .environment = {system_first(), "ODS_PYCACHE=" + python_cache_folder()}};
   blender.words.insert(blender.words.end(), flags.begin(), flags.end());
   blender.words.insert(blender.words.end(), {"--python-exit-code", "4", "--python", path.native(), "--"});
   blender.words.insert(blender.words.end(), arguments.begin(), arguments.end());
+  return blender;
+}
+
+// Runs one of our scripts in Blender to its end. what: begins the message of an error. folder: of ours.
+static void run_script(const BlenderOptions& options, const std::vector<std::string>& flags, const char* script,
+                       const std::vector<std::string>& arguments, const std::string& folder, const std::string& what) {
+  const ods::PrivateFolder scripts;
+  Report report;
+  Program blender = blender_program(options, flags, scripts.path(), script, arguments);
+  blender.folder = folder;
+  blender.take_error = [&](const std::string& line) { report.take(line); };
   const auto result = run_program(blender);
   if (!result || result->code == 127) fail_in_blender(what, "Blender cannot be started");
   if (!result->in_time) fail_in_time("Blender", what, options.seconds);

@@ -4,6 +4,9 @@
 // Blender, started to convert a scene. No Python of the scene runs there.
 #pragma once
 #include <string>
+#include <vector>
+
+#include "cli/console/programs.h"
 
 struct BlenderOptions {
   std::string program;   // --blender; empty: as PATH finds it
@@ -20,6 +23,11 @@ std::string describe(const BlenderOptions& options);
 
 // The program to start; empty: there is none. Throws Error(kInput) if --blender does not name a program.
 std::string find_blender(const BlenderOptions& options);
+
+// Blender with one of our scripts (blender/omnistereo/bridge), which are written into the folder `scripts`. flags: before
+// the script. Throws as find_blender() does.
+Program blender_program(const BlenderOptions& options, const std::vector<std::string>& flags,
+                        const std::string& scripts, const char* script, const std::vector<std::string>& arguments);
 
 // Leaves scene.glb, bridge.json and perhaps world.exr in the folder. Throws Error(kInput) if Blender reports an error,
 // fails, ends early or takes too long.

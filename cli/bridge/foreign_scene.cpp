@@ -58,36 +58,6 @@ void check_blend(const std::string& path) {
   if (!known) fail(path, "is not a Blender file, or is damaged");
 }
 
-ForeignScene read_result(const std::string& folder) {
-  std::ifstream file(folder + "/bridge.json");
-  const json found = json::parse(file, nullptr, false);
-  ForeignScene scene;
-  scene.file = folder + "/scene.glb";
-  if (!found.is_object()) fail(folder, "is damaged; remove it");
-  if (found.contains("environment") && found["environment"].is_string()) {
-    scene.environment = found["environment"];
-    if (scene.environment.ends_with(".exr")) scene.environment = folder + "/world.exr";
-  }
-  scene.background = found.value("background", "");
-  if (scene.background.ends_with(".exr")) scene.background = folder + "/" + scene.background;
-  scene.shutter = found.value("shutter", 0.0f);
-  scene.unit = found.value("unit", 1.0f);
-  if (found.contains("frames")) {
-    const json& frames = found["frames"];
-    scene.frames = {frames.value("first", 0), frames.value("count", 0), frames.value("saved", 0)};
-  }
-  if (found.contains("fps") && found["fps"].is_number()) scene.fps = found["fps"];
-  for (const json& warning : found.value("warnings", json::array())) {
-    if (warning.is_string()) scene.warnings.push_back(warning);
-  }
-  if (found.contains("camera")) {
-    std::vector<std::string> ignored;
-    scene.camera = ods::read_sidecar(ods::json_document(found["camera"]), "the scene's camera", ignored);
-    scene.has_stereo = found["camera"].contains("merge_top");
-  }
-  return scene;
-}
-
 [[noreturn]] void fail_without_program(const std::string& path, const ForeignFormat& format) {
   if (!format.assimp) fail(path, "needs Blender to be read: install it, or name it with --blender PATH");
   if (!format.blender) fail(path, "needs Assimp's command to be read: install it (assimp-utils)");
@@ -122,6 +92,41 @@ void convert(const std::string& path, const ForeignFormat& format, const Blender
 
 }  // namespace
 
+ForeignScene read_bridge(const std::string& folder) {
+  std::ifstream file(folder + "/bridge.json");
+  const json found = json::parse(file, nullptr, false);
+  ForeignScene scene;
+  scene.file = folder + "/scene.glb";
+  if (!found.is_object()) fail(folder, "is damaged; remove it");
+  if (found.contains("environment") && found["environment"].is_string()) {
+    scene.environment = found["environment"];
+    if (scene.environment.ends_with(".exr")) scene.environment = folder + "/world.exr";
+  }
+  scene.background = found.value("background", "");
+  if (scene.background.ends_with(".exr")) scene.background = folder + "/" + scene.background;
+  scene.shutter = found.value("shutter", 0.0f);
+  scene.unit = found.value("unit", 1.0f);
+  if (found.contains("frames")) {
+    const json& frames = found["frames"];
+    scene.frames = {frames.value("first", 0), frames.value("count", 0), frames.value("saved", 0)};
+  }
+  if (found.contains("fps") && found["fps"].is_number()) scene.fps = found["fps"];
+  for (const json& warning : found.value("warnings", json::array())) {
+    if (warning.is_string()) scene.warnings.push_back(warning);
+  }
+  if (found.contains("camera")) {
+    std::vector<std::string> ignored;
+    scene.camera = ods::read_sidecar(ods::json_document(found["camera"]), "the scene's camera", ignored);
+    scene.has_stereo = found["camera"].contains("merge_top");
+  }
+  return scene;
+}
+
+bool is_blend(const std::string& path) {
+  const ForeignFormat* const format = format_of(path);
+  return format && format->extension == ".blend";
+}
+
 bool is_foreign_scene(const std::string& path) {
   return format_of(path) != nullptr;
 }
@@ -129,13 +134,13 @@ bool is_foreign_scene(const std::string& path) {
 ForeignScene convert_foreign_scene(const std::string& path, const BlenderOptions& options) {
   const ForeignFormat& format = *format_of(path);
   const std::string kept = kept_scene(path, describe(options));
-  const bool is_blender_file = format.extension == ".blend";
+  const bool is_blender_file = is_blend(path);
   if (is_blender_file) check_blend(path);
   if (!is_kept(kept)) {
     const auto claim = ods::claim(kept, kPatience);
     if (!is_kept(kept)) convert(path, format, options, kept);
   }
-  ForeignScene scene = read_result(kept);
+  ForeignScene scene = read_bridge(kept);
   scene.is_blender_file = is_blender_file;
   return scene;
 }

@@ -35,6 +35,11 @@ struct ForeignScene {
 
 // Returns whether a file is such a scene, by its extension.
 bool is_foreign_scene(const std::string& path);
+// Returns whether it is one of Blender.
+bool is_blend(const std::string& path);
+
+// Reads bridge.json, which our scripts in Blender leave in a folder. Throws Error(kInput) if it is damaged.
+ForeignScene read_bridge(const std::string& folder);
 
 // Converts it with a note, or returns the kept conversion. Two processes convert it once. Throws Error(kInput) if there
 // is no program for it, or the program fails; Error(kOutput).

@@ -17,6 +17,7 @@
 #include "cli/options/picture_options.h"
 #include "cli/render/plan.h"
 #include "cli/render/render_frames.h"
+#include "cli/render/render_with_cycles.h"
 #include "cli/video/video_job.h"
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
@@ -123,7 +124,7 @@ SplitCommand split_video(const Words& words) {
         expect_video(job.render.save.layout, ods::eye_list(job.render.render.eyes).size(),
                      {job.render.render.width, job.render.render.height}, job.render.camera.stereo.projection);
     encode_options(job.video, plan.size, 0);
-    settings = frame_identity(identified(job.render));
+    settings = job.render.cycles ? cycles_identity(job.render) : frame_identity(identified(job.render));
     frames = frames_of(job.render);
   }
   split.memory = memory_of(split, job.render);

@@ -25,6 +25,7 @@ RenderJob on_card(RenderJob job, int gpu) {
 
 void add_device_option(Options& options, RenderJob& job) {
   options.group("Device");
+  add_renderer_option(options, job.renderer);
   options.text("--device", "cpu|gpu|auto|NAME|NUMBER", job.device,
                "what renders: the processor, or a graphics card through Vulkan. gpu: the best card; auto: the best "
                "card that is not software, else the processor; ods devices lists names and numbers");

@@ -8,7 +8,7 @@
 #include "ods/base/error.h"
 #include "ods/scene/scene.h"
 
-// Adds --device cpu|gpu|auto|NAME|NUMBER.
+// Adds --renderer, and --device cpu|gpu|auto|NAME|NUMBER.
 void add_device_option(Options& options, RenderJob& job);
 
 // Returns the job on the device that job.device names, and says which one renders, and why. A card's default is

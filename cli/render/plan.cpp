@@ -105,7 +105,7 @@ RenderPlan plan(const RenderJob& job, const TimeOptions& time) {
   sequence.brighter = job.brighter;
   sequence.render = job.render;
   sequence.finish = {denoiser_of(job), job.save};
-  sequence.draws_on_neighbours = job.time.is_video && sequence.finish.denoiser == ods::Denoiser::kOwn;
+  sequence.draws_on_neighbours = !job.cycles && job.time.is_video && sequence.finish.denoiser == ods::Denoiser::kOwn;
   sequence.warn = warn;
   plan.sampled = options_to_finish(job.render, sequence.finish.denoiser);
   plan.sampled.layers |= job.part.has_value();

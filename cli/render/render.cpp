@@ -10,6 +10,7 @@
 #include "cli/render/render_frames.h"
 #include "cli/render/render_job.h"
 #include "cli/render/render_still.h"
+#include "cli/render/render_with_cycles.h"
 
 namespace {
 
@@ -20,8 +21,10 @@ void render(const RenderJob& given) {
     if (given.brighter != 0.0f) note("--brighter does not change .exr and .hdr, which are scene-linear");
   }
   const RenderJob job = settled(given);
-  run_long_job(job.progress, job.render.threads,
-               [&](ProgressLines& lines) { job.rig.empty() ? render_job(job, lines) : render_views(job, lines); });
+  run_long_job(job.progress, job.render.threads, [&](ProgressLines& lines) {
+    if (job.cycles) return render_with_cycles(job, lines);
+    job.rig.empty() ? render_job(job, lines) : render_views(job, lines);
+  });
 }
 
 }  // namespace

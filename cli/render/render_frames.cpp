@@ -15,6 +15,7 @@
 #include "cli/render/first_look.h"
 #include "cli/render/plan.h"
 #include "cli/render/render_still.h"
+#include "cli/render/render_with_cycles.h"
 #include "ods/camera/layout.h"
 #include "ods/files/frames.h"
 #include "ods/sequence/shared_frames.h"
@@ -141,6 +142,7 @@ TimeOptions video_time(const RenderJob& job, ods::Scene& scene) {
 }
 
 std::vector<int> frames_of(const RenderJob& job) {
+  if (job.cycles) return video_frames(cycles_time(job));
   if (!job.time.frames.empty() && job.time.frames != "all") return video_frames(job.time);
   ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
   return video_frames(video_time(job, scene));

@@ -9,6 +9,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/render/device.h"
+#include "cli/render/render_with_cycles.h"
 #include "ods/denoise/oidn.h"
 #include "ods/files/frames.h"
 #include "ods/stage/exposure.h"
@@ -118,6 +119,7 @@ void finish_render_options(Options& options, RenderJob& job) {
   }
   check_objects(job.scene.objects);
   job.given = options.given_words();
+  if (job.renderer == Renderer::kCycles) check_cycles_options(job.given);
   job.scene.has_places =
       !job.rig.empty() || job.camera.position || job.time.move.pivot || !job.time.move.fly_to.empty();
   job.scene.camera = job.camera.view_point;
@@ -164,7 +166,11 @@ RenderJob parse_render(Options& options) {
 
 RenderJob settled(RenderJob job) {
   if (job.denoise == ods::Denoiser::kOidn) ods::check_oidn();
-  read_foreign(job.scene);
+  if (job.renderer == Renderer::kCycles) {
+    open_in_cycles(job);
+  } else {
+    read_foreign(job.scene);
+  }
   if (const std::optional<ForeignScene>& foreign = job.scene.foreign) {
     job.time.fps = job.time.given_fps.value_or(foreign->fps.value_or(job.time.fps));
     job.time.file = foreign->frames;
@@ -172,6 +178,7 @@ RenderJob settled(RenderJob job) {
   }
   take_base(job.camera, job.scene.foreign, job.scene.blender);
   use_form(job.form, job.camera, job.render, job.save);
+  if (job.cycles) check_cycles_camera(job.camera.stereo);
   job.save.tone = job.tone.value_or(job.save.tone);
   return job;
 }

@@ -3,10 +3,13 @@
 //
 // The options of ods render.
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "cli/bridge/cycles_session.h"
 #include "cli/console/progress.h"
+#include "cli/cycles/renderer.h"
 #include "cli/options/camera_options.h"
 #include "cli/options/picture_options.h"
 #include "cli/options/scene_source.h"
@@ -25,14 +28,16 @@ struct RenderJob {
   TimeOptions time;
   Quality quality;
   PictureForm form;
-  ods::RenderOptions render;             // its size and eyes after settled()
-  std::string device = kCpu;             // on_device() sets the card in `render`
-  ods::SaveOptions save;                 // its layout after settled()
-  std::optional<ods::Denoiser> denoise;  // absent: the default for all files but those that keep the scene's light
-  std::optional<float> exposure;         // stops; none: ods::look_first() chooses
-  float brighter = 0.0f;                 // stops, added to the chosen exposure
-  std::optional<ods::ToneCurve> tone;    // none: the usual curve, or none for a scene shown as painted
-  bool object_layer = false;             // an .exr gets the names of the objects that its pixels show
+  ods::RenderOptions render;  // its size and eyes after settled()
+  Renderer renderer = Renderer::kOds;
+  std::shared_ptr<CyclesSession> cycles;  // that renders, after settled(); null: our renderer does
+  std::string device = kCpu;              // on_device() sets the card in `render`
+  ods::SaveOptions save;                  // its layout after settled()
+  std::optional<ods::Denoiser> denoise;   // absent: the default for all files but those that keep the scene's light
+  std::optional<float> exposure;          // stops; none: ods::look_first() chooses
+  float brighter = 0.0f;                  // stops, added to the chosen exposure
+  std::optional<ods::ToneCurve> tone;     // none: the usual curve, or none for a scene shown as painted
+  bool object_layer = false;              // an .exr gets the names of the objects that its pixels show
   std::string output;
   std::string rig;                // a slit rig: render its views instead of the camera's picture
   std::optional<ods::Part> part;  // of the samples

@@ -19,8 +19,10 @@
 #include "cli/render/forecast.h"
 #include "cli/render/plan.h"
 #include "cli/render/render_frames.h"
+#include "cli/render/render_with_cycles.h"
 #include "ods/sequence/identity.h"
 #include "ods/sequence/render_video.h"
+#include "ods/sequence/shared_frames.h"
 #include "ods/stage/exposure.h"
 
 using Clock = std::chrono::steady_clock;
@@ -122,6 +124,48 @@ void render_scene(const VideoJob& job, ProgressLines& lines) {
   if (made) announce_video(job, *made, video.encode, video.frames.size(), begin);
 }
 
+// Renders the frames with Cycles.
+void render_in_cycles(const VideoJob& job, ProgressLines& lines) {
+  const auto begin = Clock::now();
+  RenderJob render = job.render;
+  const ods::EncodeOptions options =
+      check_encoding(job, expect_video(render.save.layout, ods::eye_list(render.render.eyes).size(),
+                                       {render.render.width, render.render.height}, render.camera.stereo.projection));
+  const TimeOptions time = cycles_time(render);
+  const std::vector<int> numbers = video_frames(time), own = own_frames(time.only, numbers);
+  ods::VideoJournal journal = open_journal(job, cycles_identity(render));
+  render.output = journal.pattern();
+  check_outputs(render);
+  journal.plan(numbers, own);
+  CyclesFrames frames;
+  frames.all = ods::make_frames(plan(render, time).sequence, numbers, render.output);
+  frames.missing = ods::choose_frames(frames.all, own);
+  frames.shared = !time.only.empty();
+  frames.report = [&](double done, const ods::FrameAtWork& at) {
+    journal.check();
+    report_rendering(lines, begin, done, {"render", at.place, at.count, at.path});
+  };
+  frames.saved = [&](const std::vector<std::string>& files) {
+    lines.clear();
+    if (frames.shared) std::ranges::for_each(files, announce_file);
+  };
+  std::vector<ods::SharedFrame> files;
+  for (const ods::SequenceFrame& frame : frames.all) files.push_back({frame.number, frame.path});
+  ods::wait_for_frames(files, render.wait, note_late("frame", render.wait));
+  note_existing_frames(own.size() - frames.missing.size(), own.size());
+  check_disk_room(render.output, frames.missing.size(), largest_frame(render.output, render.render, render.save),
+                  render.force || frames.shared);
+  render_cycles_frames(render, frames);
+  if (frames.shared) return lines.clear();
+  note_sound_length(options, numbers.size());
+  const ods::DisplayTransform display{ods::brightened(render.exposure.value_or(0.0f), render.brighter),
+                                      render.tone.value_or(ods::DisplayTransform().tone)};
+  const ods::VideoPlan plan = ods::encode_frames(journal, numbers, display, options, job.keep_frames,
+                                                 {report_encoding(job, lines, begin, numbers.size()), {}});
+  lines.clear();
+  announce_video(job, plan, options, numbers.size(), begin);
+}
+
 // Stitches the frames from the views of a rig.
 void stitch_views(const VideoJob& job, ProgressLines& lines) {
   const auto begin = Clock::now();
@@ -162,5 +206,6 @@ void stitch_views(const VideoJob& job, ProgressLines& lines) {
 }  // namespace
 
 void make_video(const VideoJob& job, ProgressLines& lines) {
+  if (job.render.cycles) return render_in_cycles(job, lines);
   job.rig.empty() ? render_scene(job, lines) : stitch_views(job, lines);
 }

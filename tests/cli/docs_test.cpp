@@ -39,6 +39,9 @@ namespace fs = std::filesystem;
 const std::map<std::string, std::string> kCannotRun = {
     {"ods stitch rig.json '%V.#.png'", "sheets of Unreal's plug-in"},
     {"ods blender --blender", "another Blender than that of PATH"},
+    {"ods render house.blend --renderer", "a Blender that renders"},
+    {"ods video shot.blend --renderer", "a Blender that renders"},
+    {"ods submit --to slurm -- video shot.blend --renderer", "a Blender that renders"},
 };
 
 // Options of other programs that the pages call, and options that every command has.

@@ -74,7 +74,7 @@ def modify_as_rendered(scene):
 
 
 def _name_lost(shown, ledger):
-    slits = "to render it in Blender itself: ods rig (docs/slits.md)"
+    cycles = "choose --renderer cycles"
     kinds = {"VOLUME": "a volume", "GPENCIL": "grease pencil", "GREASEPENCIL": "grease pencil", "CURVES": "hair",
              "POINTCLOUD": "a point cloud"}
     for each in shown.values():
@@ -83,7 +83,7 @@ def _name_lost(shown, ledger):
                  and m.domain_settings.domain_type == "GAS"]
         what = "hair" if strands else "smoke and fire" if smoke else kinds.get(each.type)
         if what:
-            ledger.lose(f"{what} does not come across", "object", each.name, slits)
+            ledger.lose(f"{what} does not come across", "object", each.name, cycles)
         if each.type in MESHES and ledger.read(each, "is_shadow_catcher", False):
             ledger.lose("a shadow catcher is an ordinary object here", "object", each.name,
                         f"add --transparent --shadow-catcher '{each.name}'")

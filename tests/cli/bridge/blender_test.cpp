@@ -443,6 +443,9 @@ bpy.context.scene.objects['floor'].name = 'renamed since it was saved'
 for kind in ('render', 'video'):
     say(kind, bpy.ops.omnistereo.run(kind=kind), add_on.running.code, add_on.running.share, add_on.running.warnings)
     say('FOLDER', os.path.exists(add_on.running.folder))
+settings.renderer = 'cycles'; bpy.context.scene.cycles.samples = 2
+say('CYCLES', bpy.ops.omnistereo.run(kind='render'), add_on.running.code, 'hair' in str(add_on.running.warnings))
+settings.renderer = 'ods'
 job = add_on.job.Job(['sleep', '1000'], add_on.job.private_folder())
 say('RUNNING', job.is_running())
 job.cancel(); job.wait(); say('CANCELLED', job.cancelled, job.is_running())
@@ -456,6 +459,7 @@ except RuntimeError as error: say('ERROR', error)
   EXPECT_NE(said.find("render {'FINISHED'} 0 1.0 [\"hair does not come across: object 'fur'"), std::string::npos)
       << said;
   EXPECT_NE(said.find("video {'FINISHED'} 0 1.0 ["), std::string::npos) << said;
+  EXPECT_NE(said.find("CYCLES {'FINISHED'} 0 False\n"), std::string::npos) << said << "hair is there";
   EXPECT_NE(said.find("FOLDER False\n"), std::string::npos) << said;
   EXPECT_NE(said.find("RUNNING True\nCANCELLED True False\n"), std::string::npos) << said;
   EXPECT_NE(said.find("ERROR Error: "), std::string::npos) << said;

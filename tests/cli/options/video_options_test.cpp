@@ -31,6 +31,7 @@ const std::map<std::string, std::string> kVideoAlone = {
     {"--apple", ""},          {"--tone", "linear"},    {"--frames", "1-3"},      {"--threads", "1"},
     {"--progress", "openjd"}, {"--quiet", ""},         {"--no-color", ""},       {"--confine", "."},
     {"--keep-frames", ""},    {"--skip-existing", ""}, {"--duration", "3"},      {"--force", ""},
+    {"--renderer", "ods"},                            // frames of Cycles have an identity of their own
     {"--device", "cpu"},      {"--denoise", "none"},  // frames of one sample are never denoised
 };
 std::map<std::string, std::string> with_circle(std::map<std::string, std::string> options) {
