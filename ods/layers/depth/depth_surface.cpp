@@ -213,7 +213,7 @@ SeenSurface depth_surface(const DepthPanorama& panorama, float reach) {
     simplify(pages[page], reach, 0.5f * error, Borders::kStay);
   });
   CornerMesh whole = weld(pages);
-  simplify(whole, reach, 0.5f * error, Borders::kMove);
+  simplify(whole, reach, error, Borders::kMove);
   SeenSurface surface;
   for (const DepthVertex& vertex : whole.vertices) surface.positions.push_back(vertex.direction / vertex.nearness);
   surface.triangles = std::move(whole.triangles);
