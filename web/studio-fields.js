@@ -26,7 +26,24 @@ function standardOf(view, { name }) {
 
 const UP = [0, 1, 0]; // the axis of a level camera
 
+const rounded = (value, digits) => Number(value.toFixed(digits));
+
+// The row of the scene's own cameras: its value is the index of the one where the camera stands, or nothing. They are
+// level, as those of every command.
+const PLACE = 'scene-camera';
+const NEAR = 0.006; // metres and degrees: settings are rounded
+
+function cameraOf({ studio }, { sidecar }) {
+  const stands = ({ position, yaw }) => {
+    const turn = (((sidecar.yaw - yaw) % 360) + 540) % 360 - 180;
+    return [turn, sidecar.pitch, sidecar.roll, ...position.map((value, i) => value - sidecar.position[i])].every((value) => Math.abs(value) < NEAR);
+  };
+  const found = sidecar.position ? studio.cameras.findIndex(stands) : -1;
+  return found < 0 ? '' : String(found);
+}
+
 export function readValue(view, settings, path) {
+  if (path === PLACE) return cameraOf(view, settings);
   if (path === camera('axis')) return settings.sidecar.axis ? 'own' : 'camera';
   const value = valueAt(settings, path);
   if (value === undefined && path.startsWith(camera('axis.'))) return UP[path.at(-1)];
@@ -51,6 +68,10 @@ export function groupsOf(view) {
   const has = (number) => (settings) => studio.controls[settings.sidecar.projection.name]?.includes(number);
   return [
     { name: 'Camera', open: true, rows: [
+      ...(studio.cameras.length ? [{
+        path: PLACE, label: 'Scene’s camera', options: [['', 'Another place'], ...studio.cameras.map(({ name }, i) => [String(i), name])],
+        edits: (i) => (i ? { [camera('position')]: studio.cameras[i].position.map((value) => rounded(value, 4)), [camera('yaw')]: rounded(studio.cameras[i].yaw, 2), [camera('pitch')]: 0, [camera('roll')]: 0 } : {}),
+      }] : []),
       { label: 'Position', parts: ['X', 'Y', 'Z'].map((label, i) => ({ path: camera(`position.${i}`), label, name: `Position ${label}`, unit: 'm', step: 0.01, range: [-1e5, 1e5] })) },
       { label: 'Direction', parts: [
         { path: camera('yaw'), label: 'Yaw', unit: '°', step: 0.5, range: turns },

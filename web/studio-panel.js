@@ -88,7 +88,11 @@ export class Panel {
     return readValue(this.view, other ? settings : { sidecar: { projection: { name: now.sidecar.projection.name } } }, path);
   }
 
-  change({ path, projection, write }, value, gesture, dragging) {
+  change({ path, projection, write, edits }, value, gesture, dragging) {
+    if (edits) {
+      this.session.edit(edits(value), gesture, dragging);
+      return this.update(); // a choice that changes nothing returns to what is so
+    }
     const values = { [path]: write ? write(value) : value };
     const merge = this.linked && LINK.exec(path);
     if (merge) values[path.replace('merge_top', 'merge_bottom')] = value;

@@ -16,6 +16,14 @@ const BAR = 64; // pixels covered by the bar below
 
 const distance = (metres) => (metres < 1 ? `${(metres * 100).toFixed(1)} cm` : `${metres.toFixed(metres < 100 ? 2 : 0)} m`);
 
+// Puts the camera above a point, and closes the card if nothing else has been picked meanwhile.
+async function standOn({ walk }, point, direction, isPicked, say, hide) {
+  const fault = await walk.stand({ point, direction }).catch((error) => error.message);
+  if (!isPicked(direction)) return;
+  if (fault) say(fault);
+  else hide();
+}
+
 // Returns a function that picks the middle.
 export function pickWithClicks(studio) {
   const { viewer } = studio.page;
@@ -49,6 +57,7 @@ export function pickWithClicks(studio) {
   const close = make('button', { type: 'button', className: 'small close', 'aria-label': 'Close', 'data-tip': 'Close', 'data-key': 'Esc' }, icon('close'));
   close.addEventListener('click', hide);
   const say = (textContent) => card.replaceChildren(make('p', { textContent }), close);
+  const stand = (point) => standOn(studio, point, where, (direction) => where === direction, say, hide).then(follow);
   const tell = (found) => {
     if (found.nothing) return say('Nothing is there: the sky.');
     const pixel = (place) => (place ? `${place.map((value) => value.toFixed(1)).join(', ')} px` : 'not seen');
@@ -59,6 +68,7 @@ export function pickWithClicks(studio) {
         ...(comfort ? [row('Comfort', comfort.level), row('Height, at worst', `${comfort.vertical.toFixed(1)}′`)] : []),
         row('Left eye', pixel(found.left)), row('Right eye', pixel(found.right)), row('Point', found.point.map((value) => (Math.round(100 * value) / 100 + 0).toFixed(2)).join(', '))),
       make('div', { className: 'row' },
+        ...(found.point[1] < studio.session.settings.sidecar.position[1] ? [button('Stand here', () => stand(found.point))] : []),
         button('Converge here', () => {
           const { mode } = studio.session.settings.sidecar.convergence;
           studio.session.edit({ 'sidecar.convergence.distance': metres, ...(mode === 'parallel' && { 'sidecar.convergence.mode': 'toe-in' }) });

@@ -15,6 +15,7 @@ import { Panel } from './studio-panel.js';
 import { pickWithClicks } from './studio-pick.js';
 import { RenderFoot } from './studio-render.js';
 import { ENDED, Session, ask, sleep } from './studio-session.js';
+import { Walk } from './studio-walk.js';
 
 const LOOK_PAUSE = 100; // milliseconds between messages about the look
 const SIDES = ['A', 'B'];
@@ -37,6 +38,7 @@ class Studio {
     this.scene = { name: studio.scene, kind: 'scene', projection: 'lat-long', layout: 'live' };
     this.session = new Session(studio.settings, () => this.look(), (...frame) => this.take(...frame));
     this.session.isSeen = () => !document.hidden || viewer.session;
+    this.walk = new Walk(this);
     this.build();
     this.panel = new Panel(this.rows, viewer.view, this.session);
     this.foot = new RenderFoot(this.element.querySelector('footer'), this);
@@ -85,6 +87,7 @@ class Studio {
       { id: 'panel', keys: ['i'], label: 'hide or show the panel', run: () => { document.body.classList.toggle('folded'); } },
     ].map((row) => ({ ...row, group: 'Studio' }));
     ACTIONS.splice(-1, 0, ...rows);
+    ACTIONS.unshift(...this.walk.keys(isLive)); // first: pictures use these keys otherwise
     nameButtons(this.element);
     this.element.addEventListener('keydown', (event) => {
       if (event.target.matches('input, select') && !event.ctrlKey && !event.metaKey) event.stopPropagation();

@@ -112,6 +112,7 @@ ConvertJob open_conversion(const ConvertOptions& given) {
   check_share(given.share, given.input, given.output);
   job.files.frames = own_frames(given.share.only, job.files.frames);
   refuse_overwriting(given.output, given.input);
+  take_stated_distance(given, job.picture);
   ConversionPlan plan = plan_conversion(job.picture, given);
   for (const std::string& each : plan.notes) note(each);
   job.target = plan.target, job.save = plan.save;
@@ -133,6 +134,7 @@ void read_pixels(ConvertJob& job) {
   const ConvertOptions& given = job.given;
   job.picture = job.reader->read(ods::existing_folder_of(given.output));
   job.reader.reset();  // it may hold a decoder's memory
+  take_stated_distance(given, job.picture);
   note_guesses(given.input, job.picture);
   if (!given.depth.path.empty()) give_depth(given.depth, job.picture);
   refuse_impossible(job, job.picture);

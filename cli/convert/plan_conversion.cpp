@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/convert/plan_conversion.h"
 
+#include <fmt/format.h>
+
 #include "cli/console/console.h"
 #include "cli/options/eye_options.h"
 #include "cli/options/projection_options.h"
+#include "ods/picture/stereo_file.h"
 #include "ods/video/container/video_file.h"
 
 using ods::Eyes, ods::StereoCamera;
@@ -41,7 +44,21 @@ bool moves_one_eye(const ods::StoredPicture& header, const ods::ConvertTarget& t
   return target.eyes[0] == ods::kMono && (merges_by_depth || !ods::same_eyes(requested, own));
 }
 
+bool records_no_distance(const ods::StoredPicture& header, const ConvertOptions& options) {
+  const bool is_flat = header.camera.projection.kind == ods::kPerspective;
+  return ods::stereo_file(options.output) == ods::StereoFile::kSpatial && is_flat && header.eyes.size() == 2 &&
+         !header.has_ipd && options.depth.path.empty();
+}
+
 }  // namespace
+
+void take_stated_distance(const ConvertOptions& options, ods::StoredPicture& picture) {
+  const auto& numbers = options.camera.changes.numbers;
+  const auto stated = numbers.find(ods::CameraField::kIpd);
+  if (!records_no_distance(picture, options) || stated == numbers.end() || !stated->second) return;
+  picture.camera.ipd = *stated->second;
+  picture.has_ipd = true;
+}
 
 ConversionPlan plan_conversion(const ods::StoredPicture& header, const ConvertOptions& options) {
   ConversionPlan plan;
@@ -56,6 +73,12 @@ ConversionPlan plan_conversion(const ods::StoredPicture& header, const ConvertOp
   if (options.form.given_eyes() == Eyes::kRightEye) target.mono_from = ods::kRight;
   if (moves_one_eye(header, target, by.changes.merge_limit.has_value())) {
     plan.notes.emplace_back("--ipd, --merge, --head-tilt-map and --eye-to-neck have no effect on one eye");
+  }
+  if (records_no_distance(header, options)) {
+    plan.notes.push_back(
+        fmt::format("'{}' does not record how far apart its cameras were: 65 mm; --ipd states another "
+                    "distance",
+                    options.input));
   }
   plan.save.sidecar = options.sidecar;
   save_as_it_was(header, stereo.projection, options.output, options.form.given_layout(), options.display, plan.save);

@@ -15,5 +15,9 @@ struct ConversionPlan {
   std::vector<std::string> notes;
 };
 
+// A spatial photo records the distance of its cameras. If the input records none and has no depth, --ipd does not move
+// the eyes of a spatial photo, but states how far apart they were.
+void take_stated_distance(const ConvertOptions& options, ods::StoredPicture& picture);
+
 // header: of the input, or of its first frame. Opens no file. Throws UsageError if the options do not fit together.
 ConversionPlan plan_conversion(const ods::StoredPicture& header, const ConvertOptions& options);

@@ -25,11 +25,10 @@ double pixel_bytes(ods::FileFormat format, const ods::RenderOptions& options) {
       return channels;
     case ods::FileFormat::kJpeg:
     case ods::FileFormat::kWebp:
+    case ods::FileFormat::kHeif:
       return 1.0;
     case ods::FileFormat::kHdr:
       return 4.0;
-    case ods::FileFormat::kHeif:
-      break;
     case ods::FileFormat::kExr:
       return 2.0 * channels + (options.layers ? 4.0 + 6.0 + 6.0 : 0.0);  // 32-bit Z, normals, albedo
   }

@@ -119,6 +119,15 @@ ods::StereoCamera shortened(ods::StereoCamera camera) {
   return camera;
 }
 
+// The scene's own cameras.
+Json cameras_json(const std::vector<ods::ViewPoint>& points) {
+  Json json = Json::array();
+  for (const ods::ViewPoint& at : points) {
+    json.push_back({{"name", at.name}, {"yaw", at.yaw}, {"position", {at.position.x, at.position.y, at.position.z}}});
+  }
+  return json;
+}
+
 // Counts those who wait for a frame.
 struct Waiting {
   explicit Waiting(std::atomic<int>& all) : all_(all), count_(++all) {}
@@ -203,6 +212,7 @@ Json Studio::description() const {
   Json json = {{"scene", std::filesystem::path(title()).filename().string()},
                {"settings", settings_json(usual_)},
                {"ranges", ranges_json()},
+               {"cameras", cameras_json(scene_->view_points)},
                {"merges", ods::names_of(ods::kMergeTable)},
                {"kernel_merges", kernel_merges_json()},
                {"convergences", ods::names_of(ods::kConvergenceTable)},

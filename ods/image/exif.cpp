@@ -2,14 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/image/exif.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 
 #include "ods/base/bytes.h"
+#include "ods/base/error.h"
 #include "ods/image/format/file_format.h"
 #include "ods/image/format/jpeg_segments.h"
 #include "ods/image/format/png_chunks.h"
 #include "ods/image/format/tiff_directory.h"
+#include "ods/image/heif_items.h"
 
 namespace ods {
 
@@ -50,10 +54,19 @@ static std::string in_jpeg(const FileInput& file) {
   return "";
 }
 
+static std::string in_heif(const FileInput& file) {
+  try {
+    return read_heif_exif(file, kLongestExif);
+  } catch (const MalformedFile& fault) {
+    throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': {}", file.path(), fault.what()));
+  }
+}
+
 std::string read_exif(const FileInput& file) {
   const std::optional<FileFormat> format = format_of_file(file);
   if (format == FileFormat::kPng) return in_png(file);
   if (format == FileFormat::kWebp) return in_webp(file);
+  if (format == FileFormat::kHeif) return in_heif(file);
   return format == FileFormat::kJpeg ? in_jpeg(file) : "";
 }
 

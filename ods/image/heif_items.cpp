@@ -8,15 +8,9 @@
 #include <numbers>
 
 #include "ods/image/format/boxes.h"
+#include "ods/image/heif_boxes.h"
 
 namespace ods {
-
-static uint32_t read_primary(const Box& meta) {
-  const Box* primary = find_child(meta, box_type("pitm"));
-  if (primary == nullptr) throw MalformedFile("it names no picture to show");
-  const size_t bytes = get_number(primary->body, 0, 1) == 0 ? 2 : 4;
-  return static_cast<uint32_t>(get_number(primary->body, 4, bytes));
-}
 
 // The pictures of the left and the right eye in the first stereo group.
 static std::vector<uint32_t> read_pair(Box& meta) {
@@ -34,18 +28,11 @@ static std::vector<uint32_t> read_pair(Box& meta) {
 using Parts = std::map<uint32_t, std::vector<uint32_t>>;
 
 static Parts read_parts(Box& meta) {
-  Box* references = find_child(meta, box_type("iref"));
-  if (references == nullptr) return {};
-  open_box(*references, 4);
-  const size_t bytes = get_number(references->body, 0, 1) == 0 ? 2 : 4;
   Parts parts;
-  for (const Box& each : references->children) {
+  for (const HeifReference& each : heif_references(meta)) {
     if (each.type != box_type("dimg")) continue;
-    std::vector<uint32_t>& to = parts[static_cast<uint32_t>(get_number(each.body, 0, bytes))];
-    const uint64_t count = get_number(each.body, bytes, 2);
-    for (uint64_t i = 0; i < count; i++) {
-      to.push_back(static_cast<uint32_t>(get_number(each.body, bytes + 2 + i * bytes, bytes)));
-    }
+    std::vector<uint32_t>& to = parts[each.from];
+    to.insert(to.end(), each.to.begin(), each.to.end());
   }
   return parts;
 }
@@ -64,24 +51,6 @@ static void check_parts(Box& meta) {
   const Parts parts = read_parts(meta);
   int count = 0;
   for (const auto& [item, of] : parts) count_parts(parts, item, 0, count);
-}
-
-// The indices of an item's properties, from 1.
-static std::vector<size_t> properties_of(const Box& associations, uint32_t item) {
-  const std::string& body = associations.body;
-  const uint64_t version = get_number(body, 0, 1), flags = get_number(body, 1, 3), count = get_number(body, 4, 4);
-  const size_t id_bytes = version == 0 ? 2 : 4, bytes = (flags & 1) != 0 ? 2 : 1;
-  size_t at = 8;
-  std::vector<size_t> numbers;
-  for (uint64_t i = 0; i < count; i++) {
-    const uint64_t id = get_number(body, at, id_bytes), own = get_number(body, at + id_bytes, 1);
-    at += id_bytes + 1;
-    for (uint64_t k = 0; k < own; k++, at += bytes) {
-      const uint64_t number = get_number(body, at, bytes) & (bytes == 2 ? 0x7fff : 0x7f);  // other bit: essential
-      if (id == item) numbers.push_back(number);
-    }
-  }
-  return numbers;
 }
 
 static void read_color(const Box& property, HeifItems& items) {
@@ -106,44 +75,89 @@ static void read_camera(std::string_view body, HeifItems& items) {
 
 static void read_property(const Box& property, HeifItems& items) {
   if (property.type == box_type("colr")) read_color(property, items);
-  // visionOS 1 wrote the contents of `cmin` with a name of its own.
-  constexpr std::string_view kCameraId = "\x22\xcc\x04\xc7\xd6\xd9\x4e\x07\x9d\x90\x4e\xb6\xec\xba\xf3\xa3";
-  if (property.type == box_type("cmin")) read_camera(property.body, items);
-  if (property.type == box_type("uuid") && property.body.starts_with(kCameraId))
-    read_camera(std::string_view(property.body).substr(kCameraId.size()), items);
+  if (const auto camera = heif_property_body(property, box_type("cmin"), kAppleIntrinsics)) read_camera(*camera, items);
+}
+
+// Metres to the right of the coordinates' origin.
+static double position_of(Box& meta, uint32_t item) {
+  for (const HeifProperty& each : heif_properties(meta, item)) {
+    const auto place = heif_property_body(*each.box, box_type("cmex"), kAppleExtrinsics);
+    if (!place || (get_number(*place, 1, 3) & 1) == 0) continue;
+    return static_cast<int32_t>(static_cast<uint32_t>(get_number(*place, 4, 4))) * 1e-6;
+  }
+  return 0.0;
+}
+
+// Pictures beside the eyes that readers do not show, except alpha.
+static int count_others(Box& meta, const HeifItems& items) {
+  constexpr int kMost = 16;  // each is a search
+  int count = 0;
+  for (const HeifReference& each : heif_references(meta)) {
+    const bool is_ours = std::ranges::any_of(each.to, [&](uint32_t item) {
+      return item == items.primary || std::ranges::find(items.pair, item) != items.pair.end();
+    });
+    if (each.type != box_type("auxl") || !is_ours) continue;
+    const std::vector<HeifProperty> properties = heif_properties(meta, each.from);
+    const bool is_alpha = std::ranges::any_of(properties, [](const HeifProperty& property) {
+      const std::string& body = property.box->body;
+      return property.box->type == box_type("auxC") &&
+             (body.find("alpha") != std::string::npos || body.find("hevc:2015:auxid:1") != std::string::npos);
+    });
+    if (!is_alpha && ++count == kMost) break;
+  }
+  return count;
+}
+
+static double baseline_of(Box& meta, const std::vector<uint32_t>& pair) {
+  const double distance = pair.size() == 2 ? position_of(meta, pair[1]) - position_of(meta, pair[0]) : 0.0;
+  return distance > 1e-4 && distance < 100.0 ? distance : 0.0;
 }
 
 static void read_properties(Box& meta, HeifItems& items) {
+  for (const HeifProperty& each : heif_properties(meta, items.primary)) read_property(*each.box, items);
+  if (!items.icc.empty() || items.color) return;
   Box* found = find_child(meta, box_type("iprp"));
   if (found == nullptr) return;
-  open_box(*found, 0);
-  const Box& all = open_child(*found, box_type("ipco"));
-  for (const Box& box : found->children) {
-    if (box.type != box_type("ipma")) continue;
-    for (const size_t number : properties_of(box, items.primary)) {
-      if (number >= 1 && number <= all.children.size()) read_property(all.children[number - 1], items);
-    }
-  }
-  if (!items.icc.empty() || items.color) return;
-  for (const Box& property : all.children) {  // for a grid, some programs describe only the tiles
+  for (const Box& property : open_child(*found, box_type("ipco")).children) {
+    // For a grid, some programs describe only the tiles.
     if (property.type == box_type("colr")) return read_color(property, items);
   }
 }
 
-HeifItems read_heif_items(const FileInput& file) {
+static Box open_meta(const FileInput& file) {
   const std::vector<FileBox> boxes = scan_boxes(file);
   const auto found =
       std::find_if(boxes.begin(), boxes.end(), [](const FileBox& box) { return box.type == box_type("meta"); });
   if (found == boxes.end()) throw MalformedFile("it has no list of pictures (meta)");
   Box meta = read_box(file, *found);
   open_box(meta, 4);
+  return meta;
+}
+
+HeifItems read_heif_items(const FileInput& file) {
+  Box meta = open_meta(file);
   HeifItems items;
-  items.primary = read_primary(meta);
+  items.primary = heif_primary(meta);
   items.pair = read_pair(meta);
   if (!items.pair.empty()) items.primary = items.pair[0];
   check_parts(meta);
   read_properties(meta, items);
+  items.baseline = baseline_of(meta, items.pair);
+  items.others = count_others(meta, items);
   return items;
+}
+
+// The TIFF directory begins so many bytes after this number: Apple writes the prefix of a JPEG's segment between.
+std::string read_heif_exif(const FileInput& file, uint64_t most) {
+  Box meta = open_meta(file);
+  for (const HeifItemType& each : heif_item_types(meta)) {
+    if (each.type != box_type("Exif")) continue;
+    const ReadBytes read = [&](uint64_t offset, uint64_t count) { return file.read(offset, count); };
+    const std::string bytes = heif_item_bytes(meta, each.item, read, most);
+    const uint64_t start = 4 + get_number(bytes, 0, 4);
+    return start < bytes.size() ? bytes.substr(start) : "";
+  }
+  return "";
 }
 
 }  // namespace ods

@@ -88,7 +88,7 @@ struct FileHeader {
   std::vector<Channel> channels;      // alpha of integers is unassociated
   std::vector<Attribute> attributes;  // GPano:* becomes XMP; except in EXR, only text and GPano
   std::string exif;                   // JPEG and PNG: read_exif() (ods/image/exif.h)
-  int quality = 95;                   // for JPEG (4:4:4) and WebP, 1 to 100
+  int quality = 95;                   // for JPEG (4:4:4), WebP and HEIF, 1 to 100
   bool writes_srgb = false;           // PNG: writes an sRGB chunk
   bool is_environment = false;        // EXR: marks it as a whole lat-long
   bool rows_alone = false;            // EXR: compresses each row separately, not 16 together
@@ -104,6 +104,10 @@ using RowSource = std::function<void(int y, std::span<float> row)>;
 // being compressed; `band_done`, unless empty, is called between bands. Throws Error(kOutput), and what `rows` throws.
 void write_image(ByteSink& sink, const FileHeader& header, const RowSource& rows,
                  const std::function<void()>& band_done = {});
+
+// Returns why this machine cannot write files of a format, and what would help; empty if it can. HEIF (HEVC) depends on
+// an encoder that libheif loads.
+std::string lacks_encoder(FileFormat format);
 
 // The bytes of such a file; `name` stands for it in messages. Throws as write_image().
 std::string image_bytes(const std::string& name, const FileHeader& header, const RowSource& rows);

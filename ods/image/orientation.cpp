@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/image/orientation.h"
 
+#include <optional>
 #include <string>
 
 #include "ods/base/bytes.h"
@@ -13,8 +14,9 @@
 namespace ods {
 
 static uint64_t stated(const FileInput& file) {
-  if (format_of_file(file) == FileFormat::kTiff)
-    return tiff_number(file, read_tiff_directory(file), kTiffOrientation).value_or(1);
+  const std::optional<FileFormat> format = format_of_file(file);
+  if (format == FileFormat::kHeif) return 1;  // its properties irot and imir apply, which decoders obey
+  if (format == FileFormat::kTiff) return tiff_number(file, read_tiff_directory(file), kTiffOrientation).value_or(1);
   const std::string exif = read_exif(file);
   return exif.empty() ? 1 : exif_orientation(exif);
 }

@@ -20,6 +20,7 @@
 #include "ods/image/format/stereo_jpeg.h"
 #include "ods/image/format/xmp.h"
 #include "ods/image/image_file.h"
+#include "ods/image/spatial_photo.h"
 #include "ods/picture/anaglyph.h"
 #include "ods/picture/metadata/metadata.h"
 #include "ods/picture/metadata/sidecar.h"
@@ -60,6 +61,10 @@ static void check_layout(const std::string& path, FileFormat format, const SaveO
   if (stereo_file_of(path, eyes.size()) == StereoFile::kJps && !make_jps("\xff\xd8", layout_name(layout))) {
     throw unfit(path, fmt::format(".jps files cannot be {}: give another `layout`", layout_name(layout)));
   }
+  if (format == FileFormat::kHeif) {
+    if (!stereo_file_of(path, eyes.size())) throw unfit(path, "a .heic is a spatial photo, of two eyes; write .jpg");
+    if (const std::string why = lacks_encoder(format); !why.empty()) throw unfit(path, why);
+  }
   if (names_eye(path) && eyes[0] == kMono) throw unfit(path, "%V and %v stand for an eye, but the picture is mono");
 
   const int count = static_cast<int>(eyes.size());
@@ -92,8 +97,15 @@ bool keeps_layers(const std::string& path) {
   return format_of_path(path) == FileFormat::kExr;
 }
 
-// A VR photo has GPano, an MPO none or GPano: readers take it for a window or for what GPano says.
+// A VR photo has GPano, an MPO none or GPano: readers take it for a window or for what GPano says. The cameras of a
+// spatial photo have a field of view and no other projection.
 static void check_stereo_file(const std::string& path, StereoFile kind, const ProjectionSetting& projection) {
+  if (kind == StereoFile::kSpatial) {
+    if (projection.kind == kPerspective) return;
+    throw unfit(path, fmt::format("a .heic is a spatial photo, a flat window, and this is {}; write .jpg, or make it a "
+                                  "`perspective` picture first",
+                                  projection_name(projection)));
+  }
   const bool is_window = projection.kind == kPerspective && kind != StereoFile::kVrPhoto;
   if (fits_gpano(projection) || is_window || kind == StereoFile::kJps) return;
   throw unfit(path, fmt::format("{} files hold {}lat-long or a part of it, and this is {}", stereo_file_extension(kind),
@@ -152,7 +164,7 @@ static bool has_alpha(const PictureRows& picture) {
 }
 
 static bool keeps_alpha(FileFormat format) {
-  return format != FileFormat::kJpeg && format != FileFormat::kHdr;
+  return format != FileFormat::kJpeg && format != FileFormat::kHdr && format != FileFormat::kHeif;
 }
 
 static bool keeps_alpha(FileFormat format, Layout layout) {
@@ -381,14 +393,22 @@ static void write_vr_photo(AtomicFile& out, const PictureRows& picture, const St
   write_photo(left, right.read(0, right.size()), *camera, picture.eye, out);
 }
 
+// Both eyes of a window whose middle is straight ahead of each.
+static SpatialCameras cameras_of(const std::string& path, const StereoCamera* camera) {
+  if (camera == nullptr) throw unfit(path, "a .heic needs camera metadata, but this picture's camera is unknown");
+  if (camera->convergence != kParallel) {
+    throw unfit(path, "the cameras of a .heic are parallel, and these converge: set `convergence` to parallel");
+  }
+  if (!(camera->ipd > 0.0f)) throw unfit(path, "the cameras of a .heic are at two places, and the eye distance is 0");
+  return {static_cast<double>(camera->projection.fov), static_cast<double>(camera->ipd)};
+}
+
 static void write_stereo_file(AtomicFile& out, StereoFile kind, const PictureRows& picture, const StereoCamera* camera,
                               const SaveOptions& options) {
-  const auto jpeg_of = [&](const std::vector<int>& indices, Layout layout) {
+  const auto file_of = [&](const std::vector<int>& indices, Layout layout, FileFormat format = FileFormat::kJpeg) {
     MemorySink memory(out.path());
     const Extent squeeze = squeeze_of(layout, static_cast<int>(indices.size()));
-    write_picture(memory,
-                  {picture, indices, FileFormat::kJpeg, layout, options, count_channels(picture.layers), squeeze},
-                  camera);
+    write_picture(memory, {picture, indices, format, layout, options, count_channels(picture.layers), squeeze}, camera);
     return memory.take();
   };
   if (camera != nullptr) check_stereo_file(out.path(), kind, camera->projection);
@@ -397,10 +417,17 @@ static void write_stereo_file(AtomicFile& out, StereoFile kind, const PictureRow
     case StereoFile::kVrPhoto:
       return write_vr_photo(out, picture, camera, options);
     case StereoFile::kMpo:
-      bytes = make_mpo(jpeg_of({0}, Layout::kSeparate), jpeg_of({1}, Layout::kSeparate));
+      bytes = make_mpo(file_of({0}, Layout::kSeparate), file_of({1}, Layout::kSeparate));
       break;
+    case StereoFile::kSpatial: {
+      const SpatialCameras cameras = cameras_of(out.path(), camera);
+      const auto eye = [&](int index) { return file_of({index}, Layout::kSeparate, FileFormat::kHeif); };
+      const std::string exif = options.exif.empty() ? "" : exif_for(options.exif, picture.eye);
+      bytes = make_spatial_photo(eye(0), eye(1), cameras, exif);
+      break;
+    }
     case StereoFile::kJps:
-      bytes = make_jps(jpeg_of({0, 1}, options.layout), layout_name(options.layout));
+      bytes = make_jps(file_of({0, 1}, options.layout), layout_name(options.layout));
       break;
   }
   out.write(bytes->data(), bytes->size());

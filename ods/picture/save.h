@@ -3,7 +3,7 @@
 //
 // Saves a rendered picture. The file extension selects the format.
 //
-// png, jpg, jpeg, tif, tiff and webp are display-referred: exposure, tone curve, sRGB, 8 bits. hdr and exr contain the
+// png, jpg, jpeg, tif, tiff, webp and heic are display-referred: exposure, tone curve, sRGB, 8 bits. hdr and exr contain the
 // scene-linear light as rendered: Rec. 709, without exposure or tone curve. Eyes are squeezed in scene-linear light, as
 // if rendered with larger pixels; of two depths the smaller one is kept. Files do not contain NaN (it becomes 0) or
 // infinity (it becomes the largest number of the format).
@@ -14,12 +14,12 @@
 // "Storing Multi-View Images in OpenEXR Files", single part: `left` is the default view with bare R G B Z; in other
 // channels the view comes before the last component: right.R, N.left.X, albedo.right.G.
 //
-// Alpha: png, tif and webp store unpremultiplied colours, exr premultiplied ones; jpg, hdr and anaglyphs show the
-// picture over black.
+// Alpha: png, tif and webp store unpremultiplied colours, exr premultiplied ones; jpg, hdr, heic and anaglyphs show
+// the picture over black.
 //
 // A png, jpg or tif of one eye carries GPano. A stereo one does not, because GPano has no stereo and viewers would wrap
-// both eyes around one sphere. Two eyes in NAME.vr.jpg, NAME.mpo or NAME.jps become a file of that kind
-// (ods/picture/stereo_file.h): the first two hold the eyes as pictures of their own, whatever the layout.
+// both eyes around one sphere. Two eyes in NAME.vr.jpg, NAME.mpo, NAME.heic or NAME.jps become a file of that kind
+// (ods/picture/stereo_file.h): all but the last one hold the eyes as pictures of their own, whatever the layout.
 #pragma once
 #include <functional>
 #include <span>
@@ -40,11 +40,11 @@ struct SaveOptions {
   Layout layout = Layout::kTopBottom;  // for two eyes; %V or %v in the name overrides it with kSeparate
   float exposure = 0.0f;               // EV: the light is multiplied by 2^exposure
   ToneCurve tone = ToneCurve::kNeutral;
-  int jpeg_quality = 95;              // jpg and webp, 1..100
+  int jpeg_quality = 95;              // jpg, webp and heic, 1..100
   bool rows_alone = false;            // exr: compresses each row separately, not 16 together
   bool has_checksum = false;          // exr: a checksum of its header (ods/image/format/exr_header.h)
   std::vector<Attribute> attributes;  // extra attributes for exr and png headers; GPano:* wherever there is GPano
-  std::string exif;                   // jpg and png: of the picture that this one was made of (ods/image/exif.h)
+  std::string exif;                   // jpg, png and heic: of the picture that this one was made of (ods/image/exif.h)
   bool sidecar = false;               // also write picture.camera.json; an existing one is rewritten anyway
 };
 
@@ -58,7 +58,7 @@ void check_output(const std::string& path, const SaveOptions& options, const std
 // Returns whether a file of this name can contain depth, normal and albedo: only exr.
 bool keeps_layers(const std::string& path);
 
-// Returns whether a file of this name can contain alpha: all but jpg and hdr.
+// Returns whether a file of this name can contain alpha: all but jpg, hdr and heic.
 bool has_alpha(const std::string& path);
 
 // Returns whether a picture's files, one or one per eye, exist and are not empty, because some farms create empty ones

@@ -9,6 +9,7 @@ namespace ods {
 static constexpr NameRow<StereoFile> kStereoFiles[] = {
     {StereoFile::kVrPhoto, ".vr.jpg"},
     {StereoFile::kMpo, ".mpo"},
+    {StereoFile::kSpatial, ".heic"},
     {StereoFile::kJps, ".jps"},
 };
 static_assert(has_every_member(kStereoFiles));

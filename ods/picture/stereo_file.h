@@ -14,6 +14,7 @@ namespace ods {
 enum class StereoFile {
   kVrPhoto,  // ods/picture/metadata/vr_photo.h
   kMpo,      // two JPEGs (ods/image/format/stereo_jpeg.h); the left one has GPano, if that can express its projection
+  kSpatial,  // a spatial photo (ods/image/spatial_photo.h), always of windows
   kJps,      // a JPEG with a descriptor of its layout; without it, such a file is cross-eyed by custom
 };
 

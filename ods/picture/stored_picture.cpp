@@ -416,6 +416,10 @@ void PictureReader::set_format(const FormatHint& known) {
     open_second_eye(readers, path, format.guesses);
   }
   StoredPicture found = describe(readers, format, path);
+  // A projection alone does not have the shape of a window: its pixels are square.
+  if (known.projection && !known.camera && known.projection->kind == kPerspective && known.projection->aspect == 1.0f) {
+    found.camera.projection.aspect = static_cast<float>(found.size.width) / static_cast<float>(found.size.height);
+  }
   if (!memory) {
     shares = shares_of(readers, path, found.layout, options.color_only);
     keep_common(shares, path, found.guesses);

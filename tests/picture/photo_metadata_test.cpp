@@ -90,6 +90,25 @@ TEST(PhotoMetadata, IsKeptInJpegAndPng) {
   }
 }
 
+// In a HEIC it is an item that describes both eyes.
+TEST(PhotoMetadata, IsKeptInASpatialPhoto) {
+  if (const std::string why = lacks_encoder(FileFormat::kHeif); !why.empty()) GTEST_SKIP() << "skipped: " << why;
+  const TemporaryFolder folder;
+  Picture pair = small_picture();
+  pair.eyes.push_back(pair.eyes[0]);
+  pair.eyes[0].eye = kLeft, pair.eyes[1].eye = kRight;
+  StereoCamera window;
+  window.projection = find_projection("perspective")->setting;
+  SaveOptions options, again;
+  options.exif = phone_exif(true);
+  save_picture(pair, window, options, folder.path("a.heic"));
+  EXPECT_EQ(read_exif(FileInput(folder.path("a.heic"))), exif_for(options.exif, {64, 32}));
+  EXPECT_EQ(keep_photo_metadata(folder.path("a.heic"), "b.jpg", again), "");
+  EXPECT_EQ(again.exif, exif_for(options.exif, {64, 32}));
+  EXPECT_EQ(keep_photo_metadata(folder.path("a.heic"), "b.heic", again), "");
+  EXPECT_NE(keep_photo_metadata(folder.path("a.heic"), "b.webp", again).find("Exif"), std::string::npos);
+}
+
 TEST(PhotoMetadata, PicturesBesideTheEyesAreNamed) {
   const TemporaryFolder folder;
   save_picture(small_picture(), {}, folder.path("a.jpg"));

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "ods/base/error.h"
 #include "ods/image/format/file_format.h"
 #include "ods/image/image_file.h"
+#include "ods/image/tone.h"
 #include "ods/picture/stored_picture.h"
 #include "tests/support/temporary_folder.h"
 
@@ -140,6 +142,70 @@ TEST(Save, EveryFormatInEveryLayout) {
     }
     EXPECT_EQ(folder.names().size(), 5u);  // nothing temporary is left
   }
+}
+
+// The shape of a window whose projection the caller states is that of its pixels.
+TEST(Save, AStatedWindowHasSquarePixels) {
+  const TemporaryFolder folder;
+  save_picture(stereo(), {}, folder.path("a_TB.png"));
+  OpenOptions options;
+  options.format.projection = find_projection("perspective")->setting;
+  const StoredPicture read = open_picture(folder.path("a_TB.png"), options);
+  EXPECT_EQ(read.camera.projection.aspect, static_cast<float>(kWidth) / static_cast<float>(kHeight));
+  EXPECT_NE(kWidth, kHeight);
+}
+
+// The message of the error with which a picture is not saved.
+std::string refused(const Picture& picture, const StereoCamera* camera, const std::string& path) {
+  try {
+    camera ? save_picture(picture, *camera, {}, path) : save_picture(picture, SaveOptions{}, path);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Save, ASpatialPhotoIsReadAgain) {
+  if (const std::string why = lacks_encoder(FileFormat::kHeif); !why.empty()) GTEST_SKIP() << "skipped: " << why;
+  const TemporaryFolder folder;
+  const Picture picture = stereo();
+  StereoCamera window;
+  window.projection = find_projection("perspective")->setting;
+  window.projection.fov = 71.5f, window.ipd = 0.0234f;
+  const std::string path = folder.path("a.heic");
+  SaveOptions options;
+  options.tone = ToneCurve::kLinear;
+  save_picture(picture, window, options, path);
+  const StoredPicture pair = open_picture(path);
+  ASSERT_EQ(pair.eyes.size(), 2u);
+  EXPECT_EQ(pair.camera.projection.kind, kPerspective);
+  EXPECT_NEAR(pair.camera.projection.fov, 71.5f, 1e-4f);
+  EXPECT_NEAR(pair.camera.ipd, 0.0234f, 1e-6f);
+  EXPECT_TRUE(pair.has_ipd);
+  EXPECT_TRUE(pair.guesses.empty());
+  // Which eye is which: x265 keeps their mean colour.
+  for (const int index : {0, 1}) {
+    const Image& made = picture.eyes[static_cast<size_t>(index)].radiance;
+    double sum = 0.0, expected = 0.0;
+    const std::unique_ptr<RowReader> rows = open_rows(path, index);
+    std::vector<std::byte> bytes(made.pixels.size());
+    rows->read(0, made.height, 3, bytes.data());
+    for (size_t i = 0; i < bytes.size(); i++) {
+      sum += static_cast<double>(bytes[i]) / 255.0;
+      expected += double{srgb_encode(std::clamp(made.pixels[i], 0.0f, 1.0f))};
+    }
+    EXPECT_NEAR(sum / static_cast<double>(bytes.size()), expected / static_cast<double>(bytes.size()), 0.01) << index;
+  }
+  StereoCamera front = window, toed = window, mono = window;
+  front.projection = find_projection("vr180")->setting;
+  toed.convergence = kToeIn, mono.ipd = 0.0f;
+  const std::string other = folder.path("b.heic");
+  EXPECT_NE(refused(picture, &front, other).find("`perspective`"), std::string::npos);
+  EXPECT_NE(refused(picture, &toed, other).find("`convergence`"), std::string::npos);
+  EXPECT_NE(refused(picture, &mono, other).find("eye distance is 0"), std::string::npos);
+  EXPECT_NE(refused(picture, nullptr, other).find("camera is unknown"), std::string::npos);
+  EXPECT_NE(refused({{picture.eyes[0]}}, &window, other).find("of two eyes"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(other));
 }
 
 // The kinds of files for two eyes are read as they were written.

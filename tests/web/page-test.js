@@ -29,7 +29,7 @@ function testApart(holder, elements) {
   }
 }
 
-const press = (key, target = document) => target.dispatchEvent(new KeyboardEvent('keydown', { key, bubbles: true, composed: true, cancelable: true }));
+const press = (key, target = document, more = {}) => target.dispatchEvent(new KeyboardEvent('keydown', { key, bubbles: true, composed: true, cancelable: true, ...more }));
 
 // A pixel of a canvas, 0..1 from its upper left corner.
 function pixelOf(canvas, x, y) {
@@ -374,6 +374,64 @@ async function testVideo() {
   expect(find('subtitles').hidden, 'subtitles stay');
 }
 
+// Keys and a click move the camera. The played scene has a floor at a height of 0, or a wall 2 m ahead.
+async function testWalk({ studio, viewer }, answers) {
+  const { session } = studio;
+  const begun = [1, 1.5, 3];
+  const standing = () => session.settings.sidecar.position;
+  const near = (a, b) => a.every((value, i) => Math.abs(value - b[i]) < 1e-3);
+  const radians = (angle) => (angle * Math.PI) / 180;
+  let kind = 'floor';
+  const found = answers['studio/pick'];
+  answers['studio/pick'] = ({ yaw, pitch }) => {
+    const [x, y, z] = standing();
+    const d = [Math.sin(radians(yaw)) * Math.cos(radians(pitch)), Math.sin(radians(pitch)), -Math.cos(radians(yaw)) * Math.cos(radians(pitch))];
+    const distance = kind === 'floor' ? -y / d[1] : 2 / Math.abs(d[2]);
+    return distance > 0 ? { ...found, distance, point: [x + d[0] * distance, y + d[1] * distance, z + d[2] * distance] } : { nothing: true };
+  };
+  session.edit({ 'sidecar.position': begun, 'sidecar.yaw': 30 });
+  viewer.set({ yaw: 60, pitch: 0 }); // together 90 degrees to the right: along x
+  press('w');
+  expect(near(standing(), [1.26, 1.5, 3]), `W leads to ${standing()}`);
+  press('d');
+  expect(near(standing(), [1.26, 1.5, 3.26]), `D leads to ${standing()}`);
+  press('a');
+  press('S', viewer.element, { shiftKey: true });
+  press('s');
+  expect(near(standing(), [0.948, 1.5, 3]), `S leads to ${standing()}`);
+  session.step(-1);
+  expect(near(standing(), begun), 'a walk is not undone as one');
+  session.edit({ 'sidecar.yaw': 0 });
+  viewer.set({ yaw: 0, pitch: -45 });
+  const stand = () => [...find('pick').querySelectorAll('button')].find(({ textContent }) => textContent === 'Stand here');
+  for (const pitch of [-45, -90]) {
+    session.edit({ 'sidecar.position': begun });
+    viewer.set({ yaw: 0, pitch });
+    press('Enter');
+    await until(() => stand(), `offers to stand at ${pitch}`);
+    stand().click();
+    await until(() => find('pick').hidden, 'stands there');
+    expect(near(standing(), [1, 1.5, pitch === -45 ? 1.5 : 3]), `the click leads to ${standing()}`);
+  }
+  kind = 'wall';
+  session.edit({ 'sidecar.position': begun });
+  viewer.set({ yaw: 0, pitch: -30 });
+  press('Enter');
+  await until(() => stand(), 'offers to stand on what is below the eyes');
+  stand().click();
+  await until(() => find('pick').textContent.includes('too steep'), 'refuses a wall');
+  expect(near(standing(), begun), 'a wall is stood on');
+  press('Escape', document.activeElement);
+  viewer.set({ yaw: 0, pitch: 30 });
+  press('Enter');
+  await until(() => find('pick').textContent.includes('Distance'), 'picks above');
+  expect(!stand(), 'what is above the eyes is offered as a floor');
+  press('Escape', document.activeElement);
+  answers['studio/pick'] = found;
+  viewer.set({ yaw: 0, pitch: 0 });
+  session.edit({ 'sidecar.position': [0, 1.5, 0] });
+}
+
 // The studio's page against the server that studio-test.js plays.
 async function openStudio() {
   const { CAMERA, STUDIO, Server } = await import('./studio-test.js');
@@ -392,11 +450,13 @@ async function openStudio() {
   window.fetch = async (address, options) => {
     const path = String(address).replace(new URL('.', location).href, '');
     if (path.startsWith('studio/heat.png')) return ++heats && new Response(await heat.convertToBlob());
-    return answers[path] ? Response.json(answers[path]) : played(path, options);
+    const answer = answers[path];
+    if (answer) return Response.json(typeof answer === 'function' ? answer(JSON.parse(options.body)) : answer);
+    return played(path, options);
   };
   const player = await openPage();
   await until(() => player.studio && find('studio').checkVisibility() && getComputedStyle(find('studio')).position === 'fixed', 'has its panel');
-  return { player, verdict, heats: () => heats };
+  return { player, verdict, answers, heats: () => heats };
 }
 
 // The merge's curve: the nearest handle is dragged, where a finger need not be on it.
@@ -489,7 +549,7 @@ async function testStudioPhone() {
 }
 
 async function testStudioPage() {
-  const { player, verdict, heats } = await openStudio();
+  const { player, verdict, answers, heats } = await openStudio();
   const { viewer, studio } = player;
   testFields();
   testCurve(studio);
@@ -508,6 +568,7 @@ async function testStudioPage() {
   expect(find('pick').contains(document.activeElement), 'what can be done with it is not next');
   press('Escape', document.activeElement);
   expect(find('pick').hidden && document.activeElement === viewer.element, 'Escape does not lead back');
+  await testWalk(player, answers);
   press('x');
   await until(() => viewer.compare && studio.session.sides[1], 'compares A and B');
   press('Home', find('divider'));

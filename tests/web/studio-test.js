@@ -23,7 +23,7 @@ export const PROJECTIONS = [{ name: 'lat-long', camera }, { name: 'mirror-ball',
 export const STUDIO = {
   scene: 'a.glb', settings: SETTINGS, ranges: { ipd: [0, 10] }, merges: ['none', 'cosine'], kernel_merges: { none: 0, cosine: 2 }, convergences: ['parallel', 'toe-in'],
   projections: ['lat-long', 'mirror-ball', 'fisheye-polynomial'], polynomial_lens: { sensor: [36, 24], polynomial: [0, 1, 2, 3, 4] },
-  controls: { 'lat-long': ['range'], 'mirror-ball': ['fov', 'lens'], 'fisheye-polynomial': ['polynomial'] }, tones: ['neutral'], envs: ['auto'], variants: [], duration: 0,
+  controls: { 'lat-long': ['range'], 'mirror-ball': ['fov', 'lens'], 'fisheye-polynomial': ['polynomial'] }, tones: ['neutral'], cameras: [{ name: 'Door', position: [1, 1.6, -2], yaw: -90 }, { name: 'Sofa', position: [0, 1.5, 0], yaw: 0 }], envs: ['auto'], variants: [], duration: 0,
 };
 
 const none = { width: 0, height: 0 };
@@ -200,6 +200,25 @@ async function testPanel(server, session, panel) {
   expect(!row('sidecar.ipd').querySelector('.reset').hidden, 'no way back to the default');
   row('sidecar.ipd').querySelector('.reset').click();
   expect(session.settings.sidecar.ipd === 0.065 && row('sidecar.ipd').querySelector('.reset').hidden, 'reset does not reset');
+  const place = row('scene-camera').querySelector('select');
+  const choose = (value) => {
+    place.value = value;
+    place.dispatchEvent(new Event('change'));
+  };
+  session.edit({ 'sidecar.position': [0, 1.5, 0], 'sidecar.yaw': 0, 'sidecar.pitch': 0, 'sidecar.roll': 0 });
+  const { sidecar: begun } = session.settings;
+  expect(place.value === '1' && place.selectedOptions[0].textContent === 'Sofa', 'the camera does not stand at one of the scene’s');
+  session.edit({ 'sidecar.pitch': 10 });
+  expect(place.value === '', 'a tilted camera counts as the scene’s');
+  choose('0');
+  const { position, yaw, pitch } = session.settings.sidecar;
+  expect(String(position) === '1,1.6,-2' && yaw === -90 && pitch === 0, `the scene’s camera stands at ${position}, yaw ${yaw}, pitch ${pitch}`);
+  session.edit({ 'sidecar.yaw': 270 });
+  expect(place.value === '0', 'a whole turn is another place');
+  choose('');
+  expect(place.value === '0', 'another place is none to go to');
+  row('scene-camera').querySelector('.reset').click();
+  expect(String(session.settings.sidecar.position) === String(begun.position) && session.settings.sidecar.yaw === begun.yaw, 'reset does not lead back');
   type('sidecar.ipd', 'wide');
   expect(row('sidecar.ipd').querySelector('input').value === '65', 'a word stays where a number belongs');
   type('sidecar.merge_top.start', '90');

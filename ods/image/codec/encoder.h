@@ -29,6 +29,7 @@ std::unique_ptr<Encoder> create_png(ByteSink& sink, const FileHeader& header);
 std::unique_ptr<Encoder> create_jpeg(ByteSink& sink, const FileHeader& header);
 std::unique_ptr<Encoder> create_tiff(ByteSink& sink, const FileHeader& header);
 std::unique_ptr<Encoder> create_webp(ByteSink& sink, const FileHeader& header);
+std::unique_ptr<Encoder> create_heif(ByteSink& sink, const FileHeader& header);
 std::unique_ptr<Encoder> create_hdr(ByteSink& sink, const FileHeader& header);
 std::unique_ptr<Encoder> create_exr(ByteSink& sink, const FileHeader& header);
 

@@ -37,7 +37,7 @@ static std::unique_ptr<Encoder> create_encoder(ByteSink& sink, const FileHeader&
     case FileFormat::kHdr:
       return create_hdr(sink, header);
     case FileFormat::kHeif:
-      throw cannot_write(sink, "HEIF is only read");
+      return create_heif(sink, header);
     case FileFormat::kExr:
       break;
   }

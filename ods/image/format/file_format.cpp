@@ -23,12 +23,12 @@ struct Extension {
 
 }  // namespace
 static const Extension kExtensions[] = {
-    {"png", FileFormat::kPng},  {"jpg", FileFormat::kJpeg}, {"jpeg", FileFormat::kJpeg}, {"mpo", FileFormat::kJpeg},
-    {"jps", FileFormat::kJpeg}, {"tif", FileFormat::kTiff}, {"tiff", FileFormat::kTiff}, {"webp", FileFormat::kWebp},
-    {"hdr", FileFormat::kHdr},  {"exr", FileFormat::kExr},
+    {"png", FileFormat::kPng},   {"jpg", FileFormat::kJpeg}, {"jpeg", FileFormat::kJpeg}, {"mpo", FileFormat::kJpeg},
+    {"jps", FileFormat::kJpeg},  {"tif", FileFormat::kTiff}, {"tiff", FileFormat::kTiff}, {"webp", FileFormat::kWebp},
+    {"heic", FileFormat::kHeif}, {"hdr", FileFormat::kHdr},  {"exr", FileFormat::kExr},
 };
 
-constexpr std::string_view kOnlyRead[] = {"pns", "heic", "heif", "avif"};
+constexpr std::string_view kOnlyRead[] = {"pns", "heif", "avif"};
 
 static std::string extension_of(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension().native();
@@ -102,10 +102,11 @@ int longest_side(FileFormat format) {
       return 65500;  // libjpeg's limit
     case FileFormat::kPng:
       return 1000000;  // libpng's limit
+    case FileFormat::kHeif:
+      return 16384;  // HEVC's highest level has 16888
     case FileFormat::kTiff:
     case FileFormat::kHdr:
     case FileFormat::kExr:
-    case FileFormat::kHeif:
       break;
   }
   return std::numeric_limits<int>::max();

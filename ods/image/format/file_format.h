@@ -16,12 +16,12 @@ namespace ods {
 
 enum class FileFormat { kPng, kJpeg, kTiff, kWebp, kHdr, kExr, kHeif };
 
-// The formats that can be written; kHeif (HEIC, AVIF) is only read.
+// The formats in which any picture can be written. kHeif (HEIC, AVIF) is written only as a spatial photo.
 inline constexpr FileFormat kFileFormats[] = {FileFormat::kPng,  FileFormat::kJpeg, FileFormat::kTiff,
                                               FileFormat::kWebp, FileFormat::kHdr,  FileFormat::kExr};
 static_assert(std::size(kFileFormats) + 1 == enumerator_count<FileFormat>());
 
-// The format by file extension, in upper or lower case. Only formats that can be written.
+// The format by file extension, in upper or lower case. Only formats that can be written: of HEIF, `.heic`.
 std::optional<FileFormat> format_of_path(const std::string& path);
 
 // Returns whether a file with this extension is a readable picture.
@@ -32,7 +32,7 @@ std::optional<FileFormat> format_of_bytes(std::span<const std::byte> file);
 
 std::optional<FileFormat> format_of_file(const FileInput& file);
 
-// `png, jpg, jpeg, mpo, jps, tif, tiff, webp, hdr, exr`, for messages; the second function adds those that can only be
+// `png, jpg, jpeg, mpo, jps, tif, tiff, webp, heic, hdr, exr`, for messages; the second function adds those that can only be
 // read.
 std::string known_extensions();
 std::string readable_extensions();

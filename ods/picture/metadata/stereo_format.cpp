@@ -312,6 +312,8 @@ static std::optional<StereoCamera> camera_in_metadata(const Evidence& of, std::v
     const auto fov = of.info.numbers.find("heif:fov");
     const std::optional<float> said = fov != of.info.numbers.end() ? std::optional(fov->second[0]) : std::nullopt;
     camera.projection = phone_window(said, {of.info.width, of.info.height}, guesses);
+    const auto baseline = of.info.numbers.find("heif:baseline");
+    if (baseline != of.info.numbers.end()) camera.ipd = baseline->second[0];
     return camera;
   }
   if (!of.is_photo || of.info.width != of.info.height) return std::nullopt;
@@ -410,7 +412,8 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
     format.guesses.push_back(fmt::format("{}: {}", name, format.layout.reason));
   }
   format.has_camera = of.camera.has_value();
-  format.has_ipd = of.camera && (known.camera || of.sidecar || info.numbers.contains("ods:ipd"));
+  format.has_ipd = of.camera && (known.camera || of.sidecar || info.numbers.contains("ods:ipd") ||
+                                 info.numbers.contains("heif:baseline"));
   if (of.camera) format.camera = *of.camera;
   if (known.projection) {
     format.camera.projection = *known.projection;

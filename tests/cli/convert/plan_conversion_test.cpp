@@ -50,6 +50,33 @@ TEST(PlanConversion, ChangesTheInputsCamera) {
   }
 }
 
+// A spatial photo needs a distance: that of the input, or the one that is stated, or 65 mm with a note.
+TEST(PlanConversion, ASpatialPhotoStatesTheDistanceOfItsCameras) {
+  StoredPicture header = stereo_header();
+  header.camera.projection = find_projection("perspective")->setting;
+  header.is_float = false, header.has_ipd = false, header.camera.ipd = StereoCamera().ipd;
+  const auto options_of = [](const std::vector<std::string>& words) {
+    Options options("convert", words);
+    return parse_convert(options);
+  };
+  const ConvertOptions plain = options_of({"in_LR.jpg", "-o", "out.heic"});
+  ASSERT_EQ(plan_conversion(header, plain).notes.size(), 1u);
+  EXPECT_NE(plan_conversion(header, plain).notes[0].find("--ipd"), std::string::npos);
+  const ConvertOptions stated = options_of({"in_LR.jpg", "-o", "out.HEIC", "--ipd", "0.0123"});
+  StoredPicture taken = header;
+  take_stated_distance(stated, taken);
+  EXPECT_EQ(taken.camera.ipd, 0.0123f);
+  EXPECT_TRUE(taken.has_ipd);
+  EXPECT_TRUE(plan_conversion(taken, stated).notes.empty());
+  StoredPicture recorded = stereo_header();
+  recorded.camera.projection = header.camera.projection;
+  take_stated_distance(stated, recorded);
+  EXPECT_EQ(recorded.camera.ipd, 0.06f) << "such eyes would be moved";
+  StoredPicture other = header;
+  take_stated_distance(options_of({"in_LR.jpg", "-o", "out.mpo", "--ipd", "0.0123"}), other);
+  EXPECT_FALSE(other.has_ipd);
+}
+
 TEST(PlanConversion, SizesNameWidthHeightLayoutAndEyes) {
   const ConversionPlan sized = plan(stereo_header(), {"--size", "tb-minimum-3600", "--width", "128"});
   EXPECT_EQ(sized.target.eye.width, 128);
