@@ -15,6 +15,7 @@
 #include "cli/console/long_job.h"
 #include "cli/convert/convert_frames.h"
 #include "cli/convert/convert_job.h"
+#include "cli/options/projection_options.h"
 
 namespace {
 
@@ -53,7 +54,10 @@ void convert_to_file(const ConvertJob& job, ProgressLines& lines) {
                    eye.height, duration_text(seconds_since(start))));
 }
 
-void convert(const ConvertOptions& given) {
+void convert(ConvertOptions given) {
+  ods::FormatHint alone = given.known;
+  alone.one_eye |= !given.camera.file.empty() || given.frames.has_value();
+  given.input = joined_input(given.files, alone);
   ConvertJob job = open_conversion(given);
   run_long_job(given.progress, given.threads, [&](ProgressLines& lines) {
     if (ods::container_of_path(given.output)) return convert_to_video(job, lines);

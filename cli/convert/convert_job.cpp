@@ -8,6 +8,7 @@
 #include "cli/options/eye_options.h"
 #include "cli/options/projection_options.h"
 #include "cli/options/time_options.h"
+#include "ods/camera/file_names.h"
 #include "ods/files/atomic_file.h"
 #include "ods/picture/photo_metadata.h"
 
@@ -123,7 +124,7 @@ ConvertJob open_conversion(const ConvertOptions& given) {
   if (ods::container_of_path(given.output)) return job;  // convert_to_video() judges the output
   note_misleading_name(given.output, job.save, job.target.eyes.size(), job.target.camera.projection);
   ods::check_output(given.output, job.save, job.target.eyes, job.target.eye, &job.target.camera.projection);
-  if (job.kind == FootageKind::kPicture && !ods::names_eye(given.input)) {
+  if (job.kind == FootageKind::kPicture && !ods::names_files(given.input)) {
     const std::string lost = ods::keep_photo_metadata(given.input, given.output, job.save);
     if (!lost.empty()) note(lost);
   }

@@ -45,10 +45,10 @@ ods::TimeSpan parse_span(const std::string& text) {
 }
 
 void add_input_options(Options& options, ConvertOptions& given) {
-  options.argument(
-      ValueKind::input_file("IN"), given.input,
+  add_input_argument(
+      options, ValueKind::input_file("IN"), given.files,
       "a picture (.png .jpg .tif .webp .hdr .exr .heic .avif), frames (#### in the name is the number) or a video "
-      "(.mp4 .mov .mkv .webm); %V in the name: one file per eye");
+      "(.mp4 .mov .mkv .webm)");
   add_depth_options(options, given.depth);
   options.group("Input, if it is not detected");
   options.custom(

@@ -18,7 +18,9 @@
 
 struct ConvertOptions {
   std::vector<std::string> words;  // the command line
-  std::string input, output;
+  std::vector<std::string> files;  // of the input
+  std::string input;               // joined_input() of them
+  std::string output;
   ods::FormatHint known;  // about the input
   std::optional<float> input_fov;
   DepthInput depth;

@@ -9,6 +9,7 @@
 #include "cli/console/console.h"
 #include "ods/base/names.h"
 #include "ods/base/suggest.h"
+#include "ods/camera/file_names.h"
 #include "ods/camera/sizes.h"
 #include "ods/image/format/file_format.h"
 #include "ods/picture/metadata/stereo_format.h"
@@ -118,10 +119,8 @@ void note_misleading_name(const std::string& output, const ods::SaveOptions& sav
 
 void refuse_overwriting(const std::string& output, const std::string& input) {
   std::error_code none;  // a file that does not exist is not the other file
-  for (const int eye : {ods::kLeft, ods::kRight}) {
-    for (const int other : {ods::kLeft, ods::kRight}) {
-      const std::string out = ods::names_eye(output) ? ods::path_for_eye(output, eye) : output;
-      const std::string in = ods::names_eye(input) ? ods::path_for_eye(input, other) : input;
+  for (const std::string& out : ods::files_of(output)) {
+    for (const std::string& in : ods::files_of(input)) {
       if (!std::filesystem::equivalent(out, in, none)) continue;
       throw UsageError(fmt::format("'{}' would be overwritten by its own output: choose another name", in));
     }

@@ -12,6 +12,7 @@
 #include "ods/base/suggest.h"
 #include "ods/camera/camera_fields.h"
 #include "ods/files/frames.h"
+#include "ods/identify/find_input.h"
 #include "ods/identify/identify.h"
 #include "ods/video/container/video_file.h"
 #include "ods/video/footage.h"
@@ -195,6 +196,20 @@ void finish_projection(ProjectionSetting& projection, int width, int& height) {
                                  ods::projection_name(projection), step, width - width % step + step, width));
   }
   if (height == 0) height = ods::natural_height(projection, width);
+}
+
+void add_input_argument(Options& options, const ValueKind& kind, std::vector<std::string>& files,
+                        const std::string& text) {
+  options.arguments(kind, files,
+                    text + "; two files, or %V in the name: the left eye and the right one; six: the faces of a cube");
+}
+
+std::string joined_input(const std::vector<std::string>& files, const ods::FormatHint& known) {
+  if (files.empty()) throw UsageError("no input file: name a picture or a video");
+  const bool alone = known.one_eye || known.layout || known.projection || known.camera || !known.lenses.empty();
+  ods::FoundInput found = ods::find_input(files, alone);
+  for (const std::string& each : found.notes) note(with_options(each));
+  return std::move(found.path);
 }
 
 ods::MediaFile open_input(const std::string& path, const ods::MediaOptions& options) {

@@ -42,5 +42,11 @@ void add_lens_options(Options& options, ods::FormatHint& known);
 // Sets the format that these options imply: a fisheye, and two halves if the lenses look ahead and back.
 void finish_lens_options(ods::FormatHint& known);
 
+// The files of one input: adds the argument, and finds what belongs together by ods::find_input() after parse(), with
+// its notes. `known`: settings of the caller, which make one file stand alone.
+void add_input_argument(Options& options, const ValueKind& kind, std::vector<std::string>& files,
+                        const std::string& text);
+std::string joined_input(const std::vector<std::string>& files, const ods::FormatHint& known);
+
 // Opens an input by ods::open_media(), and prints its notes. Throws ods::Error like it and ods::refuse_unlikely().
 ods::MediaFile open_input(const std::string& path, const ods::MediaOptions& options);

@@ -11,6 +11,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/options/layout_options.h"
+#include "cli/options/projection_options.h"
 #include "ods/base/text.h"
 #include "ods/image/image_file.h"
 #include "ods/video/container/video_file.h"
@@ -102,6 +103,8 @@ ComfortJob parse_comfort(Options& options) {
   ods::Viewer& viewer = job.comfort.viewer;
   options.describe(kComfortSummary, kComfortExamples);
   add_scene_argument(options, job.scene);
+  options.optional_argument(ValueKind::input_file("RIGHT"), job.right,
+                            "the right eye's picture, if the first one is the left eye's");
   options.group("Viewer");
   options.custom(
       "--focus", "METRES", "1.3", [&](const std::string& word) { viewer.focus = parse_focus(word); },
@@ -134,7 +137,20 @@ ComfortJob parse_comfort(Options& options) {
   return job;
 }
 
+// Finds the other files of a picture that is several.
+static void join_files(ComfortJob& job) {
+  std::string& name = job.scene.name;
+  std::error_code ignored;
+  if (job.right.empty() && !ods::names_picture(name) && !std::filesystem::is_directory(name, ignored)) return;
+  std::vector<std::string> files{name};
+  if (!job.right.empty()) files.push_back(job.right);
+  ods::FormatHint known = job.format;
+  known.projection = job.camera.changes.projection.named;
+  name = joined_input(files, known);
+}
+
 void settle_input(ComfortJob& job) {
+  join_files(job);
   job.input = input_of(job.scene.name);
   if (job.input == ComfortInput::kScene) {
     int height = 0;

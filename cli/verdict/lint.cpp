@@ -15,6 +15,7 @@
 #include "cli/options/picture_options.h"
 #include "cli/options/projection_options.h"
 #include "cli/verdict/lint_report.h"
+#include "ods/camera/file_names.h"
 #include "ods/lint/video.h"
 #include "ods/video/container/video_file.h"
 
@@ -37,7 +38,8 @@ constexpr const char* kLintSummary =
     "fault was found; warnings and information do not count.";
 
 struct LintJob {
-  std::string path;
+  std::vector<std::string> files;
+  std::string path;  // of joined_input()
   ods::LintOptions lint;
   float min_certainty = 0.5f;
   int every = 0;
@@ -48,7 +50,7 @@ struct LintJob {
 LintJob parse_lint(Options& options) {
   LintJob job;
   options.describe(kLintSummary, kLintExamples);
-  options.argument(ValueKind::input_file("FILE"), job.path, "a picture or a video; %V in the name: one file per eye");
+  add_input_argument(options, ValueKind::input_file("FILE"), job.files, "a picture or a video");
   add_input_layout_option(options, job.lint.layout, "layout, if it is not detected");
   options.number("--min-certainty", job.min_certainty, 0.0f, 1.0f, "hide findings below this certainty");
   ods::FormatHint lenses;
@@ -80,8 +82,11 @@ ods::LintReport lint_with_progress(const LintJob& job, ProgressLines& lines) {
   return ods::lint_video(job.path, {job.lint, job.every}, progress);
 }
 
-ExitCode run_lint(const LintJob& job) {
-  const bool is_film = !ods::names_eye(job.path) && std::filesystem::exists(job.path) && ods::is_video(job.path);
+ExitCode run_lint(LintJob job) {
+  ods::FormatHint known;
+  known.layout = job.lint.layout, known.projection = job.lint.projection, known.lenses = job.lint.lenses;
+  job.path = joined_input(job.files, known);
+  const bool is_film = !ods::names_files(job.path) && std::filesystem::exists(job.path) && ods::is_video(job.path);
   if (!is_film && job.every > 0) throw UsageError(fmt::format("--every is for videos, and '{}' is not one", job.path));
   ods::LintReport report;
   run_long_job(job.progress, 0, [&](ProgressLines& lines) {

@@ -7,9 +7,11 @@
 #include "cli/console/command.h"
 #include "cli/console/console.h"
 #include "cli/console/options.h"
+#include "cli/options/projection_options.h"
 #include "cli/video/probe_report.h"
 #include "cli/video/wordless.h"
 #include "ods/base/error.h"
+#include "ods/camera/file_names.h"
 #include "ods/files/memory_file.h"
 #include "ods/image/format/xmp_file.h"
 #include "ods/picture/metadata/metadata.h"
@@ -57,7 +59,7 @@ void add_wordless(const std::optional<Wordless>& seen, std::vector<std::string>&
 ProbeReport probe(const std::string& path) {
   ProbeReport report;
   report.path = path;
-  if (ods::is_video(path)) {
+  if (!ods::names_files(path) && ods::is_video(path)) {
     report.video = ods::read_video_file(path);
     for (const ods::VideoTrack& track : report.video->tracks) {
       report.views.push_back(video_views(*report.video, track, path));
@@ -72,7 +74,7 @@ ProbeReport probe(const std::string& path) {
   const ods::MediaFile media = ods::open_media(path, {.color_only = true});
   const ods::FileInfo& info = media.reader->info();
   const ods::StereoFormat& format = media.format;
-  const std::string xmp = info.is_float ? "" : ods::read_xmp(path);
+  const std::string xmp = info.is_float ? "" : ods::read_xmp(ods::files_of(path).front());
   report.picture = PictureReport{info, format, ods::gpano_camera(xmp), ""};
   const bool has_gpano = report.picture->gpano.has_value();
   report.views.push_back(picture_views(info, format, has_gpano, path));
@@ -85,14 +87,14 @@ ProbeReport probe(const std::string& path) {
 }
 
 struct ProbeJob {
-  std::string path;
+  std::vector<std::string> files;
   bool json = false;
 };
 
 ProbeJob parse_probe(Options& options) {
   ProbeJob job;
   options.describe(kProbeSummary, kProbeExamples);
-  options.argument(ValueKind::input_file("FILE"), job.path, "a video or a picture");
+  add_input_argument(options, ValueKind::input_file("FILE"), job.files, "a video or a picture");
   options.group("Console");
   options.flag("--json", job.json, "print JSON");
   add_console_options(options);
@@ -101,7 +103,7 @@ ProbeJob parse_probe(Options& options) {
 }
 
 void run_probe(const ProbeJob& job) {
-  ProbeReport report = probe(job.path);
+  ProbeReport report = probe(joined_input(job.files, {}));
   for (std::vector<std::string>& warnings : report.warnings) {
     for (std::string& warning : warnings) warning = with_options(warning);
   }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "cli/bridge/foreign_scene.h"
 #include "cli/console/console.h"
@@ -14,6 +15,7 @@
 #include "cli/options/projection_options.h"
 #include "cli/view/objects.h"
 #include "ods/base/text.h"
+#include "ods/camera/file_names.h"
 #include "ods/image/format/file_format.h"
 #include "ods/scene/builtin/builtin.h"
 #include "ods/video/container/video_file.h"
@@ -83,6 +85,19 @@ void note_guesses(const ViewItem& item) {
   for (const std::string& guess : item.picture.guesses) note(fmt::format("'{}' is {}", item.path, guess));
 }
 
+// The paths, with those that belong to one picture joined.
+std::vector<std::string> with_companions(const ViewJob& job) {
+  std::vector<std::string> paths;
+  std::set<std::string> taken;
+  for (const std::string& path : job.paths) {
+    if (taken.contains(path)) continue;
+    paths.push_back(ods::is_layered_scene(path) ? path : joined_input({path}, job.known));
+    if (!ods::names_files(paths.back())) continue;
+    for (std::string& file : ods::files_of(paths.back())) taken.insert(std::move(file));
+  }
+  return paths;
+}
+
 }  // namespace
 
 ViewJob parse_view(Options& options) {
@@ -143,7 +158,7 @@ void find_scene(ViewJob& job) {
 
 std::vector<ViewItem> open_items(const ViewJob& job) {
   std::vector<ViewItem> items;
-  for (const std::string& path : job.paths) {
+  for (const std::string& path : with_companions(job)) {
     if (std::filesystem::is_directory(path)) {
       add_folder(path, job.known, items);
     } else if (ods::is_layered_scene(path)) {

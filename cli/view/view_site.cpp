@@ -12,6 +12,7 @@
 #include "cli/console/console.h"
 #include "cli/options/layout_options.h"
 #include "cli/options/projection_options.h"
+#include "ods/camera/file_names.h"
 #include "ods/view/bundle.h"
 #include "ods/view/page.h"
 
@@ -46,8 +47,9 @@ std::vector<std::string> files_behind(const ViewItem& item) {
     return std::filesystem::canonical(path, fault).native();
   };
   if (!item.fallback.empty()) return {behind(item.path), behind(item.fallback)};
-  if (!ods::names_eye(item.path)) return {behind(item.path)};
-  return {behind(ods::path_for_eye(item.path, ods::kLeft)), behind(ods::path_for_eye(item.path, ods::kRight))};
+  std::vector<std::string> files;
+  for (const std::string& file : ods::files_of(item.path)) files.push_back(behind(file));
+  return files;
 }
 
 // item/3/left.jpg -> 3; nothing for any other form.

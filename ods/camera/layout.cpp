@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "ods/base/text.h"
+#include "ods/camera/file_names.h"
 #include "ods/camera/projection.h"
 #include "ods/kernel/camera/camera.h"
 
@@ -200,7 +201,7 @@ bool names_eye(const std::string& path) {
   for (std::string_view pattern : kEyePatterns) {
     if (path.find(pattern) != std::string::npos) return true;
   }
-  return false;
+  return words_in_braces(path, 2).has_value();
 }
 
 std::string path_for_eye(const std::string& path, int eye) {
@@ -210,6 +211,9 @@ std::string path_for_eye(const std::string& path, int eye) {
     for (size_t at = result.find(pattern); at != std::string::npos; at = result.find(pattern, at + word.size())) {
       result.replace(at, pattern.size(), word);
     }
+  }
+  while (const auto found = words_in_braces(result, 2)) {
+    result.replace(found->begin, found->end - found->begin, found->words[eye == kRight ? 1 : 0]);
   }
   return result;
 }

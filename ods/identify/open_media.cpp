@@ -5,12 +5,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "ods/base/error.h"
+#include "ods/camera/file_names.h"
 #include "ods/files/private_folder.h"
 #include "ods/files/scratch.h"
 #include "ods/identify/lenses.h"
+#include "ods/identify/marks.h"
+#include "ods/identify/thumbnail.h"
+#include "ods/image/format/pixel_place.h"
 #include "ods/video/container/complete_metadata.h"
 #include "ods/video/footage.h"
 #include "ods/video/make_video.h"
@@ -98,11 +104,92 @@ static SeenFormat seen_format(const Identity& identity) {
   return {best.layout, best.projection, fmt::format("{}{} ({:.2f})", identity.reason, bars, best.certainty)};
 }
 
-// The pixels of a pair and of two views are not examined: both have the layout in their metadata.
+// Six files are a cube only if their edges continue in each other.
+static void check_faces(MediaFile& media) {
+  constexpr double kDisjoint = -0.3;
+  if (!names_faces(media.path) || media.hint.projection) return;
+  const Image shown_faces = shown(make_thumbnail(media.reader->whole()).light);
+  if (faces_join(shown_faces, media.format.camera.projection) > kDisjoint) return;
+  throw Error(
+      ErrorKind::kInput,
+      fmt::format("the six faces of '{}' do not continue at each other's edges, so their order or direction is "
+                  "another one: rename or turn them, or specify `projection` cube-3x2 to read them all the same",
+                  media.path));
+}
+
+// The picture with square pixels, wider or higher than the file.
+static StoredPicture with_square_pixels(const StoredPicture& whole, double aspect) {
+  if (aspect == 1.0) return whole;
+  const LayerPixels& from = whole.eyes[0].layers[0];
+  StoredPicture square = whole;
+  int& side = aspect > 1.0 ? square.size.width : square.size.height;
+  side = std::max(1, static_cast<int>(std::lround(side * std::max(aspect, 1.0 / aspect))));
+  const auto pixel = static_cast<size_t>(from.pixel_stride), columns = static_cast<size_t>(square.size.width);
+  square.memory = std::make_shared<Scratch>(pixel * columns * static_cast<size_t>(square.size.height), "", 0);
+  std::byte* to = square.memory->data();
+  for (int y = 0; y < square.size.height; y++) {
+    const std::byte* row = from.first + int64_t{y} * whole.size.height / square.size.height * from.row_stride;
+    for (int x = 0; x < square.size.width; x++, to += pixel) {
+      std::memcpy(to, row + int64_t{x} * whole.size.width / square.size.width * from.pixel_stride, pixel);
+    }
+  }
+  LayerPixels& layer = square.eyes[0].layers[0];
+  layer.first = square.memory->data(), layer.row_stride = static_cast<ptrdiff_t>(pixel * columns);
+  return square;
+}
+
+// Identifies a picture whose pixels may not be square.
+static Identity identify_shown(const StoredPicture& whole, const FormatHint& known, double aspect) {
+  Identity identity = identify(with_square_pixels(whole, aspect), known);
+  if (aspect != 1.0) identity.bars = {};
+  return identity;
+}
+
+// Both files of a pair as halves of one picture, the left one as it was decoded; nullopt if they differ in kind.
+static std::optional<StoredPicture> as_halves(const StoredPicture& left, const std::string& path) {
+  OpenOptions options;
+  options.color_only = true;
+  const StoredPicture right = PictureReader::without_format(path_for_eye(path, kRight), options).whole();
+  const LayerPixels &one = left.eyes[0].layers[0], &other = right.eyes[0].layers[0];
+  const bool fits = one.sample == other.sample && one.channels == other.channels;
+  if (!fits || left.size.width != right.size.width || left.size.height != right.size.height) return std::nullopt;
+  const size_t row = static_cast<size_t>(left.size.width) * static_cast<size_t>(one.pixel_stride);
+  StoredPicture both = left;
+  both.size.width *= 2;
+  both.memory = std::make_shared<Scratch>(2 * row * static_cast<size_t>(left.size.height), options.scratch_folder,
+                                          options.max_in_memory);
+  std::byte* to = both.memory->data();
+  for (ptrdiff_t y = 0; y < left.size.height; y++) {
+    for (const LayerPixels* eye : {&one, &other}) {
+      std::memcpy(to, eye->first + y * eye->row_stride, row);
+      to += row;
+    }
+  }
+  LayerPixels& colors = both.eyes[0].layers[0];
+  colors.first = both.memory->data(), colors.row_stride = static_cast<ptrdiff_t>(2 * row);
+  return both;
+}
+
+// Identifies a pair; the order of its eyes is known.
+static Identity identify_pair(const StoredPicture& left, const MediaFile& media) {
+  FormatHint known = media.hint;
+  const std::optional<StoredPicture> both = as_halves(left, media.path);
+  known.one_eye = !both;
+  known.layout = both ? std::optional(Layout::kSideBySide) : std::nullopt;
+  const double aspect = pixel_aspect(media.reader->info());
+  Identity identity = in_order_of_players(identify_shown(both ? *both : left, known, aspect));
+  for (Reading& reading : identity.readings) reading.layout = Layout::kSeparate;
+  identity.bars = {};
+  return identity;
+}
+
+// The pixels of two views are not examined: they have the layout in their metadata.
 static void look_at_picture(MediaFile& media, bool left_first) {
   const StereoFormat& format = media.format;
-  if (names_eye(media.path) || format.layout.layout == Layout::kMultiview) return;
-  const bool may_have_lenses = wants_lenses(media.hint, media.path, format.is_open);
+  if (names_faces(media.path)) return check_faces(media);
+  if (format.layout.layout == Layout::kMultiview) return;
+  const bool is_square = pixel_aspect(media.reader->info()) == 1.0;
+  const bool may_have_lenses = is_square && wants_lenses(media.hint, media.path, format.is_open);
   if (!may_have_lenses && !format.is_open) return;
   const StoredPicture whole = media.reader->whole();
   if (may_have_lenses) media.hint = with_lenses(whole, media.path, media.hint, media.notes);
@@ -112,7 +199,8 @@ static void look_at_picture(MediaFile& media, bool left_first) {
     known.one_eye = !format.layout.layout;
     known.layout = format.layout.layout;
   }
-  media.identity = identify(whole, known);
+  media.identity = names_eye(media.path) ? identify_pair(whole, media)
+                                         : identify_shown(whole, known, pixel_aspect(media.reader->info()));
   if (left_first) media.identity = in_order_of_players(std::move(*media.identity));
   if (whole.memory) whole.memory->release();
   if (media.identity->readings.empty()) {
@@ -159,10 +247,10 @@ static bool is_open(const MediaFile& media) {
 }
 
 static std::optional<Identity> identify_frames(SomeFrames& frames, std::optional<StoredPicture> frame,
-                                               const FormatHint& known) {
+                                               const FormatHint& known, double aspect) {
   std::optional<Identity> best;
   for (; frame; frame = frames.next()) {
-    Identity identity = identify(*frame, known);
+    Identity identity = identify_shown(*frame, known, aspect);
     const bool is_better = !best || best->readings.empty() ||
                            (!identity.readings.empty() && identity.best().certainty > best->best().certainty);
     if (is_better) best = std::move(identity);
@@ -181,16 +269,18 @@ static void take_packing(MediaFile& media, VideoStereo packing) {
 
 static void look_at_frames(MediaFile& media) {
   const bool is_known = media.hint.layout || media.hint.one_eye || media.track.layers || declared_metadata(media.track);
-  const bool wants = wants_lenses(media.hint, media.path, may_show_lenses(media.track, media.path));
+  const bool wants =
+      media.track.pixel_aspect == 1.0 && wants_lenses(media.hint, media.path, may_show_lenses(media.track, media.path));
   if (is_known && !wants && !is_open(media)) return;
   try {
     SomeFrames frames(media.path, media.track.id);
     std::optional<StoredPicture> first = frames.next();
     if (!is_known && frames.packing()) take_packing(media, *frames.packing());
-    if (first && wants_lenses(media.hint, media.path, may_show_lenses(media.track, media.path)))
+    const bool is_square = media.track.pixel_aspect == 1.0;
+    if (first && is_square && wants_lenses(media.hint, media.path, may_show_lenses(media.track, media.path)))
       media.hint = with_lenses(*first, media.path, media.hint, media.notes);
     if (media.hint.lenses.empty() && is_open(media))
-      media.identity = identify_frames(frames, std::move(first), media.hint);
+      media.identity = identify_frames(frames, std::move(first), media.hint, media.track.pixel_aspect);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kInput) throw;  // frames that cannot be decoded show nothing
   }

@@ -9,6 +9,7 @@
 
 #include <cmath>
 
+#include "ods/camera/file_names.h"
 #include "ods/image/format/xmp_file.h"
 #include "ods/lint/checks.h"
 
@@ -25,7 +26,7 @@ static std::string_view read_as(const LintReport& report) {
 // GPano describes one sphere; viewers would wrap the whole file around it.
 static void check_gpano(const Subject& subject, LintReport& report) {
   if (subject.is_video || report.eye_count < 2 || names_eye(subject.path) || subject.format.is_photo) return;
-  if (read_xmp(subject.path).find("GPano:") == std::string::npos) return;
+  if (read_xmp(files_of(subject.path).front()).find("GPano:") == std::string::npos) return;
   add(report, 1.0,
       "the stereo file contains GPano metadata, which cannot express stereo: viewers wrap both eyes around one sphere",
       "remove GPano from it (ods inject `remove` FILE)");

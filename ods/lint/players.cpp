@@ -201,7 +201,7 @@ std::vector<std::string> picture_warnings(const FileInfo& info, const StereoForm
                                           const std::string& path) {
   std::vector<std::string> warnings;
   const std::string is = picture_text(format);
-  if (format.is_photo) return warnings;
+  if (format.is_photo || names_eye(path)) return warnings;
   if (has_gpano && format.layout.layout) {
     warnings.push_back("it has GPano and holds two eyes: many viewers show both as one sphere, stretched");
   }

@@ -8,6 +8,7 @@
 #include "ods/camera/layout.h"
 #include "ods/files/memory_file.h"
 #include "ods/files/read_file.h"
+#include "ods/picture/face_files.h"
 #include "ods/picture/metadata/vr_photo.h"
 
 namespace ods {
@@ -27,11 +28,12 @@ static void check_pair(Readers& readers, const std::string& path) {
 
 Readers open_files(const std::string& path) {
   Readers readers;
+  const auto open = [](const std::string& name) { return names_faces(name) ? open_faces(name) : open_rows(name); };
   if (!names_eye(path)) {
-    readers.push_back(open_rows(path));
+    readers.push_back(open(path));
     return readers;
   }
-  for (int eye : {kLeft, kRight}) readers.push_back(open_rows(path_for_eye(path, eye)));
+  for (int eye : {kLeft, kRight}) readers.push_back(open(path_for_eye(path, eye)));
   check_pair(readers, path);
   return readers;
 }

@@ -12,6 +12,7 @@
 #include "ods/base/decimal.h"
 #include "ods/base/error.h"
 #include "ods/base/quote.h"
+#include "ods/camera/file_names.h"
 #include "ods/convert/convert.h"
 #include "ods/image/format/file_format.h"
 #include "ods/image/small_rows.h"
@@ -76,7 +77,7 @@ ViewItem open_view_item(const std::string& path, const FormatHint& known, std::o
     open_fallback(file, item);
     return item;
   }
-  if (!names_eye(path) && is_video(path)) {
+  if (!names_files(path) && is_video(path)) {
     const VideoInput video = open_video(path, known);
     if (!video.prototype.maps.empty()) {
       throw Error(ErrorKind::kInput,
@@ -110,7 +111,7 @@ ViewItem open_view_item(const std::string& path, const FormatHint& known, std::o
   if (!reader) reader.emplace(path, options);
   item.picture = reader->header();
   item.is_light = item.picture.is_float;
-  item.has_own_file = !names_eye(path) && browsers_read(path, item.picture);
+  item.has_own_file = !names_files(path) && browsers_read(path, item.picture);
   if (!item.has_own_file && reader->is_decoded()) item.picture = reader->read("");
   return item;
 }

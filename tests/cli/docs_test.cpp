@@ -20,6 +20,8 @@
 #include <vector>
 
 #include "cli/console/command.h"
+#include "ods/identify/find_input.h"
+#include "ods/picture/face_files.h"
 #include "ods/picture/metadata/format_source.h"
 #include "ods/picture/metadata/name_words.h"
 #include "ods/picture/metadata/sidecar.h"
@@ -478,9 +480,15 @@ INSTANTIATE_TEST_SUITE_P(Commands, Help, ::testing::ValuesIn(command_names()),
                          [](const auto& name) { return name.param; });
 
 TEST(Docs, ListTheWordsOfNames) {
-  std::string table = "| word | meaning |\n|---|---|\n";
+  std::string table = "| word | meaning |\n|---|---|\n", eyes = "| left | right |\n|---|---|\n", faces = "|---|\n";
   for (const NameWordRow& row : name_words()) table += fmt::format("| `{}` | {} |\n", row.word, row.text);
-  EXPECT_TRUE(has(read_file(fs::path(source_folder()) / "docs/foreign.md"), table)) << table;
+  for (const EyeWords& row : kEyeWordsTable) eyes += fmt::format("| `{}` | `{}` |\n", row.left, row.right);
+  for (const FaceWords& row : kFaceWordsTable) {
+    for (const std::string_view word : row.words) faces += fmt::format("| `{}` ", word);
+    faces += row.doubt.empty() ? "| read |\n" : fmt::format("| refused: {} |\n", row.doubt);
+  }
+  const std::string page = read_file(fs::path(source_folder()) / "docs/foreign.md");
+  for (const std::string& part : {table, eyes, faces}) EXPECT_TRUE(has(page, part)) << part;
 }
 
 TEST(Docs, ListTheSourcesOfAFormatInTheirOrder) {

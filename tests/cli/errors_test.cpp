@@ -92,7 +92,7 @@ TEST_F(Errors, OfTheCommandLine) {
           {"project 1,2", kUsage, "'1,2'"},
           {"project --from-pixel up,1,2,3", kUsage, "--from-pixel"},
           {"sizes nope", kUsage, "'nope'"},
-          {"probe", kUsage, "FILE"},
+          {"probe", kUsage, "input file"},
           {"info", kUsage, "SCENE"}});
 }
 

@@ -12,6 +12,7 @@
 #include "ods/files/file_input.h"
 #include "ods/image/codec/decoder.h"
 #include "ods/image/color_tags.h"
+#include "ods/image/format/pixel_place.h"
 #include "ods/image/format/stereo_jpeg.h"
 #include "ods/image/image_file.h"
 #include "ods/image/orientation.h"
@@ -131,8 +132,10 @@ static Opened open(const std::string& path, int view = 0, int min_width = 0) {
   const StereoJpeg stereo = format == FileFormat::kJpeg ? stereo_jpeg(path) : StereoJpeg();
   if (view == 1 && stereo.right.size > 0) file = part_of(file, stereo.right);
   Opened opened{open_decoder(file, format, view, min_width), {}};
-  opened.decoder = turned(std::move(opened.decoder), orientation_of(FileInput(path)));
+  const int orientation = orientation_of(FileInput(path));
+  opened.decoder = turned(std::move(opened.decoder), orientation);
   FileInfo& info = opened.decoder->info;
+  read_pixel_place(FileInput(path), format, orientation, info);
   if (format == FileFormat::kJpeg) add_stereo(info, stereo);
   opened.color = read_color_space(path, format, info);
   info.color = opened.color.name;

@@ -12,6 +12,7 @@
 
 #include "ods/base/decimal.h"
 #include "ods/camera/camera_fields.h"
+#include "ods/image/format/pixel_place.h"
 #include "ods/image/format/xmp.h"
 
 namespace ods {
@@ -265,6 +266,17 @@ std::optional<StereoCamera> gpano_camera(const std::string& xmp) {
   if (!projection_fault(camera.projection).empty()) return std::nullopt;
   read_gpano_pose(xmp, camera);
   return camera;
+}
+
+std::optional<StereoCamera> placed_camera(const FileInfo& info) {
+  const auto found = info.numbers.find(std::string(kWholeArea));
+  if (found == info.numbers.end()) return std::nullopt;
+  const glm::dvec2 corner(found->second[0], found->second[1]), whole(found->second[2], found->second[3]);
+  if (whole.x != 2.0 * whole.y) return std::nullopt;
+  StereoCamera camera;
+  camera.projection.longitude = glm::dvec2(corner.x, corner.x + info.width) * 360.0 / whole.x - 180.0;
+  camera.projection.latitude = 90.0 - glm::dvec2(corner.y + info.height, corner.y) * 180.0 / whole.y;
+  return projection_fault(camera.projection).empty() ? std::optional(camera) : std::nullopt;
 }
 
 }  // namespace ods

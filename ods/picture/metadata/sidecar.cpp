@@ -14,6 +14,7 @@
 #include "ods/base/json_reader.h"
 #include "ods/base/quote.h"
 #include "ods/camera/camera_fields.h"
+#include "ods/camera/file_names.h"
 #include "ods/files/atomic_file.h"
 #include "ods/files/read_file.h"
 
@@ -211,6 +212,9 @@ void save_sidecar(const Sidecar& file, const std::string& path) {
 
 std::string sidecar_path(const std::string& picture) {
   std::string stem = picture;
+  for (const size_t count : {size_t{2}, kFaceCount}) {
+    if (words_in_braces(picture, count)) stem = without_words(picture);
+  }
   const size_t slash = stem.rfind('/');
   const size_t name = slash == std::string::npos ? 0 : slash + 1;
   const size_t dot = stem.rfind('.');

@@ -5,12 +5,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "ods/base/error.h"
 #include "ods/base/text.h"
+#include "ods/camera/file_names.h"
 #include "ods/camera/odd_halves.h"
 #include "ods/files/file_input.h"
+#include "ods/image/format/pixel_place.h"
 #include "ods/image/format/stereo_jpeg.h"
 #include "ods/image/format/xmp.h"
 #include "ods/image/format/xmp_file.h"
@@ -83,7 +86,7 @@ static bool read_word(const std::string& marked, NameWords& words) {
 
 NameWords read_name(const std::string& path) {
   NameWords words;
-  std::string name = std::filesystem::path(path).stem().native();
+  std::string name = std::filesystem::path(without_words(path)).stem().native();
   while (true) {
     size_t at = name.find_last_of("_. ");
     const size_t hyphen = name.rfind('-');
@@ -233,8 +236,13 @@ static bool is_cross_eyed_by_custom(const std::string& path) {
   return extension == ".jps" || extension == ".pns";
 }
 
+// The file's size if its pixels were square.
+static Extent shown_size(const FileInfo& info) {
+  return {std::max(1, static_cast<int>(std::lround(info.width * pixel_aspect(info)))), info.height};
+}
+
 static std::optional<LayoutGuess> layout_in(FormatSource source, const Evidence& of) {
-  const Extent file{of.info.width, of.info.height};
+  const Extent file = shown_size(of.info);
   const auto guess = [&](std::optional<Layout> layout, const std::string& reason) {
     return LayoutGuess{layout, source, reason};
   };
@@ -287,7 +295,7 @@ static int find_eye(const FileInfo& info, const std::optional<Sidecar>& sidecar)
 
 // From GPano, which has no eyes.
 static std::optional<StereoCamera> camera_in_xmp(const std::string& path, std::vector<std::string>& warnings) {
-  const std::string xmp = read_xmp(names_eye(path) ? path_for_eye(path, kLeft) : path);
+  const std::string xmp = read_xmp(files_of(path).front());
   const std::optional<StereoCamera> camera = gpano_camera(xmp);
   if (camera && xmp_property(xmp, "GPano:ProjectionType").empty()) {
     warnings.push_back("its GPano gives a crop of the sphere but no projection, as VR180 cameras do: lat-long");
@@ -302,11 +310,13 @@ static std::optional<StereoCamera> camera_in_xmp(const std::string& path, std::v
 // A square eye of a VR photo whose GPano has no crop is VR180, because no other camera writes such photos.
 static std::optional<StereoCamera> camera_in_metadata(const Evidence& of, std::vector<std::string>& guesses) {
   if (of.info.is_float) {
+    if (std::optional<StereoCamera> camera = placed_camera(of.info)) return camera;
     const auto envmap = of.info.text.find("textureformat");
     const bool is_lat_long = envmap != of.info.text.end() && envmap->second == "LatLong Environment";
     return is_lat_long ? std::optional(StereoCamera()) : std::nullopt;
   }
   if (std::optional<StereoCamera> camera = camera_in_xmp(of.path, guesses)) return camera;
+  if (std::optional<StereoCamera> camera = placed_camera(of.info)) return camera;
   StereoCamera camera;
   if (of.info.is_pair && of.words.projection == nullptr) {
     const auto fov = of.info.numbers.find("heif:fov");
@@ -380,8 +390,7 @@ static std::optional<ProjectionGuess> projection_in(FormatSource source, const E
 // Sets the camera's projection if no camera is known.
 static void guess_projection(const Evidence& of, StereoFormat& format) {
   const Layout layout = format.layout.layout.value_or(Layout::kSeparate);
-  const Extent eye =
-      whole_eye(layout, without_middle(layout, Extent{of.info.width, of.info.height})).value_or(Extent{1, 1});
+  const Extent eye = whole_eye(layout, without_middle(layout, shown_size(of.info))).value_or(Extent{1, 1});
   const ProjectionGuess guess = *first_answer([&](FormatSource source) { return projection_in(source, of, eye); });
   format.camera.projection = guess.setting;
   format.guesses.push_back(fmt::format("{}: {}", projection_name(guess.setting), guess.reason));
@@ -389,8 +398,16 @@ static void guess_projection(const Evidence& of, StereoFormat& format) {
                    (format.layout.source >= FormatSource::kShape || projection_of_shape(eye) == nullptr);
 }
 
-StereoFormat find_format(const FileInfo& info, const std::string& path, const FormatHint& known) {
+// Six faces have a projection and no layout.
+static FormatHint known_of_faces(FormatHint known) {
+  known.one_eye = true;
+  if (!known.projection) known.projection = find_projection("cube-3x2")->setting;
+  return known;
+}
+
+StereoFormat find_format(const FileInfo& info, const std::string& path, const FormatHint& given) {
   StereoFormat format;
+  const FormatHint known = names_faces(path) ? known_of_faces(given) : given;
   Evidence of{info, path, known, find_sidecar(info, path, known, format.guesses)};
   of.is_photo = format.is_photo = is_taken_as_photo(info, path, known);
   of.words = read_name(path);
@@ -406,6 +423,13 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
   }
   if (const auto fault = info.text.find(kStereoFault); fault != info.text.end()) {
     format.guesses.push_back(fault->second);
+  }
+  if (pixel_aspect(info) != 1.0) {
+    format.guesses.push_back(
+        fmt::format("its pixels are {:.4g} times as wide as high, by its metadata", pixel_aspect(info)));
+  }
+  if (const auto doubt = info.text.find(std::string(kPixelDoubt)); doubt != info.text.end()) {
+    format.guesses.push_back(doubt->second);
   }
   if (is_guess(format.layout)) {
     const std::string_view name = format.layout.layout ? layout_name(layout) : "one eye";

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "ods/base/error.h"
+#include "ods/image/format/pixel_place.h"
 #include "ods/video/container/apple.h"
 
 namespace ods {
@@ -83,7 +84,8 @@ std::optional<SphericalMetadata> declared_metadata(const VideoTrack& track) {
 // Pictures default to lat-long. Videos must not: an ordinary video must not become a sphere.
 static void guess_projection(SphericalMetadata& known, const StereoFormat& format, const VideoTrack& track,
                              const std::string& path) {
-  const Extent eye = whole_eye(format.layout.layout.value_or(Layout::kSeparate), track.size).value_or(track.size);
+  const Extent shown{static_cast<int>(std::lround(track.size.width * track.pixel_aspect)), track.size.height};
+  const Extent eye = whole_eye(format.layout.layout.value_or(Layout::kSeparate), shown).value_or(shown);
   const bool is_known = format.has_camera || read_name(path).projection != nullptr;
   if (!is_known && natural_height(format.camera.projection, eye.width) != eye.height) {
     throw Error(ErrorKind::kInput,
@@ -99,6 +101,7 @@ static StereoFormat found_format(const SphericalMetadata& known, const VideoTrac
   info.width = track.size.width;
   info.height = track.size.height;
   info.is_float = true;  // skips the search for a picture's XMP
+  if (track.pixel_aspect != 1.0) info.numbers[std::string(kPixelAspect)] = {static_cast<float>(track.pixel_aspect)};
   if (info.width == 0 || info.height == 0) {
     throw Error(ErrorKind::kInput, fmt::format("cannot use '{}': it does not give its picture size", path));
   }

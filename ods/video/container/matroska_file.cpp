@@ -111,6 +111,7 @@ static VideoTrack read_track(const Matroska& video, const Element& entry) {
     };
     track.size = {side(kPixelWidth), side(kPixelHeight)};
     track.v2 = parse_video(*pictures);
+    track.pixel_aspect = pixel_aspect_of(*pictures);
     track.mesh = find_mesh(*pictures);
   }
   const uint64_t duration = child_number(entry, kDefaultDuration);  // nanoseconds

@@ -3,6 +3,9 @@
 #include "ods/video/container/matroska_metadata.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "ods/image/format/pixel_place.h"
 
 namespace ods::matroska {
 
@@ -112,6 +115,18 @@ static Share share_of(const std::optional<SphericalMetadata>& metadata) {
   if (how == EyePacking::kStacked) return {1, 2};
   if (how == EyePacking::kBeside) return {2, 1};
   return {};
+}
+
+// Some programs store the size of all eyes together, others that of one eye.
+double pixel_aspect_of(const Element& video) {
+  const auto number = [&](uint32_t id) { return static_cast<double>(child_number(video, id)); };
+  const double across = number(kDisplayWidth), down = number(kDisplayHeight);
+  const double pixels_across = number(kPixelWidth), pixels_down = number(kPixelHeight);
+  if (across * down * pixels_across * pixels_down == 0.0) return 1.0;
+  const Share share = share_of(parse_video(video));
+  const double together = across / down * pixels_down / pixels_across;
+  const double aspect = together * static_cast<double>(share.across) / static_cast<double>(share.down);
+  return plausible_aspect(std::abs(std::log(together)) < 0.01 ? 1.0 : aspect);
 }
 
 // RFC 9559, "Multi-planar and 3D Videos": the display size of a stereo video is one eye's.

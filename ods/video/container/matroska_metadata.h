@@ -64,6 +64,8 @@ std::string child_text(const Element& element, uint32_t id);
 
 // Parses StereoMode and Projection of an opened Video element. Throws MalformedFile.
 std::optional<SphericalMetadata> parse_video(const Element& video);
+// Width over height of a pixel, by the display size of an opened Video element; 1 if it has none.
+double pixel_aspect_of(const Element& video);
 // The private data of a mesh projection, which is the body of an mshp box. Empty if it has another projection.
 std::string find_mesh(const Element& video);
 

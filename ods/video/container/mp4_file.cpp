@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "ods/image/format/file_format.h"
+#include "ods/image/format/pixel_place.h"
 #include "ods/video/container/apple.h"
 #include "ods/video/container/box_offsets.h"
 #include "ods/video/container/complete_metadata.h"
@@ -117,6 +118,13 @@ static bool is_v1(const Box& box) {
   return box.type == box_type("uuid") && box.body.starts_with(kV1Id);
 }
 
+static double pixel_aspect_of(const Box& entry) {
+  const Box* found = find_child(entry, box_type("pasp"));
+  if (found == nullptr || found->body.size() < 8) return 1.0;
+  const auto number = [&](size_t at) { return static_cast<double>(get_number(found->body, at, 4)); };
+  return number(4) == 0.0 ? 1.0 : plausible_aspect(number(0) / number(4));
+}
+
 // An unreadable vexu is ignored, because it is used only by one vendor's players.
 static std::optional<SphericalMetadata> read_vexu(const Box& entry) {
   try {
@@ -150,6 +158,7 @@ static VideoTrack read_video(Box& track, Box& moov) {
       video.size.height = static_cast<int>(get_number(entry.body, 26, 2));
     }
     if (!video.v2) video.v2 = parse_v2(entry);
+    video.pixel_aspect = pixel_aspect_of(entry);
     if (video.mesh.empty()) video.mesh = find_mesh(entry);
     if (!video.vexu) video.vexu = read_vexu(entry);
     if (!video.layers) video.layers = read_layers(entry);

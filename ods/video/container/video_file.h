@@ -37,6 +37,7 @@ struct VideoTrack {
   uint64_t id = 0;
   std::string codec;                      // avc1, hvc1, V_VP9: as the container names it
   Extent size;                            // size of a frame
+  double pixel_aspect = 1.0;              // width over height of a pixel
   double fps = 0.0;                       // 0 if unknown
   std::optional<SphericalMetadata> v1;    // Spherical Video V1
   std::optional<SphericalMetadata> v2;    // Spherical Video V2, in Matroska StereoMode and Projection
