@@ -11,8 +11,8 @@
 // panorama from the middle of the box, which ignores the head. Mirrors and panes are painted surfaces here, as unlit
 // colours know no reflection.
 //
-// layers_bench lit [WIDTH [SCENE...]] compares with light: 6 poses of 256 x 256 pixels, path traced and denoised, against
-// layers that are baked as ods layers does. "+pane" after a scene's name adds a sheet of thin glass.
+// layers_bench lit [WIDTH [SCENE...]] compares with light: 6 poses of 256 x 256 pixels, path traced and denoised,
+// against layers that are baked as ods layers does. "+pane" after a scene's name adds a sheet of thin glass.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -96,7 +96,8 @@ void save_view(const std::string& name, const std::vector<vec3>& pixels) {
   }
 }
 
-// The views of the poses, as a function shows them, against those of the scene. shows: sets whether a ray meets anything.
+// The views of the poses, as a function shows them, against those of the scene. shows: sets whether a ray meets
+// anything.
 template <typename Shows>
 Likeness likeness_of(const Colours& truth, const std::vector<Pose>& poses, const std::vector<std::vector<vec3>>& wanted,
                      const std::string& title, const Shows& shows) {

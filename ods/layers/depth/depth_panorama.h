@@ -37,8 +37,8 @@ DepthPanorama empty_panorama(const PageGrid& grid);
 // from the middle, metres, which decides what is an edge.
 DepthPanorama look_from_middle(const Reprojection& picture, const PageGrid& grid, float reach);
 
-// Returns whether a picture shows nothing but a surface at a place, and around it as far as filters read. nearness: of the
-// surface.
+// Returns whether a picture shows nothing but a surface at a place, and around it as far as filters read. nearness: of
+// the surface.
 bool shows_only(const Reprojection& picture, const Place& place, float nearness);
 
 // The texel, not of a gutter, that shows a position in a page or just beyond its edge.

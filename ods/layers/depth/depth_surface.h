@@ -6,8 +6,8 @@
 // Every texel is a quadrilateral around its direction. Texels of one surface share their corners; between surfaces the
 // mesh is cut, along the texels' edges. Then it is simplified where that moves no point by more than half a pixel for
 // eyes in the box: in a space in which a direction d with nearness n is the point d (1 + reach n). There, all movements
-// that such eyes see have the same length: across the ray their angle in radians, along it the parallax of an eye that is
-// `reach` metres away from the middle.
+// that such eyes see have the same length: across the ray their angle in radians, along it the parallax of an eye that
+// is `reach` metres away from the middle.
 #pragma once
 #include "ods/layers/depth/depth_panorama.h"
 #include "ods/layers/surfaces.h"
