@@ -24,8 +24,8 @@ std::string describe(const BlenderOptions& options);
 // The program to start; empty: there is none. Throws Error(kInput) if --blender does not name a program.
 std::string find_blender(const BlenderOptions& options);
 
-// Blender with one of our scripts (blender/omnistereo/bridge), which are written into the folder `scripts`. flags:
-// before the script. Throws as find_blender() does.
+// Blender with one of our scripts (blender/omnistereo/bridge), which are written into the folder `scripts`. flags: before
+// the script. Throws as find_blender() does.
 Program blender_program(const BlenderOptions& options, const std::vector<std::string>& flags,
                         const std::string& scripts, const char* script, const std::vector<std::string>& arguments);
 

@@ -87,8 +87,8 @@ void render_scene(const VideoJob& job, ProgressLines& lines) {
   video.encode =
       check_encoding(job, expect_video(given.save.layout, ods::eye_list(given.render.eyes).size(),
                                        {given.render.width, given.render.height}, given.camera.stereo.projection));
-  // The choice of a card depends on the scene. For the CPU, the frames of an earlier run are checked before the scene
-  // is opened.
+  // The choice of a card depends on the scene. For the CPU, the frames of an earlier run are checked before the scene is
+  // opened.
   std::optional<ods::Scene> opened;
   if (given.device != kCpu) opened = open_lit_scene(given.scene, given.render.transparent);
   RenderJob render = opened ? on_device(given, *opened) : given;

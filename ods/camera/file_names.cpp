@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "ods/camera/layout.h"
+#include "ods/kernel/camera/camera.h"
 
 namespace ods {
 

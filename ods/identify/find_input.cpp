@@ -11,6 +11,7 @@
 #include <map>
 
 #include "ods/base/error.h"
+#include "ods/base/quote.h"
 #include "ods/base/text.h"
 #include "ods/camera/file_names.h"
 #include "ods/camera/layout.h"
@@ -172,11 +173,15 @@ static std::string name_of_pair(const EyePair& pair) {
                                              pair.left, pair.right));
 }
 
+// FFmpeg's command that puts the eyes of two videos side by side.
+static std::string joining_command(const EyePair& pair) {
+  return shell_line(
+      {"ffmpeg", "-i", pair.left, "-i", pair.right, "-filter_complex", "hstack", "-c:a", "copy", "both_LR.mp4"});
+}
+
 [[noreturn]] static void refuse_videos(const EyePair& pair) {
-  throw Error(ErrorKind::kInput,
-              fmt::format("'{}' and '{}' are two videos: join them into one first, ffmpeg -i '{}' -i '{}' "
-                          "-filter_complex hstack -c:a copy both_LR.mp4",
-                          pair.left, pair.right, pair.left, pair.right));
+  throw Error(ErrorKind::kInput, fmt::format("'{}' and '{}' are two videos: join them into one first, {}", pair.left,
+                                             pair.right, joining_command(pair)));
 }
 
 static bool is_film(const std::string& path) {
@@ -349,9 +354,8 @@ static FoundInput beside_one(const std::string& path) {
   if (!pair || is_film(path)) {
     if (!pair || !is_film(pair->right)) return {path, {}};
     return {path,
-            {fmt::format("'{}' is taken alone; if '{}' is its other eye, join them: ffmpeg -i '{}' -i '{}' "
-                         "-filter_complex hstack -c:a copy both_LR.mp4",
-                         path, path == pair->left ? pair->right : pair->left, pair->left, pair->right)}};
+            {fmt::format("'{}' is taken alone; if '{}' is its other eye, join them: {}", path,
+                         path == pair->left ? pair->right : pair->left, joining_command(*pair))}};
   }
   const std::string& other = path == pair->left ? pair->right : pair->left;
   if (are_eyes(*pair)) {

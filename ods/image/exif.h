@@ -13,8 +13,8 @@ namespace ods {
 
 inline constexpr std::string_view kExifPrefix{"Exif\0\0", 6};  // of the segment of a JPEG
 
-// Returns the Exif of a JPEG, PNG, WebP or HEIF without its prefix: a TIFF directory. Returns an empty string for a
-// file without Exif or with more than 16 MB of it. Throws Error(kInput) for a damaged file.
+// Returns the Exif of a JPEG, PNG, WebP or HEIF without its prefix: a TIFF directory. Returns an empty string for a file
+// without Exif or with more than 16 MB of it. Throws Error(kInput) for a damaged file.
 std::string read_exif(const FileInput& file);
 
 // Returns the value of the tag Orientation; 1 by default. Throws MalformedFile.

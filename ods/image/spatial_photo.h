@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Writes a spatial photo: a HEIC of two pictures in a stereo group, with the cameras that took them. Sources: ISO/IEC
-// 23008-12, "Image File Format" (`ster`, `cmin`, `cmex`); Apple, "Writing spatial photos". The boxes are those of a
-// file that Apple's Image I/O wrote, which puts the cameras into boxes `uuid` with the contents of `cmin` and `cmex`.
+// 23008-12, "Image File Format" (`ster`, `cmin`, `cmex`); Apple, "Writing spatial photos". The boxes are those of a file
+// that Apple's Image I/O wrote, which puts the cameras into boxes `uuid` with the contents of `cmin` and `cmex`.
 #pragma once
 #include <string>
 #include <string_view>

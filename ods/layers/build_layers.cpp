@@ -20,8 +20,8 @@ namespace {
 
 constexpr double kShareOfProbe = 0.4;  // of the time
 
-// Half the side of the largest cube around the middle without a surface in it. Nothing in such a cube is hidden from
-// the middle, so its own map is enough.
+// Half the side of the largest cube around the middle without a surface in it. Nothing in such a cube is hidden from the
+// middle, so its own map is enough.
 float free_half(const Probe& probe) {
   const DistanceMap& map = probe.maps[kMiddle];
   const size_t size = static_cast<size_t>(map.grid.size());

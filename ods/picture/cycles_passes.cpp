@@ -17,8 +17,8 @@
 namespace ods {
 namespace {
 
-// The channels of a pass, in the order of the letters: ViewLayer.Combined.R, or ViewLayer.Combined.left.R in a file
-// that names its one view. Empty if the file does not have all of them.
+// The channels of a pass, in the order of the letters: ViewLayer.Combined.R, or ViewLayer.Combined.left.R in a file that
+// names its one view. Empty if the file does not have all of them.
 std::vector<std::string> channels_of(const FileInfo& info, const std::string& pass, std::string_view letters) {
   std::vector<std::string> found;
   for (const char letter : letters) {

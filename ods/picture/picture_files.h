@@ -14,8 +14,7 @@ namespace ods {
 
 using Readers = std::vector<std::unique_ptr<RowReader>>;
 
-// Opens a file, or all files of a name that stands for several (ods/camera/file_names.h). Throws Error(kInput), also if
-// they do not fit together.
+// Opens a file, or all files of a name that stands for several (ods/camera/file_names.h). Throws Error(kInput), also if the two do not fit together.
 Readers open_files(const std::string& path);
 
 // Adds the reader of the second picture in the file: the right eye of a VR photo or of a stereo pair. Appends what is

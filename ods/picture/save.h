@@ -3,10 +3,10 @@
 //
 // Saves a rendered picture. The file extension selects the format.
 //
-// png, jpg, jpeg, tif, tiff, webp and heic are display-referred: exposure, tone curve, sRGB, 8 bits. hdr and exr
-// contain the scene-linear light as rendered: Rec. 709, without exposure or tone curve. Eyes are squeezed in
-// scene-linear light, as if rendered with larger pixels; of two depths the smaller one is kept. Files do not contain
-// NaN (it becomes 0) or infinity (it becomes the largest number of the format).
+// png, jpg, jpeg, tif, tiff, webp and heic are display-referred: exposure, tone curve, sRGB, 8 bits. hdr and exr contain the
+// scene-linear light as rendered: Rec. 709, without exposure or tone curve. Eyes are squeezed in scene-linear light, as
+// if rendered with larger pixels; of two depths the smaller one is kept. Files do not contain NaN (it becomes 0) or
+// infinity (it becomes the largest number of the format).
 //
 // exr contains 16-bit floats and adds to every eye Z (32 bits; metres along the ray from its own origin), N.X N.Y N.Z
 // and albedo.R G B, or the layers of a picture made by rows. Its header has chromaticities, ods:version, ods:layout,

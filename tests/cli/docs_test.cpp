@@ -211,11 +211,11 @@ class Pages : public ::testing::Test {
     const bool renders = command == "render" || command == "video";
     std::string more = !renders                    ? ""
                        : has(line, "--statistics") ? " --samples 2"
-                       : has(line, "--parts")      ? " --samples 64"
-                       : has(line, "--part")       ? " --samples 8"
+                       : has(line, "--part")       ? " --samples 64"
                                                    : " --samples 1";
     if (renders) more += of_rig ? " --bounces 1" : " --bounces 1 --exposure 0";  // it need not be measured
-    if (command == "layers") more = " --samples 1 --bounces 1 --exposure 0 --width 256";
+    const bool of_picture = has(line, ".exr ") || has(line, "--depth ");
+    if (command == "layers") more = of_picture ? " --width 256" : " --samples 1 --bounces 1 --exposure 0 --width 256";
     if (command == "rig") {
       more += has(line, "--slits") ? " --width 96 --slits 12" : " --width 64";
       if (has(line, "--max-error")) more += " --max-error 4";

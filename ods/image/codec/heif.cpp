@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Decodes HEIC and AVIF through libheif, which rotates, mirrors and crops them according to their metadata; encodes
-// HEIC of one picture through it.
+// Decodes HEIC and AVIF through libheif, which rotates, mirrors and crops them according to their metadata; encodes HEIC
+// of one picture through it.
 #include <fmt/format.h>
 #include <libheif/heif.h>
 

@@ -32,8 +32,8 @@ std::optional<FileFormat> format_of_bytes(std::span<const std::byte> file);
 
 std::optional<FileFormat> format_of_file(const FileInput& file);
 
-// `png, jpg, jpeg, mpo, jps, tif, tiff, webp, heic, hdr, exr`, for messages; the second function adds those that can
-// only be read.
+// `png, jpg, jpeg, mpo, jps, tif, tiff, webp, heic, hdr, exr`, for messages; the second function adds those that can only be
+// read.
 std::string known_extensions();
 std::string readable_extensions();
 

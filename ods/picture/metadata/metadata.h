@@ -41,8 +41,8 @@ void add_gpano(std::vector<Attribute>& attributes, const StereoCamera& camera, E
 // ProjectionType; then the crop's six numbers show that it is lat-long.
 std::optional<StereoCamera> gpano_camera(const std::string& xmp);
 
-// The part of a lat-long that a picture is by its place in a larger one (pixel_place.h), as panorama stitchers store
-// it. Returns nullopt if it has none, or the larger one is not twice as wide as high.
+// The part of a lat-long that a picture is by its place in a larger one (pixel_place.h), as panorama stitchers store it.
+// Returns nullopt if it has none, or the larger one is not twice as wide as high.
 std::optional<StereoCamera> placed_camera(const FileInfo& info);
 
 // Sets the orientation in GPano, for any projection; 0 if it has none.

@@ -11,6 +11,7 @@
 #include "ods/layers/as_scene.h"
 #include "ods/layers/layer_views.h"
 #include "ods/layers/probes/harmonics.h"
+#include "ods/layers/visibility.h"
 #include "tests/support/ball_in_box.h"
 
 namespace ods::picture_layers_test {
@@ -23,7 +24,7 @@ PictureLayersOptions small(float box) {
   return options;
 }
 
-// The share of rays from other eyes whose layer is where the world is, within 3 %.
+// The share of rays from other eyes whose layer is where the world is: for eyes in a box of 0.3 m, within a pixel.
 double share_right(const LayeredScene& layers) {
   const LayerViews views(layers);
   LayeredScene surfaces = layers;
@@ -36,7 +37,7 @@ double share_right(const LayeredScene& layers) {
   size_t right = 0;
   for (size_t i = 0; i < seen.size(); i++) {
     const float depth = look_at_world({view.place, view.directions[i]}).depth;
-    right += std::abs(seen[i].distance / depth - 1.0f) < 0.03f ? 1 : 0;
+    right += 0.26f * std::abs(1.0f / seen[i].distance - 1.0f / depth) < pixel_angle(layers.width) ? 1 : 0;
   }
   return static_cast<double>(right) / static_cast<double>(seen.size());
 }
