@@ -17,7 +17,7 @@ constexpr const char* kLayersExamples =
     "  ods layers scene.glb -o site/ --export               a web page, also for browsers without a headset\n"
     "  ods layers room -o room.layers.glb --box 0.5 --quality final\n"
     "  ods layers picture_360_TB.exr -o picture.layers.glb  a picture with depth, without its scene\n"
-    "  ods layers photo_360.jpg --depth depth.png --depth-kind inverse --near 0.7 -o photo.layers.glb\n"
+    "  ods layers panorama.jpg --depth depth.png --depth-kind inverse --near 0.7 -o photo.layers.glb\n"
     "  ods view scene.layers.glb";
 
 void add_layers_options(Options& options, LayersJob& job) {
