@@ -130,7 +130,7 @@ static std::string properties_of(const std::array<HevcPicture, 2>& eyes, const S
     own.push_back(apples(kAppleExtrinsics, extrinsics(item == kLeftItem ? 0.0 : cameras.baseline)));
     own.push_back(apples(kAppleIntrinsics, intrinsics(cameras.fov)));
     own.push_back(adjustment);
-    std::ranges::stable_partition(own, [](const StoredProperty& each) { return !each.is_turn; });
+    std::stable_partition(own.begin(), own.end(), [](const StoredProperty& each) { return !each.is_turn; });
     list.add(item, own);
   }
   list.add(kPairGroup, {adjustment});

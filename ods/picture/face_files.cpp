@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ods/base/error.h"
+#include "ods/files/read_file.h"
 
 namespace ods {
 
