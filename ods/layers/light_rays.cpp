@@ -21,11 +21,6 @@ constexpr float kFlatness = 1e-3f;
 constexpr int kSeveral = 4;              // texels of a piece that is dropped if none has a ray
 constexpr float kGrazingJitter = 0.02f;  // cosine: steps on steeper surfaces become no longer
 
-size_t texel_index(int size, int texture, int x, int y) {
-  const size_t row = static_cast<size_t>(texture) * static_cast<size_t>(size) + static_cast<size_t>(y);
-  return row * static_cast<size_t>(size) + static_cast<size_t>(x);
-}
-
 // A step beside a ray, along it until the step lies on the surface: so the origin stays in front of the surface.
 vec3 on_surface(vec3 step, vec3 direction, vec3 normal) {
   return step - direction * (dot(step, normal) / std::min(dot(direction, normal), -kGrazingJitter));

@@ -9,6 +9,7 @@
 // Directions are in the scene's axes, relative to the middle of the box. Positions in a page are in texels: (0, 0) is its
 // upper left corner, texel (x, y) has its centre at (x + 1/2, y + 1/2).
 #pragma once
+#include <cstddef>
 #include <vector>
 
 #include "ods/kernel/math.h"
@@ -59,6 +60,46 @@ vec2 to_page(const PageGrid& grid, int page, vec3 direction);
 
 // The inverse: a unit vector.
 vec3 from_page(const PageGrid& grid, int page, vec2 position);
+
+// The index of a texel of square textures that are below each other, row by row.
+inline size_t texel_index(int size, int texture, int x, int y) {
+  const size_t side = static_cast<size_t>(size);
+  return (static_cast<size_t>(texture) * side + static_cast<size_t>(y)) * side + static_cast<size_t>(x);
+}
+
+// A texel by its page and its place there, and its index if all pages are below each other, row by row.
+struct PageTexel {
+  int page, x, y;
+};
+
+inline size_t index_of(const PageGrid& grid, PageTexel at) {
+  return texel_index(grid.size(), at.page, at.x, at.y);
+}
+
+inline PageTexel texel_at(const PageGrid& grid, size_t index) {
+  const size_t size = static_cast<size_t>(grid.size());
+  const int row = static_cast<int>(index / size);
+  return {row / grid.size(), static_cast<int>(index % size), row % grid.size()};
+}
+
+inline vec3 ray_of(const PageGrid& grid, PageTexel at) {
+  return grid.texel_ray(at.page, at.x, at.y);
+}
+
+// The number of texels of all pages, gutters included.
+inline size_t texel_count(const PageGrid& grid) {
+  return index_of(grid, {grid.pages(), 0, 0});
+}
+
+// Calls visit(PageTexel) for the texels of all pages that are not in gutters.
+template <typename Visit>
+void for_each_inner_texel(const PageGrid& grid, const Visit& visit) {
+  for (int page = 0; page < grid.pages(); page++) {
+    for (int y = PageGrid::kGutter; y < grid.size() - PageGrid::kGutter; y++) {
+      for (int x = PageGrid::kGutter; x < grid.size() - PageGrid::kGutter; x++) visit(PageTexel{page, x, y});
+    }
+  }
+}
 
 // The planes through the middle that separate pages, by their normals: those between faces, and those that divide faces.
 struct PagePlane {

@@ -28,25 +28,6 @@ constexpr float kSampleSpacing = 5.0f;  // texels
 constexpr int kMaxSamples = 24;         // along an edge
 constexpr int kMaxDivisions = 24;
 
-struct Texel {
-  int page, x, y;
-};
-
-Texel place_of(const PageGrid& grid, size_t texel) {
-  const int size = grid.size();
-  const int row = static_cast<int>(texel / static_cast<size_t>(size));
-  return {row / size, static_cast<int>(texel % static_cast<size_t>(size)), row % size};
-}
-
-size_t index_of(const PageGrid& grid, Texel at) {
-  const size_t size = static_cast<size_t>(grid.size());
-  return (static_cast<size_t>(at.page) * size + static_cast<size_t>(at.y)) * size + static_cast<size_t>(at.x);
-}
-
-vec3 ray_of(const PageGrid& grid, Texel at) {
-  return grid.texel_ray(at.page, at.x, at.y);
-}
-
 }  // namespace
 
 float pixel_angle(int width) {
@@ -63,14 +44,14 @@ PanoramaPages::PanoramaPages(const Probe& probe) : probe_(probe) {
   shifts_.assign(distances.size(), kNoShift);
   tbb::parallel_for(0, grid.pages() * grid.size(), [&](int row) {
     for (int x = 0; x < grid.size(); x++) {
-      const Texel at{row / grid.size(), x, row % grid.size()};
+      const PageTexel at{row / grid.size(), x, row % grid.size()};
       const size_t texel = index_of(grid, at);
       const float far = distances[texel];
       const vec3 here = ray_of(grid, at) * far;
       int best = 4 * kReach * kReach + 1;
       for (int dy = -kReach; dy <= kReach; dy++) {
         for (int dx = -kReach; dx <= kReach; dx++) {
-          const Texel other{at.page, x + dx, at.y + dy};
+          const PageTexel other{at.page, x + dx, at.y + dy};
           if (other.x < 0 || other.y < 0 || other.x >= grid.size() || other.y >= grid.size()) continue;
           const size_t beside = index_of(grid, other);
           const float slack = 3.0f * grid.pixel() * distances[beside] + kSmallest;
@@ -92,7 +73,7 @@ size_t PanoramaPages::source(size_t texel) const {
 }
 
 vec3 PanoramaPages::point(size_t source) const {
-  return ray_of(grid(), place_of(grid(), source)) * probe_.maps[kMiddle].distances[source];
+  return ray_of(grid(), texel_at(grid(), source)) * probe_.maps[kMiddle].distances[source];
 }
 
 bool PanoramaPages::shows(size_t texel, vec3 on_plane, vec3 normal, float tolerance) const {
@@ -129,7 +110,7 @@ bool sees(const DistanceMap& map, const PieceMesh& mesh, vec3 point, vec3 normal
   const float nearest = distance - depth_tolerance(mesh, cosine);
   const auto [page, at] = place_in_pages(map.grid, ray);
   const int last = map.grid.size() - 1;
-  const Texel own{page, std::min(static_cast<int>(at.x), last), std::min(static_cast<int>(at.y), last)};
+  const PageTexel own{page, std::min(static_cast<int>(at.x), last), std::min(static_cast<int>(at.y), last)};
   if (hides_by_mirror(map, index_of(map.grid, own), mesh, point)) return false;
   for (int dy = -reach; dy <= reach; dy++) {
     for (int dx = -reach; dx <= reach; dx++) {
@@ -211,8 +192,8 @@ bool is_shown_somewhere(const PanoramaPages& pages, const PieceMesh& mesh, const
   return share_of_points(mesh, piece, texels, [&](vec3 point) {
            const vec2 at = to_page(pages.grid(), piece.page, point);
            const int last = pages.grid().size() - 1;
-           const Texel texel{piece.page, std::clamp(static_cast<int>(at.x), 0, last),
-                             std::clamp(static_cast<int>(at.y), 0, last)};
+           const PageTexel texel{piece.page, std::clamp(static_cast<int>(at.x), 0, last),
+                                 std::clamp(static_cast<int>(at.y), 0, last)};
            return pages.shows(index_of(pages.grid(), texel), point, normal, tolerance);
          }) != Share::kNothing;
 }
@@ -233,7 +214,8 @@ bool is_behind_mirror(const Probe& probe, const PieceMesh& mesh, const Piece& pi
            return std::any_of(probe.maps.begin(), probe.maps.end(), [&](const DistanceMap& map) {
              const auto [page, at] = place_in_pages(map.grid, point - map.place);
              const int last = map.grid.size() - 1;
-             const Texel texel{page, std::min(static_cast<int>(at.x), last), std::min(static_cast<int>(at.y), last)};
+             const PageTexel texel{page, std::min(static_cast<int>(at.x), last),
+                                   std::min(static_cast<int>(at.y), last)};
              return hides_by_mirror(map, index_of(map.grid, texel), mesh, point);
            });
          }) != Share::kNothing;

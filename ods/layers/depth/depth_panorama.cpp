@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ods/convert/resample.h"
-
 namespace ods {
 
 namespace {
@@ -47,7 +45,7 @@ class Edges {
  private:
   float at(int page, int x, int y) const {
     const int last = panorama_.grid.size() - 1;
-    return panorama_.nearness[texel_index(panorama_.grid, page, std::clamp(x, 0, last), std::clamp(y, 0, last))];
+    return panorama_.nearness[index_of(panorama_.grid, {page, std::clamp(x, 0, last), std::clamp(y, 0, last)})];
   }
 
   const DepthPanorama& panorama_;
@@ -63,7 +61,7 @@ vec3 inside_color(const DepthPanorama& panorama, const Edges& edges, const std::
     int count = 0;
     for (int row = std::max(y - reach, 0); row <= std::min(y + reach, last); row++) {
       for (int column = std::max(x - reach, 0); column <= std::min(x + reach, last); column++) {
-        const size_t other = texel_index(panorama.grid, page, column, row);
+        const size_t other = index_of(panorama.grid, {page, column, row});
         if (mixed[other] || !edges.is_same(page, x, y, column - x, row - y)) continue;
         sum += panorama.colors[other];
         count++;
@@ -71,7 +69,7 @@ vec3 inside_color(const DepthPanorama& panorama, const Edges& edges, const std::
     }
     if (count > 0) return sum / static_cast<float>(count);
   }
-  return panorama.colors[texel_index(panorama.grid, page, x, y)];
+  return panorama.colors[index_of(panorama.grid, {page, x, y})];
 }
 
 void clean_edges(DepthPanorama& panorama, float reach, std::vector<char> mixed) {
@@ -83,11 +81,11 @@ void clean_edges(DepthPanorama& panorama, float reach, std::vector<char> mixed) 
     });
   };
   for_each([&](int page, int x, int y) {
-    if (edges.has(page, x, y)) mixed[texel_index(panorama.grid, page, x, y)] = 1;
+    if (edges.has(page, x, y)) mixed[index_of(panorama.grid, {page, x, y})] = 1;
   });
   std::vector<vec3> clean = panorama.colors;
   for_each([&](int page, int x, int y) {
-    const size_t texel = texel_index(panorama.grid, page, x, y);
+    const size_t texel = index_of(panorama.grid, {page, x, y});
     if (mixed[texel]) clean[texel] = inside_color(panorama, edges, mixed, page, x, y);
   });
   panorama.colors = std::move(clean);
@@ -96,8 +94,14 @@ void clean_edges(DepthPanorama& panorama, float reach, std::vector<char> mixed) 
 }  // namespace
 
 DepthPanorama empty_panorama(const PageGrid& grid) {
-  const size_t texels = texel_index(grid, grid.pages(), 0, 0);
+  const size_t texels = texel_count(grid);
   return {grid, std::vector<vec3>(texels, vec3(0.0f)), std::vector<float>(texels, kNothing)};
+}
+
+vec3 color_at(const Source& source, const Resampler& resampler, const Place& place, std::vector<float>& values) {
+  std::ranges::fill(values, 0.0f);
+  resampler.add(place, cell_of(source.camera.projection, source.picture->size, place.at), 1.0f, values.data());
+  return max(vec3(values[0], values[1], values[2]), vec3(0.0f));
 }
 
 bool shows_only(const Reprojection& picture, const Place& place, float nearness) {
@@ -122,7 +126,7 @@ DepthPanorama look_from_middle(const Reprojection& picture, const PageGrid& grid
       const Ray ray{vec3(0.0f), grid.texel_ray(page, x, y)};
       SurfaceHit hit = meet_surface(picture, 0, ray, true);
       if (!hit.place.seen) continue;
-      const size_t texel = texel_index(grid, page, x, y);
+      const size_t texel = index_of(grid, {page, x, y});
       const float nearness = panorama.nearness[texel] = inverse_depth(hit.depth);
       if (!shows_only(picture, hit.place, nearness)) {
         const SurfaceHit other = has_other ? meet_surface(picture, 1, ray, false) : SurfaceHit();
@@ -131,10 +135,7 @@ DepthPanorama look_from_middle(const Reprojection& picture, const PageGrid& grid
         if (is_clean) hit = other;
         mixed[texel] = is_clean ? 0 : 1;
       }
-      std::ranges::fill(values, 0.0f);
-      resampler.add(hit.place, cell_of(source.camera.projection, source.picture->size, hit.place.at), 1.0f,
-                    values.data());
-      panorama.colors[texel] = max(vec3(values[0], values[1], values[2]), vec3(0.0f));
+      panorama.colors[texel] = color_at(source, resampler, hit.place, values);
     }
   });
   clean_edges(panorama, reach, std::move(mixed));
@@ -150,7 +151,12 @@ size_t inner_texel(const PageGrid& grid, int page, vec2 position) {
     position = place.position;
   }
   const auto at = [&](float along) { return std::clamp(static_cast<int>(along), first, last); };
-  return texel_index(grid, page, at(position.x), at(position.y));
+  return index_of(grid, {page, at(position.x), at(position.y)});
+}
+
+size_t texel_towards(const PageGrid& grid, vec3 direction) {
+  const PagePlace place = place_in_pages(grid, direction);
+  return inner_texel(grid, place.page, place.position);
 }
 
 bool shows_one_surface(float a, float b, float reach, float pixel) {

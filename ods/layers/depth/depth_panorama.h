@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ods/convert/reproject.h"
+#include "ods/convert/resample.h"
 #include "ods/image/image.h"
 #include "ods/layers/page_grid.h"
 
@@ -22,12 +23,6 @@ struct DepthPanorama {
   std::vector<float> nearness;  // 1 / metres from the middle; 0: the sky; kNothing
 };
 
-// The index of a texel. x, y: in the page, from 0 to grid.size() - 1.
-inline size_t texel_index(const PageGrid& grid, int page, int x, int y) {
-  const size_t size = static_cast<size_t>(grid.size());
-  return (static_cast<size_t>(page) * size + static_cast<size_t>(y)) * size + static_cast<size_t>(x);
-}
-
 // An empty panorama.
 DepthPanorama empty_panorama(const PageGrid& grid);
 
@@ -37,12 +32,18 @@ DepthPanorama empty_panorama(const PageGrid& grid);
 // from the middle, metres, which decides what is an edge.
 DepthPanorama look_from_middle(const Reprojection& picture, const PageGrid& grid, float reach);
 
+// The colour of a picture at a place, in linear light. values: room for the resampler's channels.
+vec3 color_at(const Source& source, const Resampler& resampler, const Place& place, std::vector<float>& values);
+
 // Returns whether a picture shows nothing but a surface at a place, and around it as far as filters read. nearness: of
 // the surface.
 bool shows_only(const Reprojection& picture, const Place& place, float nearness);
 
 // The texel, not of a gutter, that shows a position in a page or just beyond its edge.
 size_t inner_texel(const PageGrid& grid, int page, vec2 position);
+
+// The texel, not of a gutter, that shows a direction.
+size_t texel_towards(const PageGrid& grid, vec3 direction);
 
 // Returns whether adjacent texels show one surface: eyes in the box would see no more than a pixel between them, or
 // their distances differ by a few percent. reach: of eyes from the middle, metres. pixel: radians.

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <unordered_map>
 
@@ -59,7 +58,9 @@ class Mesher {
   bool is_border(int i, int j) const { return i == 0 || j == 0 || i == grid_.inner() || j == grid_.inner(); }
   uint64_t corner_key(int page, int i, int j) const;
   Around around(int page, int i, int j) const;
-  bool joined(int i, int j, const Around& texels, int from) const;
+  bool joined_at_border(size_t a, size_t b) const;
+  bool joined(const Around& texels, size_t from) const;
+  std::array<size_t, 4> surfaces_of(const Around& texels, bool at_border) const;
   uint vertex(int page, int i, int j, size_t texel, std::unordered_map<CornerKey, uint, CornerHash>& index,
               CornerMesh& mesh) const;
 
@@ -102,48 +103,50 @@ Around Mesher::around(int page, int i, int j) const {
   return texels;
 }
 
-// Returns whether the texel at an index around a corner and the next one are one surface.
-bool Mesher::joined(int i, int j, const Around& texels, int from) const {
-  const size_t a = texels[static_cast<size_t>(from)], b = texels[static_cast<size_t>((from + 1) % 4)];
-  const float pixel = grid_.pixel();
-  const std::vector<float>& nearness = panorama_.nearness;
-  if (is_border(i, j))
-    return shows_one_surface(nearness[a], nearness[b], reach_, pixel) || is_one_surface(nearness[a], nearness[b]);
+// Returns whether two texels at a page's border are one surface: pages see different ones beyond them, so only these
+// two count.
+bool Mesher::joined_at_border(size_t a, size_t b) const {
+  const float from = panorama_.nearness[a], to = panorama_.nearness[b];
+  return shows_one_surface(from, to, reach_, grid_.pixel()) || is_one_surface(from, to);
+}
+
+// Returns whether the texel at an index around a corner of a page and the next one are one surface.
+bool Mesher::joined(const Around& texels, size_t from) const {
+  const size_t a = texels[from], b = texels[(from + 1) % 4];
   // Steps from a to b: right, down, left, up.
   const ptrdiff_t row = grid_.size();
   const ptrdiff_t steps[] = {1, row, -1, -row};
-  const ptrdiff_t step = steps[from];
-  return continues(nearness[a - static_cast<size_t>(step)], nearness[a], nearness[b],
-                   nearness[b + static_cast<size_t>(step)], reach_, pixel);
+  const size_t step = static_cast<size_t>(steps[from]);
+  const std::vector<float>& nearness = panorama_.nearness;
+  return continues(nearness[a - step], nearness[a], nearness[b], nearness[b + step], reach_, grid_.pixel());
+}
+
+// The surface of each texel around a corner, by the index of its first texel there.
+std::array<size_t, 4> Mesher::surfaces_of(const Around& texels, bool at_border) const {
+  std::array<size_t, 4> surface{0, 1, 2, 3};
+  const auto join = [&](size_t a, size_t b) {
+    std::ranges::replace(surface, std::max(surface[a], surface[b]), std::min(surface[a], surface[b]));
+  };
+  for (size_t a = 0; a < 4; a++) {
+    if (!at_border && joined(texels, a)) join(a, (a + 1) % 4);
+    for (size_t b = a + 1; at_border && b < 4 && texels[b] != ~size_t{0}; b++) {
+      if (joined_at_border(texels[a], texels[b])) join(a, b);
+    }
+  }
+  return surface;
 }
 
 uint Mesher::vertex(int page, int i, int j, size_t texel, std::unordered_map<CornerKey, uint, CornerHash>& index,
                     CornerMesh& mesh) const {
   const Around texels = around(page, i, j);
-  std::array<int, 4> group{0, 1, 2, 3};
-  const auto join = [&](int a, int b) {
-    const int from = group[static_cast<size_t>(b)], to = group[static_cast<size_t>(a)];
-    std::ranges::replace(group, std::max(from, to), std::min(from, to));
-  };
-  if (is_border(i, j)) {
-    for (int a = 0; a < 4; a++) {
-      for (int b = a + 1; b < 4 && texels[static_cast<size_t>(b)] != ~size_t{0}; b++) {
-        const Around pair{texels[static_cast<size_t>(a)], texels[static_cast<size_t>(b)], 0, 0};
-        if (joined(i, j, pair, 0)) join(a, b);
-      }
-    }
-  } else {
-    for (int a = 0; a < 4; a++) {
-      if (joined(i, j, texels, a)) join(a, (a + 1) % 4);
-    }
-  }
+  const std::array<size_t, 4> surface = surfaces_of(texels, is_border(i, j));
   const auto own = static_cast<size_t>(std::ranges::find(texels, texel) - texels.begin());
-  const CornerKey key{corner_key(page, i, j), texels[static_cast<size_t>(group[own])]};
+  const CornerKey key{corner_key(page, i, j), texels[surface[own]]};
   const auto [found, is_new] = index.try_emplace(key, static_cast<uint>(mesh.vertices.size()));
   if (!is_new) return found->second;
   float sum = 0.0f, count = 0.0f;
   for (size_t k = 0; k < 4; k++) {
-    if (group[k] != group[own] || texels[k] == ~size_t{0}) continue;
+    if (surface[k] != surface[own] || texels[k] == ~size_t{0}) continue;
     sum += panorama_.nearness[texels[k]];
     count += 1.0f;
   }
@@ -157,7 +160,7 @@ CornerMesh Mesher::page(int page) const {
   std::unordered_map<CornerKey, uint, CornerHash> index;
   for (int j = 0; j < grid_.inner(); j++) {
     for (int i = 0; i < grid_.inner(); i++) {
-      const size_t texel = texel_index(grid_, page, i + PageGrid::kGutter, j + PageGrid::kGutter);
+      const size_t texel = index_of(grid_, {page, i + PageGrid::kGutter, j + PageGrid::kGutter});
       if (!(panorama_.nearness[texel] > 0.0f)) continue;
       const uint a = vertex(page, i, j, texel, index, mesh), b = vertex(page, i, j + 1, texel, index, mesh),
                  c = vertex(page, i + 1, j + 1, texel, index, mesh), d = vertex(page, i + 1, j, texel, index, mesh);

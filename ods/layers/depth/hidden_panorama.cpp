@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 
-#include "ods/convert/resample.h"
 #include "ods/kernel/camera/project.h"
 
 namespace ods {
@@ -24,19 +23,9 @@ struct Spread {
   std::vector<size_t> border;  // texels that were set last
 };
 
-// The texel of the front panorama in the direction of a texel.
-size_t front_texel(const DepthPanorama& front, const PageGrid& grid, int page, int x, int y) {
-  const PagePlace place = place_in_pages(front.grid, grid.texel_ray(page, x, y));
-  const int last = front.grid.size() - 1;
-  return texel_index(front.grid, place.page, std::clamp(static_cast<int>(place.position.x), 0, last),
-                     std::clamp(static_cast<int>(place.position.y), 0, last));
-}
-
 // The four inner texels beside one: right, below, left, above.
 std::array<size_t, 4> sides_of(const PageGrid& grid, size_t texel) {
-  const size_t size = static_cast<size_t>(grid.size());
-  const int x = static_cast<int>(texel % size), y = static_cast<int>(texel / size % size);
-  const int page = static_cast<int>(texel / size / size);
+  const auto [page, x, y] = texel_at(grid, texel);
   std::array<size_t, 4> sides;
   for (size_t i = 0; i < 4; i++) sides[i] = inner_texel(grid, page, vec2(x + kSides[i][0], y + kSides[i][1]) + 0.5f);
   return sides;
@@ -45,25 +34,12 @@ std::array<size_t, 4> sides_of(const PageGrid& grid, size_t texel) {
 // The front's values at the texels of a grid.
 DepthPanorama reduced(const DepthPanorama& front, const PageGrid& grid) {
   DepthPanorama small = empty_panorama(grid);
-  tbb::parallel_for(0, grid.pages() * grid.size(), [&](int row) {
-    for (int x = 0; x < grid.size(); x++) {
-      const int page = row / grid.size(), y = row % grid.size();
-      const size_t to = texel_index(grid, page, x, y), from = front_texel(front, grid, page, x, y);
-      small.colors[to] = front.colors[from];
-      small.nearness[to] = front.nearness[from];
-    }
+  tbb::parallel_for(size_t{0}, texel_count(grid), [&](size_t texel) {
+    const size_t from = texel_towards(front.grid, ray_of(grid, texel_at(grid, texel)));
+    small.colors[texel] = front.colors[from];
+    small.nearness[texel] = front.nearness[from];
   });
   return small;
-}
-
-// Calls visit(texel) for all texels that are not in gutters.
-template <typename Visit>
-void for_each_inner(const PageGrid& grid, const Visit& visit) {
-  for (int page = 0; page < grid.pages(); page++) {
-    for (int y = PageGrid::kGutter; y < grid.size() - PageGrid::kGutter; y++) {
-      for (int x = PageGrid::kGutter; x < grid.size() - PageGrid::kGutter; x++) visit(texel_index(grid, page, x, y));
-    }
-  }
 }
 
 // Starts at the edges: on the far side, with what an eye may see behind the near one.
@@ -71,7 +47,8 @@ Spread start(const DepthPanorama& front, float reach) {
   const PageGrid& grid = front.grid;
   const float pixel = grid.pixel();
   Spread spread{empty_panorama(grid), std::vector<float>(front.nearness.size()), {}};
-  for_each_inner(grid, [&](size_t far) {
+  for_each_inner_texel(grid, [&](PageTexel at) {
+    const size_t far = index_of(grid, at);
     const float behind = front.nearness[far];
     if (!(behind > 0.0f)) return;
     const std::array<size_t, 4> sides = sides_of(grid, far);
@@ -142,10 +119,7 @@ void look_with_eyes(const Reprojection& picture, DepthPanorama& hidden) {
   const vec2 size(static_cast<float>(stored.size.width), static_cast<float>(stored.size.height));
   tbb::parallel_for(size_t{0}, hidden.nearness.size(), [&](size_t texel) {
     if (!(hidden.nearness[texel] > 0.0f)) return;
-    const size_t across = static_cast<size_t>(hidden.grid.size());
-    const vec3 direction =
-        hidden.grid.texel_ray(static_cast<int>(texel / across / across), static_cast<int>(texel % across),
-                              static_cast<int>(texel / across % across));
+    const vec3 direction = ray_of(hidden.grid, texel_at(hidden.grid, texel));
     std::vector<float> values(static_cast<size_t>(resampler.channels()));
     for (int eye = 0; eye < 2; eye++) {
       const ImagePosition at =
@@ -153,9 +127,7 @@ void look_with_eyes(const Reprojection& picture, DepthPanorama& hidden) {
       if (!at.seen) continue;
       const Place place{eye, at.uv * size, true};
       if (!shows_only(picture, place, 1.0f / at.depth)) continue;
-      std::ranges::fill(values, 0.0f);
-      resampler.add(place, cell_of(source.camera.projection, stored.size, place.at), 1.0f, values.data());
-      hidden.colors[texel] = max(vec3(values[0], values[1], values[2]), vec3(0.0f));
+      hidden.colors[texel] = color_at(source, resampler, place, values);
       return;
     }
   });
@@ -163,16 +135,11 @@ void look_with_eyes(const Reprojection& picture, DepthPanorama& hidden) {
 
 // Sets the gutters to what is beyond the pages' edges.
 void fill_gutters(DepthPanorama& panorama) {
-  const PageGrid& grid = panorama.grid;
-  for (int page = 0; page < grid.pages(); page++) {
-    for (int y = 0; y < grid.size(); y++) {
-      for (int x = 0; x < grid.size(); x++) {
-        const size_t texel = texel_index(grid, page, x, y), inner = inner_texel(grid, page, vec2(x, y) + 0.5f);
-        if (inner == texel) continue;
-        panorama.colors[texel] = panorama.colors[inner];
-        panorama.nearness[texel] = panorama.nearness[inner];
-      }
-    }
+  for (size_t texel = 0; texel < texel_count(panorama.grid); texel++) {
+    const auto [page, x, y] = texel_at(panorama.grid, texel);
+    const size_t inner = inner_texel(panorama.grid, page, vec2(x, y) + 0.5f);
+    panorama.colors[texel] = panorama.colors[inner];
+    panorama.nearness[texel] = panorama.nearness[inner];
   }
 }
 

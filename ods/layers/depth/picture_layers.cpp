@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/layers/depth/picture_layers.h"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -33,24 +32,12 @@ constexpr size_t kBytesPerTexel = 400;  // at most: the mesh of a page before it
 constexpr int kWidestSky = 1024;        // of the page of a sky that only closes what is open
 constexpr double kRare = 1e-4;          // the share of texels that may be nearer than the box allows: errors of depth
 
-// Calls visit(index, ray) for the texels of all pages that are not in gutters.
-template <typename Visit>
-void for_each_ray(const PageGrid& grid, const Visit& visit) {
-  for (int page = 0; page < grid.pages(); page++) {
-    for (int y = PageGrid::kGutter; y < grid.size() - PageGrid::kGutter; y++) {
-      for (int x = PageGrid::kGutter; x < grid.size() - PageGrid::kGutter; x++) {
-        visit(texel_index(grid, page, x, y), grid.texel_ray(page, x, y));
-      }
-    }
-  }
-}
-
 // Half the side of the largest cube around the middle without a surface in it, but for a few texels.
 float free_half(const DepthPanorama& panorama) {
   std::vector<float> halves;
-  for_each_ray(panorama.grid, [&](size_t texel, vec3 ray) {
-    const vec3 along = abs(ray);
-    const float nearness = panorama.nearness[texel];
+  for_each_inner_texel(panorama.grid, [&](PageTexel at) {
+    const vec3 along = abs(ray_of(panorama.grid, at));
+    const float nearness = panorama.nearness[index_of(panorama.grid, at)];
     if (nearness > 0.0f) halves.push_back(std::max({along.x, along.y, along.z}) / nearness);
   });
   if (halves.empty()) return kFarDepth;
@@ -66,10 +53,9 @@ int width_of(const StoredPicture& picture, const PictureLayersOptions& options) 
 }
 
 void check_memory_for(const PageGrid& grid) {
-  const size_t page = static_cast<size_t>(grid.size()) * static_cast<size_t>(grid.size());
-  const size_t texels = static_cast<size_t>(grid.pages()) * page;
-  check_memory(texels * 2 * (sizeof(vec3) + sizeof(float)) + 4 * page * kBytesPerTexel, "the layers of the picture",
-               "a smaller `width` needs less");
+  const size_t page = index_of(grid, {1, 0, 0});
+  check_memory(texel_count(grid) * 2 * (sizeof(vec3) + sizeof(float)) + 4 * page * kBytesPerTexel,
+               "the layers of the picture", "a smaller `width` needs less");
 }
 
 // The pieces of a surface, all of which its pages show.
@@ -95,7 +81,7 @@ PieceMesh pieces_of(SeenSurface surface, const PageGrid& grid) {
 Image page_colors(const DepthPanorama& panorama, int page) {
   const int size = panorama.grid.size();
   Image image(size, size, 3);
-  const size_t first = texel_index(panorama.grid, page, 0, 0);
+  const size_t first = index_of(panorama.grid, {page, 0, 0});
   std::vector<int> owners;
   for (size_t i = 0; i < image.pixels.size() / 3; i++) owners.push_back(panorama.nearness[first + i] > 0.0f ? 0 : -1);
   for (size_t i = 0; i < image.pixels.size(); i++) {
@@ -106,9 +92,8 @@ Image page_colors(const DepthPanorama& panorama, int page) {
 }
 
 // Adds the surfaces of a panorama, with its pages as textures.
-void add_surfaces(const DepthPanorama& panorama, const char* noun, const PictureLayersOptions& options,
+void add_surfaces(const DepthPanorama& panorama, float reach, const char* noun, const PictureLayersOptions& options,
                   LayeredScene& scene) {
-  const float reach = 0.5f * length(scene.box.size);
   std::vector<PieceMesh> pieces;
   pieces.push_back(pieces_of(depth_surface(panorama, reach), panorama.grid));
   LayeredScene part;
@@ -137,8 +122,7 @@ Environment sky_of_picture(const DepthPanorama& panorama, bool has_sky) {
     for (int x = 0; x < image.width; x++) {
       const float azimuth = ((static_cast<float>(x) + 0.5f) / static_cast<float>(image.width) - 0.5f) * 2.0f * kPi;
       const float elevation = (0.5f - (static_cast<float>(y) + 0.5f) / static_cast<float>(image.height)) * kPi;
-      const PagePlace place = place_in_pages(panorama.grid, direction_of(azimuth, elevation));
-      const size_t texel = inner_texel(panorama.grid, place.page, place.position);
+      const size_t texel = texel_towards(panorama.grid, direction_of(azimuth, elevation));
       const float nearness = panorama.nearness[texel];
       if (nearness == kNothing || (has_sky && nearness != 0.0f)) continue;
       owners[static_cast<size_t>(y) * static_cast<size_t>(image.width) + static_cast<size_t>(x)] = 0;
@@ -168,16 +152,17 @@ LightProbes probe_at_middle(const DepthPanorama& panorama, vec3 middle) {
   probe.weight = 1.0f;
   const float side = 0.5f * kPi;  // of a face, radians
   const float texels = static_cast<float>(panorama.grid.inner() * panorama.grid.across());
-  for_each_ray(panorama.grid, [&](size_t texel, vec3 ray) {
-    const vec3 along = abs(ray);
+  for_each_inner_texel(panorama.grid, [&](PageTexel at) {
+    const vec3 ray = ray_of(panorama.grid, at), along = abs(ray);
     const float largest = std::max({along.x, along.y, along.z});
     // d(tan a) d(tan b) / (1 + tan^2 a + tan^2 b)^(3/2): the solid angle of a texel of even angles a and b.
-    vec3 slopes = along / largest;
+    const vec3 slopes = along / largest;
     const float area =
         (1.0f + slopes.x * slopes.x) * (1.0f + slopes.y * slopes.y) * (1.0f + slopes.z * slopes.z) / 2.0f;
     const float solid = area * largest * largest * largest * (side / texels) * (side / texels);
     const auto values = harmonics(ray);
-    for (size_t i = 0; i < values.size(); i++) probe.radiance[i] += solid * values[i] * panorama.colors[texel];
+    for (size_t i = 0; i < values.size(); i++)
+      probe.radiance[i] += solid * values[i] * panorama.colors[index_of(panorama.grid, at)];
   });
   LightProbes probes;
   probes.origin = middle;
@@ -200,8 +185,7 @@ PictureLayersCounts count_of(const LayeredScene& layers, const DepthPanorama& fr
         hidden += layers.meshes[static_cast<size_t>(view.meshes[i])].noun == kHidden ? 1 : 0;
         continue;
       }
-      const PagePlace place = place_in_pages(front.grid, view.directions[i]);
-      open += front.nearness[inner_texel(front.grid, place.page, place.position)] > 0.0f ? 1 : 0;
+      open += front.nearness[texel_towards(front.grid, view.directions[i])] > 0.0f ? 1 : 0;
     }
   }
   counts.hidden = static_cast<double>(hidden) / static_cast<double>(rays);
@@ -233,10 +217,10 @@ LayeredScene picture_layers(const StoredPicture& picture, const PictureLayersOpt
   const DepthPanorama front = look_from_middle(reprojection, grid, reach);
   check_head_room(free_half(front), options.box, "");
   done(0.3);
-  add_surfaces(front, "page", options, layers);
+  add_surfaces(front, reach, "page", options, layers);
   done(0.7);
   const DepthPanorama hidden = hidden_panorama(reprojection, front, page_grid(layers.width / 2), reach);
-  add_surfaces(hidden, kHidden, options, layers);
+  add_surfaces(hidden, reach, kHidden, options, layers);
   add_sky(front, options, layers);
   layers.light.probes = probe_at_middle(front, layers.box.center);
   done(0.9);

@@ -19,7 +19,7 @@ double share_right(const DepthPanorama& panorama) {
     for (int y = 0; y < panorama.grid.size(); y++) {
       for (int x = 0; x < panorama.grid.size(); x++) {
         const Seen seen = look_at_world({vec3(0.0f), panorama.grid.texel_ray(page, x, y)});
-        const size_t texel = texel_index(panorama.grid, page, x, y);
+        const size_t texel = index_of(panorama.grid, {page, x, y});
         const bool is_near = std::abs(panorama.nearness[texel] * seen.depth - 1.0f) < 0.02f;
         right += is_near && length(panorama.colors[texel] - seen.color) < 0.05f ? 1 : 0;
         all++;
@@ -53,16 +53,16 @@ TEST(DepthPanorama, ShowsNothingBesideAWindow) {
   const Reprojection picture = make_reprojection(source);
   const PageGrid grid(72, 1);
   const DepthPanorama panorama = look_from_middle(picture, grid, kReach);
-  EXPECT_GT(panorama.nearness[texel_index(grid, 0, 36, 36)], 0.0f);
-  EXPECT_EQ(panorama.nearness[texel_index(grid, 2, 36, 36)], kNothing);
+  EXPECT_GT(panorama.nearness[index_of(grid, {0, 36, 36})], 0.0f);
+  EXPECT_EQ(panorama.nearness[index_of(grid, {2, 36, 36})], kNothing);
 }
 
 // The neighbour of a page's last column is the first column of the next face, in the same row.
 TEST(DepthPanorama, FindsTexelsBeyondAPage) {
   const PageGrid grid(72, 1);
   const int last = 72 - PageGrid::kGutter - 1;
-  EXPECT_EQ(inner_texel(grid, 0, vec2(last, 30) + 0.5f), texel_index(grid, 0, last, 30));
-  EXPECT_EQ(inner_texel(grid, 0, vec2(last + 1, 30) + 0.5f), texel_index(grid, 1, PageGrid::kGutter, 30));
+  EXPECT_EQ(inner_texel(grid, 0, vec2(last, 30) + 0.5f), index_of(grid, {0, last, 30}));
+  EXPECT_EQ(inner_texel(grid, 0, vec2(last + 1, 30) + 0.5f), index_of(grid, {1, PageGrid::kGutter, 30}));
 }
 
 TEST(DepthPanorama, TellsSlopesFromEdges) {

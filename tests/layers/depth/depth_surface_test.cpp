@@ -23,7 +23,7 @@ DepthPanorama panorama_of(int size, const Distance& distance) {
     for (int y = 0; y < size; y++) {
       for (int x = 0; x < size; x++) {
         const float metres = distance(panorama.grid.texel_ray(page, x, y));
-        panorama.nearness[texel_index(panorama.grid, page, x, y)] = metres > 0.0f ? 1.0f / metres : 0.0f;
+        panorama.nearness[index_of(panorama.grid, {page, x, y})] = metres > 0.0f ? 1.0f / metres : 0.0f;
       }
     }
   }

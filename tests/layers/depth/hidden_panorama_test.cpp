@@ -25,12 +25,6 @@ Hidden hidden_in(const MadePicture& made) {
   return {front, hidden_panorama(picture, front, grid, kReach)};
 }
 
-vec3 ray_of(const PageGrid& grid, size_t texel) {
-  const size_t size = static_cast<size_t>(grid.size());
-  return grid.texel_ray(static_cast<int>(texel / size / size), static_cast<int>(texel % size),
-                        static_cast<int>(texel / size % size));
-}
-
 // The angle by which a direction is inside of the ball's outline; negative outside.
 float inside_ball(vec3 ray) {
   return std::asin(kRadius / length(kBall)) - std::acos(std::min(dot(ray, normalize(kBall)), 1.0f));
@@ -50,7 +44,7 @@ TEST(HiddenPanorama, ContinuesTheWallBehindTheBall) {
   const float seen = kReach * (1.0f / ball - 1.0f / 3.2f);
   size_t inside = 0, off = 0, beyond = 0, elsewhere = 0;
   for (size_t texel = 0; texel < hidden.nearness.size(); texel++) {
-    const vec3 ray = ray_of(hidden.grid, texel);
+    const vec3 ray = ray_of(hidden.grid, texel_at(hidden.grid, texel));
     const bool is_there = hidden.nearness[texel] > 0.0f;
     const float depth = inside_ball(ray), pixel = hidden.grid.pixel();
     if (depth < -4.0f * pixel) elsewhere += is_there ? 1 : 0;
@@ -76,7 +70,7 @@ bool sees(const StereoCamera& stereo, int eye, vec3 point) {
 double share_right(const DepthPanorama& hidden, const StereoCamera& camera) {
   double right = 0.0, count = 0.0;
   for (size_t texel = 0; texel < hidden.nearness.size(); texel++) {
-    const vec3 ray = ray_of(hidden.grid, texel);
+    const vec3 ray = ray_of(hidden.grid, texel_at(hidden.grid, texel));
     if (!(hidden.nearness[texel] > 0.0f) || inside_ball(ray) < 2.0f * hidden.grid.pixel()) continue;
     const vec3 point = wall_distance(ray) * ray;
     if (!sees(camera, kLeft, point) && !sees(camera, kRight, point)) continue;
