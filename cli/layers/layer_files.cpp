@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <optional>
 
 #include "cli/console/console.h"
+#include "cli/console/long_job.h"
 #include "cli/view/export_site.h"
 #include "ods/files/atomic_folder.h"
 #include "ods/files/private_folder.h"
@@ -23,12 +25,6 @@ constexpr int kWidestPicture = 8192;    // pixels: headsets do not read larger J
 
 ods::LayeredPictureOptions picture_options(const LayersJob& job, int width) {
   return {std::min(width, kWidestPicture), job.write.quality, job.render.render.threads};
-}
-
-ods::Progress part_of(const ods::Progress& whole, double from, double to) {
-  ods::Progress part = whole;
-  if (whole.report) part.report = [&whole, from, to](double done) { whole.report(from + (to - from) * done); };
-  return part;
 }
 
 void report_cost(const ods::LayeredScene& scene, uint64_t bytes) {
@@ -51,6 +47,13 @@ void check_layer_files(const LayersJob& job) {
   if (!job.fallback.empty() && !fs::exists(fallback)) ods::check_layered_picture(fallback, picture_options(job, 4096));
 }
 
+ods::Progress layers_progress(const LayersJob& job, ProgressLines& lines, const GentleStop& stop) {
+  const auto start = std::chrono::steady_clock::now();
+  const ProgressStep step{"layers", 0, 0, job.render.output};
+  return {[&lines, start, step](double done) { lines.report(done, seconds_since(start), step); },
+          [&stop] { return stop.requested(); }};
+}
+
 void write_layer_files(const LayersJob& job, const ods::LayeredScene& layers, const ods::Progress& progress,
                        ProgressLines& lines) {
   std::optional<ods::PrivateFolder> draft;  // of a page, which gets copies of the files
@@ -59,10 +62,10 @@ void write_layer_files(const LayersJob& job, const ods::LayeredScene& layers, co
   const fs::path picture = layers.fallback.empty() ? fs::path() : path.parent_path() / layers.fallback;
   const bool makes_picture = !picture.empty() && !fs::exists(picture);
   const uint64_t bytes =
-      ods::write_layers(layers, path, job.write, part_of(progress, 0.0, makes_picture ? kShareOfScene : 1.0));
+      ods::write_layers(layers, path, job.write, ods::part_of(progress, 0.0, makes_picture ? kShareOfScene : 1.0));
   if (makes_picture) {
     ods::write_layered_picture(layers, picture, picture_options(job, layers.width),
-                               part_of(progress, kShareOfScene, 1.0));
+                               ods::part_of(progress, kShareOfScene, 1.0));
   }
   lines.clear();
   report_cost(layers, bytes);

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The files of ods layers: the layered scene with its stereo picture, or a page.
+// What ods layers has in common for scenes and pictures: its progress, and its files, which are the layered scene with
+// its stereo picture, or a page.
 #pragma once
+#include "cli/console/interrupt.h"
 #include "cli/console/progress.h"
 #include "cli/layers/layers_job.h"
 #include "ods/base/progress.h"
@@ -10,6 +12,9 @@
 
 // Throws UsageError and ods::Error if the files cannot be written.
 void check_layer_files(const LayersJob& job);
+
+// The progress of the command, from now on, as lines; `stop` cancels it. Both must outlive the result.
+ods::Progress layers_progress(const LayersJob& job, ProgressLines& lines, const GentleStop& stop);
 
 // Writes the files and prints their names.
 void write_layer_files(const LayersJob& job, const ods::LayeredScene& layers, const ods::Progress& progress,

@@ -77,26 +77,22 @@ void bake_layers(const LayersJob& given, ProgressLines& lines) {
   const ods::Shot shot = renderer.set(frame);
 
   const auto start = std::chrono::steady_clock::now();
-  const ProgressStep step{"layers", 0, 0, job.output};
   const GentleStop stop("ods: stopping\n");
-  const auto report_from = [&](double from, double to) {
-    return ods::Progress{
-        [&, from, to](double done) { lines.report(from + (to - from) * done, seconds_since(start), step); },
-        [&] { return stop.requested(); }};
-  };
+  const ods::Progress progress = layers_progress(given, lines, stop);
   try {
     ods::LayerCounts counts;
     ods::LayerGeometry geometry =
         ods::build_layers(scene, {shot.camera().position, ods::vec3(given.box)},
-                          given.width.value_or(2 * job.render.width), &counts, report_from(0.0, kGeometry));
+                          given.width.value_or(2 * job.render.width), &counts, ods::part_of(progress, 0.0, kGeometry));
     geometry.scene.yaw = shot.camera().yaw;
     geometry.scene.fallback = given.fallback;
     geometry.scene.name = fs::path(job.scene.name).filename().string();
     report_geometry(counts, seconds_since(start));
-    ods::LayeredScene layers = ods::light_layers(std::move(geometry), scene, renderer.renderer(),
-                                                 light_of(job, shot.options, options), report_from(kGeometry, kLight));
+    ods::LayeredScene layers =
+        ods::light_layers(std::move(geometry), scene, renderer.renderer(), light_of(job, shot.options, options),
+                          ods::part_of(progress, kGeometry, kLight));
     layers.light.probes = probes_of(scene, layers.box, shot.options);
-    write_layer_files(given, layers, report_from(kLight, 1.0), lines);
+    write_layer_files(given, layers, ods::part_of(progress, kLight, 1.0), lines);
   } catch (const ods::Error& error) {
     if (error.kind() != ods::ErrorKind::kCancelled) throw;
     if (fs::exists(unfinished_path(job))) note("the light so far is kept: the same command resumes");

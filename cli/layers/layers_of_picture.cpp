@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include "cli/console/console.h"
-#include "cli/console/interrupt.h"
 #include "cli/console/long_job.h"
 #include "cli/layers/layer_files.h"
 #include "ods/base/error.h"
@@ -54,20 +53,16 @@ void report_counts(const ods::PictureLayersCounts& counts, double seconds) {
 void make(const LayersJob& job, ProgressLines& lines) {
   const ods::StoredPicture picture = picture_of(job);
   const auto start = std::chrono::steady_clock::now();
-  const ProgressStep step{"layers", 0, 0, job.render.output};
   const GentleStop stop("ods: stopping\n");
-  const auto report_from = [&](double from, double to) {
-    return ods::Progress{
-        [&, from, to](double done) { lines.report(from + (to - from) * done, seconds_since(start), step); },
-        [&] { return stop.requested(); }};
-  };
+  const ods::Progress progress = layers_progress(job, lines, stop);
   try {
     ods::PictureLayersCounts counts;
-    ods::LayeredScene layers = ods::picture_layers(picture, options_of(job), &counts, report_from(0.0, kMaking));
+    ods::LayeredScene layers =
+        ods::picture_layers(picture, options_of(job), &counts, ods::part_of(progress, 0.0, kMaking));
     layers.name = std::filesystem::path(job.render.scene.name).filename().string();
     layers.fallback = job.fallback;
     report_counts(counts, seconds_since(start));
-    write_layer_files(job, layers, report_from(kMaking, 1.0), lines);
+    write_layer_files(job, layers, ods::part_of(progress, kMaking, 1.0), lines);
   } catch (const ods::Error& error) {
     if (error.kind() != ods::ErrorKind::kCancelled) throw;
     stop.end();

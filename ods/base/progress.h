@@ -14,4 +14,11 @@ struct Progress {
   std::function<bool()> cancelled;
 };
 
+// The progress of a part of a call: its report maps 0..1 to from..to of the whole, which must outlive the part.
+inline Progress part_of(const Progress& whole, double from, double to) {
+  Progress part = whole;
+  if (whole.report) part.report = [&whole, from, to](double done) { whole.report(from + (to - from) * done); };
+  return part;
+}
+
 }  // namespace ods

@@ -161,9 +161,7 @@ LayerGeometry build_layers(const Scene& scene, const HeadBox& box, int width, La
   counts.mirrors = mirrors.size();
   counts.panes = static_cast<size_t>(std::ranges::count(panes, 1));
   if (!mirrors.empty()) hits.set_mirrors(std::move(mirrors), mirrored_sky_distance(scene, box.center));
-  Progress probing = progress;
-  if (progress.report) probing.report = [&](double done) { progress.report(kShareOfProbe * done); };
-  const Probe probe = probe_scene(hits, box, width, probing);
+  const Probe probe = probe_scene(hits, box, width, part_of(progress, 0.0, kShareOfProbe));
   check_head_room(free_half(probe), box.size, ", or another `position`");
   geometry.sees_sky = probe.sees_sky;
   for (const uint8_t side : probe.sides) counts.seen_triangles += side != 0 ? 1 : 0;

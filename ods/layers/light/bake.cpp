@@ -83,14 +83,10 @@ Image bake(const Renderer& renderer, const std::shared_ptr<const TexelRays>& ray
   const RenderOptions render = options_for(options, rays->width, rays->height);
   check_memory(picture_bytes(render), fmt::format("a texture of {} x {}", rays->width, rays->height),
                "a smaller one needs less");
-  Progress rendering = progress, denoising = progress;
-  if (progress.report && options.is_denoised) {
-    rendering.report = [&](double done) { progress.report(kShareOfRendering * done); };
-    denoising.report = [&](double done) { progress.report(kShareOfRendering + (1.0 - kShareOfRendering) * done); };
-  }
-  Picture picture = develop(sampled(renderer, camera, options, render, rendering), render);
+  const double rendered = options.is_denoised ? kShareOfRendering : 1.0;
+  Picture picture = develop(sampled(renderer, camera, options, render, part_of(progress, 0.0, rendered)), render);
   if (options.is_denoised && has_variance(picture)) {
-    denoise(picture, camera, {true, render.threads, {}, false}, denoising);
+    denoise(picture, camera, {true, render.threads, {}, false}, part_of(progress, rendered, 1.0));
   }
   std::error_code ignored;
   if (!options.unfinished.empty()) std::filesystem::remove(options.unfinished, ignored);
