@@ -124,6 +124,24 @@ void render_scene(const VideoJob& job, ProgressLines& lines) {
   if (made) announce_video(job, *made, video.encode, video.frames.size(), begin);
 }
 
+struct EncodingJob {
+  const VideoJob& video;
+  const RenderJob& render;  // its exposure and tone curve
+  const ods::EncodeOptions& options;
+  Clock::time_point begin;  // of the whole command
+};
+
+// Makes the video of the frames that the journal keeps.
+void encode_all(const EncodingJob& job, ods::VideoJournal& journal, const std::vector<int>& frames,
+                ProgressLines& lines) {
+  const ods::DisplayTransform display{ods::brightened(job.render.exposure.value_or(0.0f), job.render.brighter),
+                                      job.render.tone.value_or(ods::DisplayTransform().tone)};
+  const ods::VideoPlan plan = ods::encode_frames(journal, frames, display, job.options, job.video.keep_frames,
+                                                 {report_encoding(job.video, lines, job.begin, frames.size()), {}});
+  lines.clear();
+  announce_video(job.video, plan, job.options, frames.size(), job.begin);
+}
+
 // Renders the frames with Cycles.
 void render_in_cycles(const VideoJob& job, ProgressLines& lines) {
   const auto begin = Clock::now();
@@ -158,12 +176,7 @@ void render_in_cycles(const VideoJob& job, ProgressLines& lines) {
   render_cycles_frames(render, frames);
   if (frames.shared) return lines.clear();
   note_sound_length(options, numbers.size());
-  const ods::DisplayTransform display{ods::brightened(render.exposure.value_or(0.0f), render.brighter),
-                                      render.tone.value_or(ods::DisplayTransform().tone)};
-  const ods::VideoPlan plan = ods::encode_frames(journal, numbers, display, options, job.keep_frames,
-                                                 {report_encoding(job, lines, begin, numbers.size()), {}});
-  lines.clear();
-  announce_video(job, plan, options, numbers.size(), begin);
+  encode_all({job, render, options, begin}, journal, numbers, lines);
 }
 
 // Stitches the frames from the views of a rig.
@@ -195,12 +208,7 @@ void stitch_views(const VideoJob& job, ProgressLines& lines) {
   if (!stitch.only.empty()) return lines.clear();
   note_sound_length(options, frames.size());
   note_unmeasured_light(render);
-  const ods::DisplayTransform display{ods::brightened(render.exposure.value_or(0.0f), render.brighter),
-                                      render.tone.value_or(ods::DisplayTransform().tone)};
-  const ods::VideoPlan plan = ods::encode_frames(journal, frames, display, options, job.keep_frames,
-                                                 {report_encoding(job, lines, begin, frames.size()), {}});
-  lines.clear();
-  announce_video(job, plan, options, frames.size(), begin);
+  encode_all({job, render, options, begin}, journal, frames, lines);
 }
 
 }  // namespace
