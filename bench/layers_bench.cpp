@@ -89,7 +89,7 @@ Scene to_scene(const Colours& truth, const LayerGeometry& geometry) {
   return as_scene(layers);
 }
 
-// Saves a view for whoever looks at it.
+// Saves a view if LAYERS_BENCH_PICTURES names a folder.
 void save_view(const std::string& name, const std::vector<vec3>& pixels) {
   if (const char* folder = std::getenv("LAYERS_BENCH_PICTURES")) {
     save_ppm(fmt::format("{}/{}.ppm", folder, name), kView, pixels);

@@ -47,7 +47,7 @@ export class Walk {
     this.studio.session.edit({ 'sidecar.position': rounded(point) }, 'walk');
   }
 
-  // direction: of the point. Returns why nobody can stand there, or ''.
+  // Stands on a picked point. direction: from the camera to it. Returns a message if the surface is too steep, else ''.
   async stand({ point, direction }) {
     const picked = (yaw, pitch) => ask('pick', { ...direction, yaw, pitch });
     const { yaw, pitch } = direction;

@@ -37,16 +37,16 @@ struct CyclesShot {
   int eye = ods::kLeft;
   ods::Extent size;
   ods::StereoCamera camera;           // lat-long, whole or a part; cycles_lacks() is empty
-  std::optional<ods::vec3> position;  // without it, and without a yaw, those of the file's camera
-  std::optional<float> yaw;           //
+  std::optional<ods::vec3> position;  // absent: that of the file's camera
+  std::optional<float> yaw;           // degrees; absent: that of the file's camera
   std::string device;                 // cpu, gpu, auto; empty: the file's
   uint32_t seed = 0;
-  int parts = 1;               // it gets one of so many shares of the samples
-  int samples = 0;             // of all parts; 0: the file's. So with the following if they are absent
-  std::optional<float> noise;  // 0: all pixels get all samples
-  double time_limit = 0.0;     // seconds, of all parts
-  std::optional<int> bounces;
-  std::optional<float> shutter;  // angle, degrees
+  int parts = 1;                 // it gets one of so many shares of the samples
+  int samples = 0;               // of all parts; 0: the file's
+  std::optional<float> noise;    // 0: all pixels get all samples; absent: the file's
+  double time_limit = 0.0;       // seconds, of all parts
+  std::optional<int> bounces;    // absent: the file's
+  std::optional<float> shutter;  // angle, degrees; absent: the file's
   bool transparent = false;      // also if the file is not
   int threads = 0;
 };

@@ -18,7 +18,7 @@ struct ComfortJob {
   SceneSource scene;  // its name is the input's, which may be a picture
   CameraOptions camera;
   ods::ComfortOptions comfort;
-  std::string right;       // the file of the right eye; empty: there is none
+  std::string right;       // the right eye's file; empty if there is one input
   ods::FormatHint format;  // of a picture or a video
   int width = 1024;        // of the pictures of a scene that are judged
   std::string heat;        // file for the levels as a picture; empty: none

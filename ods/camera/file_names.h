@@ -30,8 +30,8 @@ bool names_files(const std::string& path);
 // The files that a name stands for: 1, 2 (left, right), 6, or 12 (those of the left eye first).
 std::vector<std::string> files_of(const std::string& path);
 
-// The name that stands for these files, in this order; whole words differ. Returns nullopt if there is none, because a
-// name has braces or bars of its own.
+// The name that stands for these files, in this order: the whole words in which they differ are in braces. Returns
+// nullopt if a file's own name has braces or bars.
 std::optional<std::string> joined_name(const std::vector<std::string>& files);
 
 // The same path without what stands for eyes or faces: trip_{L|R}_360.jpg becomes trip_360.jpg.

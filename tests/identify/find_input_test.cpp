@@ -22,7 +22,7 @@ class FindInput : public testing::Test {
     std::filesystem::create_directories(std::filesystem::path(folder.path(name)).parent_path());
     folder.write(name, "x");
   }
-  // The file of the other eye; empty if there is none.
+  // The other eye's file; empty if none is found.
   std::string other(const std::string& name) const {
     const std::optional<EyePair> pair = find_eye_beside(folder.path(name));
     if (!pair) return "";

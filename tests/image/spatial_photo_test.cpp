@@ -90,7 +90,7 @@ TEST(SpatialPhoto, TheBaselineIsReadByItsStandardName) {
   const std::string old = place(number(0x11, 4) + number(50000, 4));
   const size_t at = file.find(old);
   ASSERT_NE(at, std::string::npos);
-  // Of the same length, with a field behind it that is not there by its flags.
+  // A box of the same length, whose flags announce only the first of its fields.
   file.replace(at, old.size(), box("cmex", number(1, 4) + number(60000, 4) + std::string(16, '\0')));
   folder.write("a.heic", file);
   EXPECT_NEAR(read_heif_items(FileInput(folder.path("a.heic"))).baseline, 0.06, 1e-9);
