@@ -117,10 +117,9 @@ class Served : public Cli {
                body);
   }
 
-  // Present and peak resident memory of the server, kilobytes.
-  long resident() const { return memory("VmRSS:"); }
-  long peak() const { return memory("VmHWM:"); }
-  long memory(const std::string& name) const {
+  // Resident memory of the server, kilobytes.
+  long resident() const {
+    const std::string name = "VmRSS:";
     std::ifstream status(fmt::format("/proc/{}/status", server->process()));
     for (std::string line; std::getline(status, line);) {
       if (line.starts_with(name)) return std::stol(line.substr(name.size()));
