@@ -83,6 +83,14 @@ export function groupsOf(view) {
       { path: 'exposure', label: 'Exposure', unit: 'stops', step: 0.05, range: [-20, 20] },
       { path: 'tone', label: 'Tone', options: options(studio.tones) },
       { path: 'env', label: 'Environment', options: options(studio.envs, { 0: 'None', auto: 'As it suits' }) },
+      { label: 'Sun', when: (s) => s.env === 'sky', parts: [
+        { path: 'sun.elevation', label: 'Height', name: 'The sun’s height', unit: '°', step: 0.5, range: [0, 90] },
+        { path: 'sun.azimuth', label: 'Direction', name: 'The sun’s direction', unit: '°', step: 0.5, range: turns },
+      ] },
+      { label: 'Around', parts: [
+        { path: 'turn', label: 'Turn', name: 'The environment’s turn', unit: '°', step: 0.5, range: turns },
+        { path: 'strength', label: 'Strength', name: 'The environment’s strength', step: 0.01, range: [0, 1e6] },
+      ] },
       ...(studio.variants.length ? [{ path: 'variant', label: 'Variant', options: [['', 'First'], ...studio.variants.map((name) => [name, name])] }] : []),
       ...(studio.duration ? [{ path: 'time', label: 'Time', unit: 's', step: 0.02, range: [0, studio.duration] }] : []),
     ] },

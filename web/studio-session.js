@@ -26,6 +26,9 @@ function put(settings, path, value) {
   else parent[last] = value;
 }
 
+// The settings for which the server opens the scene again, and counts its frames from 1.
+const REOPENS = /^(env|sun|turn|strength|variant)/;
+
 // The paths where two settings differ.
 function changes(a, b, at = '') {
   if (same(a, b)) return [];
@@ -156,8 +159,8 @@ export class Session extends EventTarget {
       this.answer = ask('set', { ...settings, look: this.look() });
       try {
         const { revision, command, note, end } = await this.answer;
-        const { env, variant } = this.sent ?? settings;
-        if (revision < this.revision || env !== settings.env || variant !== settings.variant) this.restart();
+        const isReopened = changes(this.sent ?? settings, settings).some((path) => REOPENS.test(path));
+        if (revision < this.revision || isReopened) this.restart();
         Object.assign(this, { revision, sent: settings, isOthers: false });
         Object.assign(side, { revision, command, note, end, sent: settings });
         this.fault = '';

@@ -124,6 +124,9 @@ void add_light_options(Options& options, LightOptions& light) {
                "light from all around, instead of the scene's own: studio, sky, sky:elevation=35,azimuth=120 (of the "
                "sun), white, a lat-long picture (.hdr, .exr, ...), R,G,B or one brightness; 0 is none. A scene without "
                "light gets suitable light");
+  options.number("--env-turn", light.turn, -360.0f, 360.0f,
+                 "turn the light from all around, clockwise seen from above, degrees");
+  options.number("--env-strength", light.strength, 0.0f, 1e6f, "multiply the light from all around by this");
   options.text("--lamp", "auto|none|X,Y,Z", light.lamp,
                "a soft lamp that shines down from there; by default (auto) only closed rooms without light get one");
   options.choice("--light-unit", light.lamp_unit, ods::kLampUnitTable,
@@ -139,10 +142,21 @@ std::string environment_file(const std::string& option, const std::string& word)
   return word.empty() || word == "env" ? "" : parse_environment(option, word).file;
 }
 
+std::optional<ods::SkyOptions> described_sky(const std::string& option, const std::string& word) {
+  const Named named = parse_environment(option, word);
+  return named.surround == Surround::kSky ? std::optional(named.sky) : std::nullopt;
+}
+
+std::string sky_word(const ods::SkyOptions& sky) {
+  return sky == ods::SkyOptions() ? "sky" : fmt::format("sky:elevation={},azimuth={}", sky.elevation, sky.azimuth);
+}
+
 ods::LightChoices read_choices(const LightOptions& light, bool transparent, const std::string& confined_to) {
   ods::LightChoices choices;
   read_lamp(light.lamp, choices);
   choices.unlit = light.unlit;
+  choices.turn = light.turn;
+  choices.strength = light.strength;
   choices.ground = !transparent;
   if (light.environment.empty()) return choices;
   const Named named = parse_environment("--env", light.environment);

@@ -16,7 +16,11 @@ struct LightOptions {
   std::string lamp;         // --lamp
   std::string background;   // --background
   bool unlit = false;       // --unlit
+  float turn = 0.0f;        // --env-turn
+  float strength = 1.0f;    // --env-strength
   ods::LampUnit lamp_unit = ods::LampUnit::kAuto;
+
+  bool operator==(const LightOptions&) const = default;
 };
 
 void add_light_options(Options& options, LightOptions& light);
@@ -24,6 +28,12 @@ void add_light_options(Options& options, LightOptions& light);
 // Returns the file that --env or --background (option) names; empty for keywords, numbers and an empty value. Throws
 // UsageError.
 std::string environment_file(const std::string& option, const std::string& word);
+
+// The sky that --env or --background (option) describes; nullopt if it is something else. Throws UsageError.
+std::optional<ods::SkyOptions> described_sky(const std::string& option, const std::string& word);
+
+// The value of --env for a sky.
+std::string sky_word(const ods::SkyOptions& sky);
 
 // Reads the options. transparent: the picture has no background, and so no ground. confined_to: confining_folder().
 // Throws UsageError, and Error(kInput) for files.

@@ -23,8 +23,7 @@ ods::Denoiser denoiser_of(const RenderJob& job) {
 
 // Built-in scenes in their own light are made for exposure 0.
 bool has_known_light(const RenderJob& job) {
-  const auto& [environment, lamp, background, unlit, lamp_unit] = job.scene.light;
-  return ods::find_builtin(job.scene.name) && environment.empty() && lamp.empty() && background.empty() && !unlit;
+  return ods::find_builtin(job.scene.name) && job.scene.light == LightOptions();
 }
 
 // Returns nullopt if look_first() must choose, also for a scene-linear file if its noise is judged.
@@ -75,6 +74,8 @@ ods::Settings scene_settings(const SceneSource& source, const std::string& anima
   add("solid-glass", flag(solid_glass));
   add("portable", flag(portable));
   add_environment(settings, "env", light.environment, "of the scene", confined_to);
+  add("env-turn", fmt::format("{}", light.turn));
+  add("env-strength", fmt::format("{}", light.strength));
   add("lamp", light.lamp.empty() ? "auto" : light.lamp);
   add_environment(settings, "background", light.background, "env", confined_to);
   add("unlit", flag(light.unlit));

@@ -161,7 +161,11 @@ Studio::Settings Studio::suiting(const SceneSource& source, const ods::Scene& sc
   const bool needs_none = ods::find_builtin(source.name) || scene.as_painted;
   settings.live.exposure = needs_none ? 0.0f : rounded(usual_exposure(scene, settings.live.camera), 100.0);
   if (scene.as_painted) settings.live.tone = ods::ToneCurve::kLinear;
-  settings.environment = source.light.environment.empty() ? "auto" : source.light.environment;
+  const std::optional<ods::SkyOptions> sky = described_sky("--env", source.light.environment);
+  settings.sky = sky.value_or(ods::SkyOptions());
+  settings.environment = sky ? "sky" : source.light.environment.empty() ? "auto" : source.light.environment;
+  settings.turn = source.light.turn;
+  settings.strength = source.light.strength;
   settings.variant = source.variant;
   return settings;
 }
@@ -202,6 +206,9 @@ Json Studio::settings_json(const Settings& settings) const {
           {"exposure", settings.live.exposure},
           {"tone", ods::tone_curve_name(settings.live.tone)},
           {"env", settings.environment},
+          {"sun", {{"elevation", settings.sky.elevation}, {"azimuth", settings.sky.azimuth}}},
+          {"turn", settings.turn},
+          {"strength", settings.strength},
           {"variant", settings.variant},
           {"time", settings.live.time},
           {"width", settings.width}};
@@ -269,6 +276,12 @@ Studio::Settings Studio::read_settings(const std::string& text) const {
     settings.live.time = static_cast<double>(time);
     reader.integer("width", settings.width, 64, kMaxWidth);
     read_text(reader, "env", settings.environment);
+    reader.part("sun", [&](JsonReader& sun) {
+      sun.number("elevation", settings.sky.elevation, 0.0f, 90.0f);
+      sun.number("azimuth", settings.sky.azimuth, -360.0f, 360.0f);
+    });
+    reader.number("turn", settings.turn, -360.0f, 360.0f);
+    reader.number("strength", settings.strength, 0.0f, 1e6f);
     read_text(reader, "variant", settings.variant);
     reader.part("look", [&](JsonReader& look) { read_look(look, settings.look); });
   });
@@ -280,10 +293,12 @@ Studio::Settings Studio::read_settings(const std::string& text) const {
 
 WebAnswer Studio::set(const std::string& body) {
   const Settings wanted = read_settings(body);
-  if (wanted.environment != settings_.environment || wanted.variant != settings_.variant) {
-    SceneSource source = source_;
-    source.light.environment = environment_of(wanted.environment, false);
-    source.variant = wanted.variant;
+  SceneSource source = source_;
+  source.light.environment = environment_of(wanted, false);
+  source.light.turn = wanted.turn;
+  source.light.strength = wanted.strength;
+  source.variant = wanted.variant;
+  if (!(source.light == source_.light) || source.variant != source_.variant) {
     open(source, false);
   }
   settings_ = wanted;
@@ -317,8 +332,10 @@ std::vector<std::string> Studio::words(const std::string& maps, bool is_shown) c
   add_member("--light-unit", ods::kLampUnitTable, source_.light.lamp_unit);
   if (!source_.confine.empty() && !is_shown) add("--confine", source_.confine);
   if (settings_.environment != "auto") {
-    add("--env", environment_of(settings_.environment, is_shown));
+    add("--env", environment_of(settings_, is_shown));
   }
+  if (settings_.turn != 0.0f) add("--env-turn", fmt::format("{}", settings_.turn));
+  if (settings_.strength != 1.0f) add("--env-strength", fmt::format("{}", settings_.strength));
   if (!source_.light.lamp.empty()) add("--lamp", source_.light.lamp);
   if (!source_.light.background.empty()) add("--background", source_.light.background);
   if (source_.light.unlit) words.emplace_back("--unlit");

@@ -42,6 +42,9 @@ class Studio {
     ods::Sidecar sidecar;
     ods::LiveSettings live;
     std::string environment;
+    ods::SkyOptions sky;  // for the environment "sky"
+    float turn = 0.0f;    // of the environment, as LightOptions has it
+    float strength = 1.0f;
     std::string variant;
     int width = 4096;
     ods::LiveView look;
@@ -63,7 +66,7 @@ class Studio {
   static Settings suiting(const SceneSource& source, const ods::Scene& scene);
   void open(const SceneSource& source, bool is_new);
   std::string title() const;
-  std::string environment_of(const std::string& word, bool is_shown) const;
+  std::string environment_of(const Settings& settings, bool is_shown) const;
   std::string missing_files(const std::vector<std::string>& command) const;
   std::string without_paths(std::string text) const;
   std::vector<std::string> words(const std::string& maps, bool is_shown) const;

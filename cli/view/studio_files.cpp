@@ -54,8 +54,10 @@ std::string Studio::title() const {
   return dropped_scene_.path.empty() ? source_.name : dropped_scene_.name;
 }
 
-// The value of --env for a choice of the page. is_shown: as for words().
-std::string Studio::environment_of(const std::string& word, bool is_shown) const {
+// The value of --env for the page's settings. is_shown: as for words().
+std::string Studio::environment_of(const Settings& settings, bool is_shown) const {
+  const std::string& word = settings.environment;
+  if (word == "sky") return sky_word(settings.sky);
   if (!dropped_light_.path.empty() && word == dropped_light_.name) {
     return is_shown ? dropped_light_.shown() : dropped_light_.path;
   }

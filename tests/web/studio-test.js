@@ -14,7 +14,7 @@ export const SETTINGS = {
     picture: { layout: 'top-bottom' }, projection: { name: 'lat-long' }, position: [0, 1.5, 0], yaw: 0, pitch: 0, roll: 0, ipd: 0.065,
     neck: 0, merge_top: merge, merge_bottom: merge, axis: null, convergence: { mode: 'parallel', distance: 2 }, lens: { radius: 0, focus_distance: 2 },
   },
-  exposure: 1, tone: 'neutral', env: 'auto', variant: '', time: 0, width: 4096,
+  exposure: 1, tone: 'neutral', env: 'auto', sun: { elevation: 35, azimuth: 120 }, turn: 0, strength: 1, variant: '', time: 0, width: 4096,
 };
 
 const camera = { projection: { center: [0, 0], span: [6.28, 3.14], angle: 3.14, lens_back: [0, 0, 1] } };

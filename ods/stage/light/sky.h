@@ -20,6 +20,8 @@ inline constexpr float kSunAboveAir = 6.08f;
 struct SkyOptions {
   float elevation = 35.0f;  // sun's centre, degrees above the horizon, 0..90
   float azimuth = 120.0f;   // sun, degrees clockwise from -Z, seen from above
+
+  bool operator==(const SkyOptions&) const = default;
 };
 
 // Makes a sky of 1024 x 512 texels. The sun's disc is spread over the texels that it covers, so that the kernel's

@@ -184,6 +184,29 @@ std::string advice_for(const SceneRays& rays, const Survey& survey, const LightP
                      scene.lights.empty() ? glowing : "that of its lamps");
 }
 
+// Turns it clockwise, seen from above: a sun at the azimuth a appears at a + degrees.
+void turn(Environment& environment, float degrees) {
+  if (environment.width == 0 || degrees == 0.0f) return;
+  const auto width = static_cast<ptrdiff_t>(environment.width);
+  const double shift = static_cast<double>(degrees) / 360.0 * static_cast<double>(width);
+  const auto whole = static_cast<ptrdiff_t>(std::floor(shift));
+  const auto part = static_cast<float>(shift - std::floor(shift));
+  const std::vector<vec3> before = environment.texels;
+  for (ptrdiff_t y = 0; y < environment.height; y++) {
+    for (ptrdiff_t x = 0; x < width; x++) {
+      const auto at = [&](ptrdiff_t column) {
+        return before[static_cast<size_t>(y * width + ((column % width) + width) % width)];
+      };
+      environment.texels[static_cast<size_t>(y * width + x)] = mix(at(x - whole), at(x - whole - 1), part);
+    }
+  }
+}
+
+void adjust(Environment& environment, const LightChoices& choices) {
+  turn(environment, choices.turn);
+  environment.radiance *= choices.strength;
+}
+
 }  // namespace
 
 float emission_level(const Scene& scene) {
@@ -264,6 +287,8 @@ void apply_light(Scene& scene, const Survey& survey, const LightPlan& plan, cons
   }
   if (plan.surround == Surround::kSky) scene.environment = make_sky(plan.sky);
   if (plan.surround == Surround::kGiven) scene.environment = choices.given;
+  adjust(scene.environment, choices);
+  if (scene.background) adjust(*scene.background, choices);
   if (plan.ground) {
     const vec3 size = survey.core.high - survey.core.low, middle = 0.5f * (survey.core.low + survey.core.high);
     const float largest = std::max({size.x, size.y, size.z});

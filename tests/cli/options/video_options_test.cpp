@@ -50,6 +50,8 @@ const std::map<std::string, std::string> kOfFrames = with_circle({
     {"--up", "z"},
     {"--light-unit", "watt"},
     {"--env", "0.5"},
+    {"--env-turn", "20"},
+    {"--env-strength", "0.5"},
     {"--lamp", "0,0.5,0"},
     {"--background", "0.5"},
     {"--unlit", ""},

@@ -72,6 +72,15 @@ TEST_F(RenderLight, EnvironmentsHaveNames) {
   EXPECT_EQ(render("--env sky:"), render("--env sky"));
 }
 
+TEST_F(RenderLight, EnvironmentsAreTurnedAndMultiplied) {
+  EXPECT_EQ(behind("--env 0.5 --env-strength 3"), 1.5f);
+  EXPECT_EQ(behind("--env 0.5 --env-strength 0"), 0.0f);
+  EXPECT_EQ(behind("--env 0.5 --background 2 --env-strength 3"), 2.0f) << "the background has its own brightness";
+  const float turned = behind("--env sky:elevation=60,azimuth=30 --env-turn 90");
+  EXPECT_NEAR(turned, behind("--env sky:elevation=60,azimuth=120"), 1e-3f * turned);
+  EXPECT_GT(std::abs(turned - behind("--env sky:elevation=60,azimuth=30")), 0.05f * turned) << "could not fail";
+}
+
 TEST_F(RenderLight, BackgroundIsSeenBehind) {
   const float walls = behind("");
   EXPECT_GT(walls, 0.05f);

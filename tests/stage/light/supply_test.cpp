@@ -42,6 +42,32 @@ PunctualLight lamp_in(vec3 position, int kind = kLightPoint) {
   return light;
 }
 
+// A row of eight columns of 45 degrees, of which one is bright.
+TEST(Supply, TurnsAndMultipliesTheEnvironment) {
+  LightChoices choices;
+  choices.surround = Surround::kGiven;
+  choices.given = {vec3(1.0f), 8, 1, std::vector<vec3>(8, vec3(0.0f))};
+  choices.given.texels[1] = vec3(4.0f, 2.0f, 1.0f);
+  const auto columns = [&](float degrees, float strength) {
+    Scene scene = make_ball(0.3f);
+    scene.background = choices.given;
+    choices.turn = degrees, choices.strength = strength;
+    supplied(scene, choices);
+    EXPECT_EQ(scene.background->texels, scene.environment.texels);
+    EXPECT_EQ(scene.environment.radiance, vec3(strength));
+    std::vector<float> reds;
+    for (const vec3& texel : scene.environment.texels) reds.push_back(texel.x);
+    return reds;
+  };
+  using Reds = std::vector<float>;
+  EXPECT_EQ(columns(0.0f, 1.0f), Reds({0, 4, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(columns(90.0f, 2.0f), Reds({0, 0, 0, 4, 0, 0, 0, 0}));
+  EXPECT_EQ(columns(-90.0f, 1.0f), Reds({0, 0, 0, 0, 0, 0, 0, 4}));
+  EXPECT_EQ(columns(360.0f, 1.0f), columns(0.0f, 1.0f));
+  EXPECT_EQ(columns(11.25f, 1.0f), Reds({0, 3, 1, 0, 0, 0, 0, 0})) << "a quarter of a column";
+  EXPECT_EQ(columns(-11.25f, 1.0f), Reds({1, 3, 0, 0, 0, 0, 0, 0}));
+}
+
 TEST(Supply, FloatingThingsGetAStudioWithoutAGround) {
   Scene scene = make_space();
   const size_t instances = scene.instances.size();
