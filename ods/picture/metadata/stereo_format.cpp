@@ -250,6 +250,8 @@ static std::optional<LayoutGuess> layout_in(FormatSource source, const Evidence&
     case FormatSource::kOptions:
       if (names_eye(of.path)) return guess(Layout::kSeparate, "its name stands for two files");
       if (of.known.one_eye) return guess({}, "as asked");
+      if (!of.known.seen_lenses.empty())
+        return LayoutGuess{of.known.layout, FormatSource::kPixels, of.known.seen_lenses};
       return of.known.layout ? std::optional(guess(of.known.layout, "as asked")) : std::nullopt;
     case FormatSource::kOwnMetadata:
       if (of.is_photo && of.info.is_pair) return guess(Layout::kSeparate, "its stereo pair has both eyes");
@@ -276,7 +278,7 @@ static std::optional<LayoutGuess> layout_in(FormatSource source, const Evidence&
       if (of.known.projection) return layout_of_shape(file, of.known.projection);
       return layout_of_shape(file, of.words.projection ? std::optional(of.words.projection->setting) : std::nullopt);
     case FormatSource::kNothing:
-      return guess({}, "by default");
+      return guess({}, "nothing tells of two eyes");
   }
   return std::nullopt;
 }
@@ -366,6 +368,13 @@ struct ProjectionGuess {
 
 }  // namespace
 
+// Most pictures that are not twice as wide as high are flat.
+static ProjectionGuess flat_guess(Extent eye) {
+  ProjectionSetting flat = find_projection("perspective")->setting;
+  flat.aspect = static_cast<float>(eye.width) / static_cast<float>(eye.height);
+  return {flat, "nothing tells what it shows, and its shape is not a sphere's"};
+}
+
 // eye: its size before squeezing.
 static std::optional<ProjectionGuess> projection_in(FormatSource source, const Evidence& of, Extent eye) {
   switch (source) {
@@ -381,7 +390,7 @@ static std::optional<ProjectionGuess> projection_in(FormatSource source, const E
         return ProjectionGuess{shape->setting, "an eye has that shape"};
       return std::nullopt;
     case FormatSource::kNothing:
-      return ProjectionGuess{find_projection("lat-long")->setting, "by default"};
+      return flat_guess(eye);
     default:
       return std::nullopt;
   }
@@ -414,6 +423,7 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
   of.camera = first_answer([&](FormatSource source) { return camera_in(source, of, format.guesses); });
   format.layout = *first_answer([&](FormatSource source) { return layout_in(source, of); });
   format.eye = find_eye(info, of.sidecar);
+  format.front_and_back = known.front_and_back;
   const Layout layout = format.layout.layout.value_or(Layout::kSeparate);
   if (is_anaglyph(layout)) {
     throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': the eyes of an anaglyph cannot be separated", path));
@@ -431,7 +441,7 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
   if (const auto doubt = info.text.find(std::string(kPixelDoubt)); doubt != info.text.end()) {
     format.guesses.push_back(doubt->second);
   }
-  if (is_guess(format.layout)) {
+  if (is_guess(format.layout) && known.seen_lenses.empty()) {
     const std::string_view name = format.layout.layout ? layout_name(layout) : "one eye";
     format.guesses.push_back(fmt::format("{}: {}", name, format.layout.reason));
   }
