@@ -189,7 +189,8 @@ std::vector<PlayerView> picture_views(const FileInfo& info, const StereoFormat& 
                                       const std::string& path) {
   PlayerView gpano{"reads GPano", "mono, flat", "it has no GPano"};
   if (has_gpano) gpano.takes_it_for = "mono, lat-long", gpano.reason = "from GPano, which cannot express stereo";
-  const bool is_unknown = format.is_open && format.layout.source == FormatSource::kNothing;
+  const bool is_unknown =
+      format.is_open && format.layout.source == FormatSource::kNothing && format.camera.projection.kind == kPerspective;
   const std::string reason = is_unknown ? "nothing tells what it shows: it looks flat" : format.layout.reason;
   std::vector<PlayerView> views{{"ods", picture_text(format), reason}, gpano};
   if (format.is_photo && !info.is_pair) {

@@ -100,7 +100,7 @@ TEST(FilledHalves, AreTwoFisheyes) {
   const TemporaryFolder folder;
   constexpr float kCorner = 1.42f;
   for (const World world : {World::kHall, World::kField}) {
-    for (const float fov : {185.0f, 190.0f, 200.0f, 215.0f}) {
+    for (const float fov : {180.0f, 190.0f, 200.0f, 220.0f}) {
       SimulatedCamera camera;
       for (FisheyeLens& each : camera.lenses) each = lens(240, 240, kCorner * 240, kCorner * fov);
       camera.lenses[1].yaw = 180.0f;
