@@ -66,6 +66,8 @@ ProbeReport probe(const std::string& path) {
       report.warnings.push_back(video_warnings(*report.video, track, path));
       const ods::MediaFile media = ods::open_media(path, {.track = static_cast<int>(track.id)});
       add_wordless(judge_wordless(media), report.warnings.back());
+      const std::string fault = ods::reading_fault(path, track.id);
+      if (!fault.empty()) report.warnings.back().push_back(fault);
       const bool is_seen = media.identity && !media.identity->readings.empty();
       report.seen.push_back(is_seen ? media.identity : std::nullopt);
     }

@@ -13,7 +13,7 @@ namespace ods {
 namespace {
 
 constexpr float kUsualFov = 195.0f;  // degrees: of cameras that look ahead and back
-constexpr float kMinFov = 183.0f, kMaxFov = 240.0f;
+constexpr float kMinFov = 183.0f, kMaxFov = 252.0f;
 
 // The samples of a zone beside the camera, where both lenses look.
 struct Zone {

@@ -64,6 +64,26 @@ std::optional<SeenLenses> find_lenses(const LensImages& images, std::optional<fl
   return seen;
 }
 
+// Two fisheyes that look ahead and back and fill their square halves up to the corners, as FFmpeg's v360 writes them.
+// The halves' edges are at half the field of view; a larger circle has parts of the corners, too, which overlap.
+static std::optional<SeenLenses> find_filled_halves(const LensImages& images, std::optional<float> fov) {
+  constexpr float kWider = 1.12f, kSure = 0.6f;
+  const int width = images.first.width, height = images.first.height;
+  if (100 * std::abs(width - height) > width) return std::nullopt;
+  FisheyeLens lens;
+  lens.center = 0.5f * vec2(static_cast<float>(width), static_cast<float>(height));
+  lens.radius = kWider * 0.5f * static_cast<float>(std::min(width, height));
+  const std::optional<float> wider = fov ? std::optional(kWider * *fov) : std::nullopt;
+  const Image first = lens_detail(images.first, lens, kCoarseDetail),
+              second = lens_detail(images.second, lens, kCoarseDetail);
+  const OppositeLenses opposite = align_front_and_back(images, {first, second}, {lens, lens}, wider);
+  const bool overlaps = opposite.source == FovSource::kOverlap || (fov && opposite.source == FovSource::kTold);
+  if (!overlaps || opposite.alike < kSure || sameness({first, second}, {lens, lens}) > kMinSame) return std::nullopt;
+  SeenLenses seen{opposite.lenses, true, opposite.alike, opposite.source};
+  for (FisheyeLens& each : seen.lenses) each.radius /= kWider, each.fov /= kWider;
+  return seen;
+}
+
 // --- files -----------------------------------------------------------------------------------------------------------
 
 // A part of an image; negative light is black.
@@ -106,24 +126,31 @@ static std::optional<float> told_fov(const std::optional<ProjectionSetting>& tol
   return told && told->fov != 180.0f ? std::optional(told->fov) : std::nullopt;
 }
 
-static std::string opposite_text(const SeenLenses& seen) {
-  std::string why;
+// The lenses for messages, without their circles. The angle is that of the visible circle. A circle that was cut out of
+// a larger one has another angle across the whole half, which converters such as FFmpeg's v360 call its field of view.
+static std::string opposite_text(const SeenLenses& seen, Extent half) {
+  const FisheyeLens& lens = seen.lenses[0];
+  const int side = std::min(half.width, half.height);
+  const float across = lens.fov * 0.5f * static_cast<float>(side) / lens.radius;
+  std::string text = fmt::format("two fisheyes that look ahead and back, {:.1f} degrees each", lens.fov);
+  if (seen.fov_source == FovSource::kOverlap && std::abs(across - lens.fov) > 1.0f)
+    text += fmt::format(", {:.1f} across {} pixels", across, side);
+  return text;
+}
+
+// The source of the lenses' angle.
+static std::string angle_text(const SeenLenses& seen) {
   switch (seen.fov_source) {
     case FovSource::kTold:
-      why = "as specified";
-      break;
+      return "as specified";
     case FovSource::kOverlap:
-      why = fmt::format("they agree by {:.2f} where both see", seen.alike);
-      break;
+      return fmt::format("they agree by {:.2f} where both see", seen.alike);
     case FovSource::kRims:
-      why = fmt::format("nothing is seen by both, and their rims agree by {:.2f}", seen.alike);
-      break;
+      return fmt::format("nothing is seen by both, and their rims agree by {:.2f}", seen.alike);
     case FovSource::kNothing:
-      why = "a usual angle, because their pictures are too smooth to show it: specify it with `input-fov`";
-      break;
+      return "a usual angle, because their pictures are too smooth to show it: specify it with `input-fov`";
   }
-  return fmt::format("two fisheyes that look ahead and back, {:.1f} degrees each (`circle` {},{}): {}",
-                     seen.lenses[0].fov, lens_text(seen.lenses[0]), lens_text(seen.lenses[1]), why);
+  return {};
 }
 
 static std::optional<Layout> known_layout(const FormatHint& known, const std::string& path) {
@@ -153,6 +180,14 @@ static bool is_right_first(const LensImages& halves, const std::vector<FisheyeLe
   return static_cast<float>(parallax_in(pairs, projection).order) < -kSure;
 }
 
+// Adds to `notes` and to `all` what was found: `lenses`, their circles, and the evidence.
+static void report(const std::string& lenses, const std::string& evidence, const FormatHint& asked, FormatHint& all,
+                   std::vector<std::string>& notes) {
+  if (!asked.layout) all.seen_lenses = fmt::format("its pixels show {}{}", lenses, evidence);
+  notes.push_back(
+      fmt::format("{} (`circle` {},{}){}", lenses, lens_text(all.lenses[0]), lens_text(all.lenses[1]), evidence));
+}
+
 bool wants_lenses(const FormatHint& known, const std::string& path, bool is_open) {
   const std::optional<ProjectionSetting> told = known_projection(known, path);
   const std::optional<Layout> layout = known_layout(known, path);
@@ -179,6 +214,7 @@ FormatHint with_lenses(const StoredPicture& whole, const std::string& path, cons
   };
   const Image first = half(0), second = half(1);
   std::optional<SeenLenses> seen = find_lenses({first, second}, told_fov(told));
+  if (!seen) seen = find_filled_halves({first, second}, told_fov(told));
   if (!seen) return known;
   const bool right_first =
       !seen->front_and_back && !known_layout(known, path) && is_right_first({first, second}, seen->lenses);
@@ -189,7 +225,7 @@ FormatHint with_lenses(const StoredPicture& whole, const std::string& path, cons
   all.layout = layout;
   if (seen->front_and_back) {
     all.front_and_back = true, all.lenses = seen->lenses, all.projection = find_projection("fisheye")->setting;
-    notes.push_back(opposite_text(*seen));
+    report(opposite_text(*seen, *eye), ": " + angle_text(*seen), known, all, notes);
     return all;
   }
   const bool are_inscribed = is_inscribed(seen->lenses[0], *eye) && is_inscribed(seen->lenses[1], *eye);
@@ -200,9 +236,9 @@ FormatHint with_lenses(const StoredPicture& whole, const std::string& path, cons
     std::swap(all.lenses[0], all.lenses[1]);
     all.layout = layout_with({arrangement_of(*layout).how, true});
   }
-  notes.push_back(fmt::format(
-      "a pair of fisheyes{}{}: `circle` {},{}", are_inscribed ? "" : " whose circles do not touch the edges",
-      right_first ? ", the right eye first" : "", lens_text(all.lenses[0]), lens_text(all.lenses[1])));
+  const char* const edges = are_inscribed ? "" : " whose circles do not touch the edges";
+  report(fmt::format("a pair of fisheyes{}{}", edges, right_first ? ", the right eye first" : ""), "", known, all,
+         notes);
   return all;
 }
 

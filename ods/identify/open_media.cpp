@@ -310,6 +310,16 @@ MediaFile open_media(const std::string& path, const MediaOptions& options) {
   return media;
 }
 
+std::string reading_fault(const std::string& path, uint64_t track) {
+  try {
+    const VideoDecoder decoder(path, track);
+    return {};
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    return error.what();
+  }
+}
+
 void refuse_unlikely(const MediaFile& media) {
   if (!media.identity || media.identity->is_likely()) return;
   if (!media.identity->readings.empty()) {

@@ -45,6 +45,10 @@ struct MediaFile {
 // choose_track(), and for a file that cannot be read; a misfit of format and size is found by the next step.
 MediaFile open_media(const std::string& path, const MediaOptions& options = {});
 
+// The reason why the pictures of a video's track cannot be read, for messages: "'a.mp4': its pictures are interlaced;
+// ...". Empty if they can. Only their description is read, no picture.
+std::string reading_fault(const std::string& path, uint64_t track);
+
 // Throws Error(kInput) if the pixels were needed, and none of their readings is likely.
 void refuse_unlikely(const MediaFile& media);
 

@@ -179,6 +179,7 @@ std::vector<std::string> video_warnings(const VideoFile& video, const VideoTrack
 // --- pictures --------------------------------------------------------------------------------------------------------
 
 static std::string picture_text(const StereoFormat& format) {
+  if (format.front_and_back) return "two fisheyes, ahead and back";
   if (format.is_photo) return fmt::format("both eyes, {}", projection_name(format.camera.projection));
   return fmt::format("{}, {}", format.layout.layout ? layout_name(*format.layout.layout) : "mono",
                      projection_name(format.camera.projection));
@@ -188,7 +189,10 @@ std::vector<PlayerView> picture_views(const FileInfo& info, const StereoFormat& 
                                       const std::string& path) {
   PlayerView gpano{"reads GPano", "mono, flat", "it has no GPano"};
   if (has_gpano) gpano.takes_it_for = "mono, lat-long", gpano.reason = "from GPano, which cannot express stereo";
-  std::vector<PlayerView> views{{"ods", picture_text(format), format.layout.reason}, gpano};
+  const bool is_unknown =
+      format.is_open && format.layout.source == FormatSource::kNothing && format.camera.projection.kind == kPerspective;
+  const std::string reason = is_unknown ? "nothing tells what it shows: it looks flat" : format.layout.reason;
+  std::vector<PlayerView> views{{"ods", picture_text(format), reason}, gpano};
   if (format.is_photo && !info.is_pair) {
     views.push_back({"reads VR photos", picture_text(format), "GImage has the right eye"});
   }

@@ -61,6 +61,7 @@ static bool shows_itself(const Identity& identity, const StereoFormat& without_p
 
 // The format by which the file is judged.
 static StereoFormat judged_format(const MediaFile& media, const FormatHint& known) {
+  if (!media.hint.lenses.empty()) return media.format;
   StereoFormat format = find_format(media.reader->info(), media.path, known);
   if (!media.identity) return format;
   if (shows_itself(*media.identity, format)) return media.format;

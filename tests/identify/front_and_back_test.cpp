@@ -9,6 +9,7 @@
 #include "ods/identify/open_media.h"
 #include "tests/support/simulated_camera.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/unknown_files.h"
 #include "tests/support/worlds.h"
 
 namespace ods {
@@ -93,6 +94,59 @@ INSTANTIATE_TEST_SUITE_P(All, RawFile,
                          [](const auto& each) {
                            return std::string(std::get<0>(each.param).name) + "_" + world_name(std::get<1>(each.param));
                          });
+
+// FFmpeg's v360 fills the corners of both halves; its field of view is that from edge to edge.
+TEST(FilledHalves, AreTwoFisheyes) {
+  const TemporaryFolder folder;
+  constexpr float kCorner = 1.42f;
+  for (const World world : {World::kHall, World::kField}) {
+    for (const float fov : {180.0f, 190.0f, 200.0f, 220.0f}) {
+      SimulatedCamera camera;
+      for (FisheyeLens& each : camera.lenses) each = lens(240, 240, kCorner * 240, kCorner * fov);
+      camera.lenses[1].yaw = 180.0f;
+      const LensWorld shown = [&](int, vec3 direction) { return shown_light(world, vec3(0.0f), direction); };
+      write_raw_file(folder.path("raw.jpg"), camera, shown, 85);
+      const MediaFile media = open_media(folder.path("raw.jpg"));
+      ASSERT_EQ(media.hint.lenses.size(), 2u) << world_name(world) << fov;
+      EXPECT_TRUE(media.hint.front_and_back);
+      EXPECT_NEAR(media.hint.lenses[0].fov * 240.0f / media.hint.lenses[0].radius, fov, 1.5f) << world_name(world);
+    }
+  }
+}
+
+// Halves of other pictures do not overlap as lenses do.
+TEST(FilledHalves, AreNotSeenInPanoramas) {
+  const TemporaryFolder folder;
+  for (const World world : kWorlds) {
+    for (const char* name : {"lat-long", "perspective", "cylinder"}) {
+      ProjectionSetting projection = find_projection(name)->setting;
+      projection.aspect = 2.0f;
+      const TwoEyes eyes = [&](int eye, const ProjectionSetting& setting, Extent size) {
+        StereoCamera camera;
+        camera.projection = setting;
+        return seen_in(world, camera, eye, size);
+      };
+      write_unknown(folder.path("a.jpg"), {std::nullopt, projection}, eyes, {960, 480});
+      EXPECT_TRUE(open_media(folder.path("a.jpg")).hint.lenses.empty()) << world_name(world) << name;
+    }
+  }
+}
+
+// The format tells why it was chosen: nobody asked for it.
+TEST(RawFileReason, IsWhatThePixelsShow) {
+  const TemporaryFolder folder;
+  const LensWorld shown = [](int, vec3 direction) { return shown_light(World::kHall, vec3(0.0f), direction); };
+  write_raw_file(folder.path("raw.jpg"), kinds()[0].camera, shown, 90);
+  const MediaFile media = open_media(folder.path("raw.jpg"));
+  EXPECT_EQ(media.format.layout.source, FormatSource::kPixels);
+  EXPECT_NE(media.format.layout.reason.find("look ahead and back, 19"), std::string::npos)
+      << media.format.layout.reason;
+  EXPECT_NE(media.format.layout.reason.find("they agree by 0."), std::string::npos) << media.format.layout.reason;
+  EXPECT_TRUE(media.format.front_and_back);
+  MediaOptions asked;
+  asked.known.layout = Layout::kSideBySide, asked.known.projection = find_projection("fisheye")->setting;
+  EXPECT_EQ(open_media(folder.path("raw.jpg"), asked).format.layout.source, FormatSource::kOptions);
+}
 
 // Two lenses that look ahead: the eyes differ by parallax, and the right one may come first.
 TEST(RawStereoFile, IsAPairInItsOrder) {

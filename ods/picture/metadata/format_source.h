@@ -29,7 +29,7 @@ inline constexpr FormatSourceRow kFormatSourceTable[] = {
     {FormatSource::kName, "name", "`_TB`, `_LR`, `_SBS`, `_180`, `_360`, `_cube-3x2`, ...; `.jps`"},
     {FormatSource::kPixels, "pixels", "if they are sure"},
     {FormatSource::kShape, "shape", "width over height"},
-    {FormatSource::kNothing, "nothing", "one eye; a picture is lat-long, a video is refused"},
+    {FormatSource::kNothing, "nothing", "one eye; a picture is flat, a video is refused"},
 };
 static_assert(has_every_member(kFormatSourceTable));
 

@@ -44,63 +44,6 @@ std::string name_end(const ProjectionSetting& projection, Layout layout) {
   return angle + word + (layout == Layout::kMultiview ? ".exr" : ".png");
 }
 
-// A layout's name or abbreviation. A file named checkerboard usually shows a checkerboard pattern.
-static std::optional<Layout> layout_token(const std::string& word) {
-  for (const NameWordRow& row : name_words()) {
-    if (row.word == word && row.layout) return row.layout;
-  }
-  const std::optional<Layout> layout = layout_of(word);
-  const bool is_word = layout && is_packing(*layout) && arrangement_of(*layout).how != EyePacking::kCheckerboard;
-  return is_word ? layout : std::nullopt;
-}
-
-// After a hyphen only players' own words count: a-dome may be any dome.
-static const NamedProjection* projection_token(const std::string& word, char mark) {
-  for (const NameWordRow& row : name_words()) {
-    if (row.word == word && row.projection) return &*row.projection;
-  }
-  return mark == '-' ? nullptr : find_projection(word);
-}
-
-// Takes the last word of a name into account. Returns false if the words before it do not matter.
-static bool read_word(const std::string& marked, NameWords& words) {
-  const std::string word = small_letters(marked.substr(1));
-  const std::optional<Layout> layout = layout_token(word);
-  const bool has_layout = !words.layout_token.empty();
-  // After a dot a number is a frame number, unless a word about the eyes follows.
-  const bool is_frame = marked[0] == '.' && !has_layout && is_neutral_token(word);
-  const NamedProjection* projection = is_frame ? nullptr : projection_token(word, marked[0]);
-  if (layout || word == "mono") {
-    if (has_layout) return words.layout == layout;  // twice: _3dh_LR
-    words.layout = layout;
-    words.is_mono = word == "mono";
-    words.layout_token = marked;
-  } else if (projection != nullptr) {
-    words.projection = projection;
-    words.projection_token = marked;
-  } else if (!is_neutral_token(word)) {
-    return false;
-  }
-  return words.layout_token.empty() || words.projection == nullptr;
-}
-
-NameWords read_name(const std::string& path) {
-  NameWords words;
-  std::string name = std::filesystem::path(without_words(path)).stem().native();
-  while (true) {
-    size_t at = name.find_last_of("_. ");
-    const size_t hyphen = name.rfind('-');
-    const bool has_hyphen = hyphen != std::string::npos && (at == std::string::npos || hyphen > at);
-    const auto is_known = [&](const std::string& word) {
-      return layout_token(word).has_value() || projection_token(word, '_') != nullptr;
-    };
-    // Names such as top-bottom have hyphens of their own.
-    if (has_hyphen && (at == std::string::npos || !is_known(small_letters(name.substr(at + 1))))) at = hyphen;
-    if (at == std::string::npos || !read_word(name.substr(at), words)) return words;
-    name.resize(at);
-  }
-}
-
 std::string renamed(const std::string& path, const std::string& words) {
   const std::filesystem::path file(path);
   std::string name = file.stem().native();
@@ -250,6 +193,8 @@ static std::optional<LayoutGuess> layout_in(FormatSource source, const Evidence&
     case FormatSource::kOptions:
       if (names_eye(of.path)) return guess(Layout::kSeparate, "its name stands for two files");
       if (of.known.one_eye) return guess({}, "as asked");
+      if (!of.known.seen_lenses.empty())
+        return LayoutGuess{of.known.layout, FormatSource::kPixels, of.known.seen_lenses};
       return of.known.layout ? std::optional(guess(of.known.layout, "as asked")) : std::nullopt;
     case FormatSource::kOwnMetadata:
       if (of.is_photo && of.info.is_pair) return guess(Layout::kSeparate, "its stereo pair has both eyes");
@@ -276,7 +221,7 @@ static std::optional<LayoutGuess> layout_in(FormatSource source, const Evidence&
       if (of.known.projection) return layout_of_shape(file, of.known.projection);
       return layout_of_shape(file, of.words.projection ? std::optional(of.words.projection->setting) : std::nullopt);
     case FormatSource::kNothing:
-      return guess({}, "by default");
+      return guess({}, "nothing tells of two eyes");
   }
   return std::nullopt;
 }
@@ -366,13 +311,25 @@ struct ProjectionGuess {
 
 }  // namespace
 
+// Most pictures that are not about twice as wide as high are flat.
+static ProjectionGuess guess_by_default(Extent eye) {
+  constexpr float kNarrow = 1.9f, kWide = 2.5f;  // wider than 16:9, which is flat
+  ProjectionSetting flat = find_projection("perspective")->setting;
+  flat.aspect = static_cast<float>(eye.width) / static_cast<float>(eye.height);
+  if (flat.aspect > kNarrow && flat.aspect < kWide)
+    return {find_projection("lat-long")->setting, "nothing tells what it shows, and its shape is nearly a sphere's"};
+  return {flat, "nothing tells what it shows, and its shape is not a sphere's"};
+}
+
 // eye: its size before squeezing.
 static std::optional<ProjectionGuess> projection_in(FormatSource source, const Evidence& of, Extent eye) {
   switch (source) {
     case FormatSource::kName:
       if (of.words.projection == nullptr) return std::nullopt;
-      return ProjectionGuess{of.words.projection->setting,
-                             fmt::format("its name ends in {}", of.words.projection_token)};
+      return ProjectionGuess{
+          of.words.projection->setting,
+          fmt::format("its name ends in {}",
+                      of.words.projection_token.empty() ? of.words.layout_token : of.words.projection_token)};
     case FormatSource::kPixels:
       if (!of.known.seen) return std::nullopt;
       return ProjectionGuess{of.known.seen->projection, "its pixels look like it"};
@@ -381,7 +338,7 @@ static std::optional<ProjectionGuess> projection_in(FormatSource source, const E
         return ProjectionGuess{shape->setting, "an eye has that shape"};
       return std::nullopt;
     case FormatSource::kNothing:
-      return ProjectionGuess{find_projection("lat-long")->setting, "by default"};
+      return guess_by_default(eye);
     default:
       return std::nullopt;
   }
@@ -414,6 +371,7 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
   of.camera = first_answer([&](FormatSource source) { return camera_in(source, of, format.guesses); });
   format.layout = *first_answer([&](FormatSource source) { return layout_in(source, of); });
   format.eye = find_eye(info, of.sidecar);
+  format.front_and_back = known.front_and_back;
   const Layout layout = format.layout.layout.value_or(Layout::kSeparate);
   if (is_anaglyph(layout)) {
     throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': the eyes of an anaglyph cannot be separated", path));
@@ -431,7 +389,7 @@ StereoFormat find_format(const FileInfo& info, const std::string& path, const Fo
   if (const auto doubt = info.text.find(std::string(kPixelDoubt)); doubt != info.text.end()) {
     format.guesses.push_back(doubt->second);
   }
-  if (is_guess(format.layout)) {
+  if (is_guess(format.layout) && known.seen_lenses.empty()) {
     const std::string_view name = format.layout.layout ? layout_name(layout) : "one eye";
     format.guesses.push_back(fmt::format("{}: {}", name, format.layout.reason));
   }

@@ -67,7 +67,8 @@ struct FormatHint {
   std::optional<ProjectionSetting> projection;  // also the camera's
   std::vector<FisheyeLens> lenses;              // for each eye, or one for both; the projection then does not apply
   bool front_and_back = false;                  // the halves are fisheyes that look ahead and back, for one eye
-  Bars bars;                       // around all eyes together; the layout is not a cube's and not interleaved
+  std::string seen_lenses;  // for messages: how the pixels showed layout and lenses; empty if they were asked for
+  Bars bars;                // around all eyes together; the layout is not a cube's and not interleaved
   std::optional<SeenFormat> seen;  // takes precedence only over the aspect ratio
 };
 
@@ -78,6 +79,7 @@ struct StereoFormat {
   StereoCamera camera;
   bool has_camera = false;           // known from caller, file or sidecar; otherwise only its projection is guessed
   bool has_ipd = false;              // known from caller, file or sidecar; GPano and envmap do not have it
+  bool front_and_back = false;       // as FormatHint::front_and_back
   bool is_open = false;              // no metadata or name specifies layout and projection; the aspect ratio may
   std::vector<std::string> guesses;  // for messages: "top-bottom: its name ends in _TB"
 };

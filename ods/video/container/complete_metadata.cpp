@@ -226,7 +226,8 @@ static void compare_with_names(const SphericalMetadata& known, const SphericalMe
   if (found.has_camera && !may_be_called(said, found.camera.projection)) {
     conflicts.push_back(projection_conflict(said, found.camera.projection, kSidecarDisagrees));
   } else if (!found.has_camera && words.projection != nullptr && !may_be_called(said, words.projection->setting)) {
-    const std::string reason = fmt::format("its name ends in {}", words.projection_token);
+    const std::string reason = fmt::format(
+        "its name ends in {}", words.projection_token.empty() ? words.layout_token : words.projection_token);
     conflicts.push_back(projection_conflict(said, words.projection->setting, reason));
   }
 }
