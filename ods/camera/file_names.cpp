@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cctype>
 #include <string_view>
+#include <utility>
 
+#include "ods/base/text.h"
 #include "ods/camera/layout.h"
 #include "ods/kernel/camera/camera.h"
 
@@ -21,6 +23,26 @@ static std::vector<std::string> split_at_bars(const std::string& text) {
     }
   }
   return words;
+}
+
+std::optional<int> eye_of_words(std::string_view name) {
+  std::optional<int> eye;
+  std::string word;
+  for (size_t i = 0; i <= name.size(); i++) {
+    if (i < name.size() && std::isalpha(static_cast<unsigned char>(name[i])) != 0) {
+      word += name[i];
+      continue;
+    }
+    word = small_letters(std::move(word));
+    for (const EyeWords& eyes : kEyeWordsTable) {
+      if (word != eyes.left && word != eyes.right) continue;
+      const int found = word == eyes.left ? kLeft : kRight;
+      if (eye && *eye != found) return std::nullopt;
+      eye = found;
+    }
+    word.clear();
+  }
+  return eye;
 }
 
 std::optional<WordsInBraces> words_in_braces(const std::string& path, size_t count) {

@@ -12,6 +12,14 @@ namespace {
 
 using Files = std::vector<std::string>;
 
+TEST(FileNames, WordsForTheEyes) {
+  EXPECT_EQ(eye_of_words("trip_L"), kLeft);
+  EXPECT_EQ(eye_of_words("Right eye"), kRight);
+  EXPECT_EQ(eye_of_words("cam1R"), kRight);
+  EXPECT_EQ(eye_of_words(std::string("\5LINKS\0", 7)), kLeft);
+  for (const char* name : {"", "leftover", "left and right", "VideoHandler"}) EXPECT_FALSE(eye_of_words(name)) << name;
+}
+
 TEST(FileNames, BracesWithTwoWordsStandForEyes) {
   EXPECT_TRUE(names_eye("trip_{L|R}.jpg"));
   EXPECT_FALSE(names_eye("trip_{L|R|x}.jpg"));
