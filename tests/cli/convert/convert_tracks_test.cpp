@@ -128,6 +128,22 @@ TEST_F(TwoTracks, NamedByTheEyesAreAPair) {
   }
 }
 
+TEST_F(TwoTracks, OfAnInsta360AreItsLenses) {
+  for (const auto& [name, yaw] : {std::pair{"one.png", 0.0f}, {"two.png", 180.0f}}) {
+    StereoCamera lens;
+    lens.projection = find_projection("fisheye")->setting;
+    lens.projection.fov = 195.0f, lens.yaw = yaw;
+    write(name, seen_in(World::kHall, lens, kMono, {600, 600}));
+  }
+  ffmpeg(
+      "-loop 1 -i one.png -loop 1 -i two.png -map 0 -map 1 -t 0.12 -c:v libx264 -crf 12 -preset ultrafast -pix_fmt "
+      "yuv420p -f mp4 VID_1.insv");
+  const std::string made = folder.path("world_360.mp4");
+  ASSERT_EQ(run("convert " + folder.path("VID_1.insv") + " -o " + made + " --width 512 --crf 12"), 0) << err;
+  EXPECT_NE(err.find("two lenses"), std::string::npos) << err;
+  EXPECT_GT(match(grey_eyes(first_picture("world_360.mp4"))[0], world("lat-long", kMono, {512, 256})), 25.0);
+}
+
 TEST_F(TwoTracks, WithoutNamesAreAQuestion) {
   make_eyes("eyes.mkv", "", "");
   const std::string input = folder.path("eyes.mkv"), made = folder.path("made_360_LR.mp4");
