@@ -14,7 +14,6 @@
 #include "ods/base/error.h"
 #include "ods/base/text.h"
 #include "ods/camera/file_names.h"
-#include "ods/kernel/camera/camera.h"
 
 namespace ods {
 
