@@ -83,10 +83,6 @@ static bool is_of_word(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0;
 }
 
-static std::string joined(const std::string& a, std::string_view separator, const std::string& b) {
-  return a.empty() ? b : a + std::string(separator) + b;
-}
-
 std::optional<std::string> joined_name(const std::vector<std::string>& files) {
   const std::string& first = files.front();
   size_t before = first.size(), after = first.size();
@@ -102,7 +98,9 @@ std::optional<std::string> joined_name(const std::vector<std::string>& files) {
   after = std::min(after, shortest - before);
   while (after > 0 && is_of_word(first[first.size() - after])) after--;
   std::string words;
-  for (const std::string& file : files) words = joined(words, "|", file.substr(before, file.size() - before - after));
+  for (const std::string& file : files) {
+    words += (&file == &first ? "" : "|") + file.substr(before, file.size() - before - after);
+  }
   return first.substr(0, before) + "{" + words + "}" + first.substr(first.size() - after);
 }
 

@@ -56,6 +56,8 @@ TEST(FileNames, JoiningIsTheInverse) {
   EXPECT_EQ(joined_name({"left_a.png", "right_a.png"}), "{left|right}_a.png");
   EXPECT_EQ(joined_name({"{a|b}.png", "c.png"}), std::nullopt);
   EXPECT_EQ(joined_name({"l_{a|b|c|d|e|f}.png", "r_{a|b|c|d|e|f}.png"}), "{l|r}_{a|b|c|d|e|f}.png");
+  const Files plain = {"trip_.jpg", "trip_R.jpg"};
+  EXPECT_EQ(files_of(joined_name(plain).value()), plain) << "one of them adds nothing";
 }
 
 TEST(FileNames, TheRestOfAName) {
