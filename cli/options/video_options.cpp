@@ -209,6 +209,7 @@ VideoChoices choices_like(VideoChoices choices, const ods::VideoInput& video, co
   }
   choices.keep.path = video.path;
   choices.keep.track = video.track;
+  choices.keep.joined = video.other_track;
   choices.keep.has_sound = choices.sound.empty();
   choices.keep.tell = [path = video.path](const std::string& words) { warn(fmt::format("'{}': {}", path, words)); };
   return choices;

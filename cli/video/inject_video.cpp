@@ -145,6 +145,12 @@ std::optional<ods::Ambisonics> requested_sound(const InjectJob& job, const ods::
 void inject_video(const InjectJob& job, ProgressLines& lines) {
   const ods::MediaFile media = ods::open_media(job.file, {.known = format_hint_of(job), .track = job.track});
   const ods::VideoFile& video = *media.video;
+  if (are_tracks(media.views)) {
+    throw ods::Error(ods::ErrorKind::kInput,
+                     fmt::format("the pictures of '{}' are two tracks, and players show one: ods convert joins them, "
+                                 "and tags the new video; --track {} tags this one of them",
+                                 job.file, media.track.id));
+  }
   check_apple(job.for_apple, video.container);
   const std::optional<ods::Ambisonics> sound = requested_sound(job, video);
   std::optional<SphericalMetadata> metadata;

@@ -3,6 +3,7 @@
 //
 // ods probe: shows a video's or a picture's metadata, and how players will interpret it.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/console/command.h"
 #include "cli/console/console.h"
@@ -56,21 +57,36 @@ void add_wordless(const std::optional<Wordless>& seen, std::vector<std::string>&
                                  seen->reading ? " (ods inject tags it so)" : ""));
 }
 
+// Describes what ods makes of two tracks that may belong together. If it cannot decide, that is a warning.
+std::string joined_tracks(const std::string& path, std::vector<std::string>& warnings) {
+  try {
+    const ods::MediaFile media = ods::open_media(path);
+    return are_tracks(media.views) ? fmt::format("{}", fmt::join(media.notes, "; ")) : "";
+  } catch (const ods::Error& error) {
+    if (error.kind() != ods::ErrorKind::kInput) throw;
+    warnings.push_back(error.what());
+    return "";
+  }
+}
+
 ProbeReport probe(const std::string& path) {
   ProbeReport report;
   report.path = path;
   if (!ods::names_files(path) && ods::is_video(path)) {
     report.video = ods::read_video_file(path);
+    std::vector<std::string> doubts;
+    if (report.video->tracks.size() > 1) report.joined = joined_tracks(path, doubts);
     for (const ods::VideoTrack& track : report.video->tracks) {
       report.views.push_back(video_views(*report.video, track, path));
       report.warnings.push_back(video_warnings(*report.video, track, path));
       const ods::MediaFile media = ods::open_media(path, {.track = static_cast<int>(track.id)});
-      add_wordless(judge_wordless(media), report.warnings.back());
+      if (report.joined.empty()) add_wordless(judge_wordless(media), report.warnings.back());
       const std::string fault = ods::reading_fault(path, track.id);
       if (!fault.empty()) report.warnings.back().push_back(fault);
       const bool is_seen = media.identity && !media.identity->readings.empty();
       report.seen.push_back(is_seen ? media.identity : std::nullopt);
     }
+    if (!doubts.empty()) report.warnings.back().push_back(doubts[0]);
     return report;
   }
   const ods::MediaFile media = ods::open_media(path, {.color_only = true});

@@ -72,6 +72,7 @@ void print_video(const ProbeReport& report) {
     print_views(report, i);
   }
   if (video.tracks.empty()) row("pictures", "none");
+  if (!report.joined.empty()) put_out("\n"), row("joined by ods", report.joined);
 }
 
 std::string camera_text(const ods::StereoCamera& stereo) {
@@ -135,8 +136,10 @@ Json video_to_json(const ProbeReport& report) {
   const ods::VideoFile& video = *report.video;
   Json json = {{"container", container_name(video.container)},
                {"fragmented", video.is_fragmented},
+               {"joined", nullptr},
                {"video", Json::array()},
                {"sound", Json::array()}};
+  if (!report.joined.empty()) json["joined"] = report.joined;
   for (size_t i = 0; i < video.tracks.size(); i++) {
     const ods::VideoTrack& track = video.tracks[i];
     Json picture = {{"track", track.id},

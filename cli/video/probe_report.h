@@ -21,6 +21,7 @@ struct PictureReport {
 struct ProbeReport {
   std::string path;
   std::optional<ods::VideoFile> video;
+  std::string joined;  // how ods joins the pictures of two tracks; empty if it does not
   std::optional<PictureReport> picture;
   std::vector<std::vector<ods::PlayerView>> views;  // per video track, or of the picture
   std::vector<std::vector<std::string>> warnings;   // per track, or of the picture

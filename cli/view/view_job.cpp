@@ -59,16 +59,26 @@ std::vector<std::string> files_in(const std::string& folder) {
   return paths;
 }
 
+// A path joined with those that belong to the same picture. Adds all of them to `taken`.
+std::string with_companions(const std::string& path, const ods::FormatHint& known, std::set<std::string>& taken) {
+  const std::string name = ods::is_layered_scene(path) ? path : joined_input({path}, known);
+  if (!ods::names_files(name)) return name;
+  for (std::string& file : ods::files_of(name)) taken.insert(std::move(file));
+  return name;
+}
+
 void add_folder(const std::string& folder, const ods::FormatHint& known, std::vector<ViewItem>& items) {
   std::vector<std::string> faults;
   const size_t before = items.size();
+  std::set<std::string> taken;
   for (const std::string& path : files_in(folder)) {
+    if (taken.contains(path)) continue;
     if (items.size() == kMaxItems) {
       warn(fmt::format("'{}' has more than {} files: the rest is left out", folder, kMaxItems));
       break;
     }
     try {
-      items.push_back(ods::open_view_item(path, known));
+      items.push_back(ods::open_view_item(with_companions(path, known, taken), known));
     } catch (const ods::Error& error) {
       if (error.kind() != ods::ErrorKind::kInput) throw;
       faults.emplace_back(error.what());
@@ -90,10 +100,7 @@ std::vector<std::string> with_companions(const ViewJob& job) {
   std::vector<std::string> paths;
   std::set<std::string> taken;
   for (const std::string& path : job.paths) {
-    if (taken.contains(path)) continue;
-    paths.push_back(ods::is_layered_scene(path) ? path : joined_input({path}, job.known));
-    if (!ods::names_files(paths.back())) continue;
-    for (std::string& file : ods::files_of(paths.back())) taken.insert(std::move(file));
+    if (!taken.contains(path)) paths.push_back(with_companions(path, job.known, taken));
   }
   return paths;
 }

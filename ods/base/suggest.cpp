@@ -51,9 +51,22 @@ static constexpr std::pair<std::string_view, std::string_view> kForeign[] = {
     {"%PDF"sv, "a PDF document"sv},
 };
 
+// What leads to a file that ods reads.
+static constexpr std::pair<std::string_view, std::string_view> kLeading[] = {
+    {"#EXTM3U"sv,
+     "a playlist (HLS), which names the pieces of a video: 'ffmpeg -i FILE -c copy FILE.mp4' makes one video of them"sv},
+    {"PK\3\4"sv, "an archive (zip): unpack it; of numpy's npz, ods takes each .npy as depth"sv},
+};
+
+static constexpr std::string_view kTransport = "an MPEG transport stream";
+
 static constexpr std::pair<std::string_view, std::string_view> kForeignVideos[] = {
-    {"OggS"sv, "an Ogg"sv},  {"G@"sv, "an MPEG transport stream"sv}, {"\0\0\1\xba"sv, "an MPEG program stream"sv},
-    {"FLV\1"sv, "an FLV"sv}, {"\x06\x0e\x2b\x34"sv, "an MXF"sv},     {"\x30\x26\xb2\x75"sv, "a Windows Media"sv},
+    {"OggS"sv, "an Ogg"sv},
+    {"G@"sv, kTransport},
+    {"\0\0\1\xba"sv, "an MPEG program stream"sv},
+    {"FLV\1"sv, "an FLV"sv},
+    {"\x06\x0e\x2b\x34"sv, "an MXF"sv},
+    {"\x30\x26\xb2\x75"sv, "a Windows Media"sv},
 };
 
 // The name of a video container that ods does not read. Its streams may well be readable in another container.
@@ -62,6 +75,8 @@ static std::string_view foreign_video(std::string_view start) {
   for (const auto& [bytes, what] : kForeignVideos) {
     if (start.starts_with(bytes)) return what;
   }
+  constexpr size_t kTimecode = 4;  // before each packet of m2ts and mts
+  if (start.size() > kTimecode && start.substr(kTimecode).starts_with("G@")) return kTransport;
   return {};
 }
 
@@ -75,14 +90,17 @@ std::string taken_by(std::string_view start) {
   for (const auto& [bytes, what] : kForeign) {
     if (begins(bytes)) return fmt::format("; it is {}, which ods does not read", what);
   }
+  for (const auto& [bytes, what] : kLeading) {
+    if (begins(bytes)) return fmt::format("; it is {}", what);
+  }
   if (start.substr(std::min<size_t>(4, start.size())).starts_with("ftyp") || begins("\x1a\x45\xdf\xa3"sv)) {
     return "; it is a video: ods probe, lint, convert, inject, view and over take videos";
   }
   if (const std::string_view what = foreign_video(start); !what.empty()) {
     return fmt::format(
         "; it is {} file: ods reads mp4, mov, mkv and webm, and 'ffmpeg -i FILE -map 0 -c copy FILE.mkv' makes one "
-        "of it, without a loss",
-        what);
+        "of it, without a loss{}",
+        what, what == kTransport ? ", except the right eye of 3D cameras (MVC), which FFmpeg does not decode" : "");
   }
   if (begins("glTF")) return "; it is a scene: ods render, video, info and view take scenes";
   const bool is_webp = begins("RIFF") && start.substr(std::min<size_t>(8, start.size())).starts_with("WEBP");

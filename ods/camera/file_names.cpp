@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cctype>
 #include <string_view>
+#include <utility>
 
+#include "ods/base/text.h"
 #include "ods/camera/layout.h"
 #include "ods/kernel/camera/camera.h"
 
@@ -21,6 +23,26 @@ static std::vector<std::string> split_at_bars(const std::string& text) {
     }
   }
   return words;
+}
+
+std::optional<int> eye_of_words(std::string_view name) {
+  std::optional<int> eye;
+  std::string word;
+  for (size_t i = 0; i <= name.size(); i++) {
+    if (i < name.size() && std::isalpha(static_cast<unsigned char>(name[i])) != 0) {
+      word += name[i];
+      continue;
+    }
+    word = small_letters(std::move(word));
+    for (const EyeWords& eyes : kEyeWordsTable) {
+      if (word != eyes.left && word != eyes.right) continue;
+      const int found = word == eyes.left ? kLeft : kRight;
+      if (eye && *eye != found) return std::nullopt;
+      eye = found;
+    }
+    word.clear();
+  }
+  return eye;
 }
 
 std::optional<WordsInBraces> words_in_braces(const std::string& path, size_t count) {
@@ -61,10 +83,6 @@ static bool is_of_word(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0;
 }
 
-static std::string joined(const std::string& a, std::string_view separator, const std::string& b) {
-  return a.empty() ? b : a + std::string(separator) + b;
-}
-
 std::optional<std::string> joined_name(const std::vector<std::string>& files) {
   const std::string& first = files.front();
   size_t before = first.size(), after = first.size();
@@ -80,7 +98,9 @@ std::optional<std::string> joined_name(const std::vector<std::string>& files) {
   after = std::min(after, shortest - before);
   while (after > 0 && is_of_word(first[first.size() - after])) after--;
   std::string words;
-  for (const std::string& file : files) words = joined(words, "|", file.substr(before, file.size() - before - after));
+  for (const std::string& file : files) {
+    words += (&file == &first ? "" : "|") + file.substr(before, file.size() - before - after);
+  }
   return first.substr(0, before) + "{" + words + "}" + first.substr(first.size() - after);
 }
 

@@ -8,11 +8,23 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ods {
 
 inline constexpr size_t kFaceCount = 6;
+
+// The words for the eyes in names of files, folders and tracks, in any letter case, between separators or at an end; l
+// and r also after a number.
+struct EyeWords {
+  std::string_view left, right;
+};
+inline constexpr EyeWords kEyeWordsTable[] = {
+    {"left", "right"}, {"lefteye", "righteye"}, {"links", "rechts"}, {"l", "r"}};
+
+// The eye that a name tells, kLeft or kRight; nullopt if it has words for none or for both.
+std::optional<int> eye_of_words(std::string_view name);
 
 // The first braces in a name that have this many words.
 struct WordsInBraces {

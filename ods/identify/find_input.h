@@ -6,18 +6,9 @@
 #pragma once
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace ods {
-
-// The words for the eyes in names of files and folders, in any letter case, between separators or at an end; l and r
-// also after a number.
-struct EyeWords {
-  std::string_view left, right;
-};
-inline constexpr EyeWords kEyeWordsTable[] = {
-    {"left", "right"}, {"lefteye", "righteye"}, {"links", "rechts"}, {"l", "r"}};
 
 struct FoundInput {
   std::string path;                // one file, or a name that stands for several (ods/camera/file_names.h)

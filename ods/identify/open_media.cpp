@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "ods/base/error.h"
+#include "ods/base/text.h"
 #include "ods/camera/file_names.h"
 #include "ods/files/private_folder.h"
 #include "ods/files/scratch.h"
@@ -19,6 +20,7 @@
 #include "ods/image/format/pixel_place.h"
 #include "ods/video/container/complete_metadata.h"
 #include "ods/video/footage.h"
+#include "ods/video/joined_tracks.h"
 #include "ods/video/make_video.h"
 
 namespace ods {
@@ -31,7 +33,7 @@ namespace {
 // frames.
 class SomeFrames {
  public:
-  SomeFrames(const std::string& path, uint64_t track) : decoder_(path, track) {
+  SomeFrames(const std::string& path, uint64_t track, Views views) : decoder_(path, track, views) {
     video_.prototype.size = decoder_.stream().size;
     video_.prototype.eyes.resize(1);
   }
@@ -273,7 +275,7 @@ static void look_at_frames(MediaFile& media) {
       media.track.pixel_aspect == 1.0 && wants_lenses(media.hint, media.path, may_show_lenses(media.track, media.path));
   if (is_known && !wants && !is_open(media)) return;
   try {
-    SomeFrames frames(media.path, media.track.id);
+    SomeFrames frames(media.path, media.track.id, media.views);
     std::optional<StoredPicture> first = frames.next();
     if (!is_known && frames.packing()) take_packing(media, *frames.packing());
     const bool is_square = media.track.pixel_aspect == 1.0;
@@ -286,15 +288,31 @@ static void look_at_frames(MediaFile& media) {
   }
 }
 
+// The eyes in two tracks have the layout in which they are joined.
+static void take_chosen(const ChosenPictures& chosen, MediaFile& media) {
+  media.track = chosen.track;
+  media.views = chosen.views;
+  if (!media.hint.layout && !media.hint.one_eye) media.hint.layout = chosen.layout;
+  if (media.views == Views::kFaceRows && !media.hint.projection)
+    media.hint.projection = find_projection("eac")->setting;
+  if (chosen.note) media.notes.push_back(*chosen.note);
+  if (small_letters(media.path).ends_with(".lrv"))
+    media.notes.emplace_back("a camera's preview of low resolution: the recording beside it has the same number");
+}
+
 static void open_video_media(MediaFile& media, const MediaOptions& options) {
   media.video = read_video_file(media.path);
-  media.track = choose_track(*media.video, options.track, media.path);
+  if (options.track) {
+    media.track = choose_track(*media.video, options.track, media.path);
+  } else {
+    take_chosen(choose_pictures(*media.video, options.known.layout, media.path), media);
+  }
   look_at_frames(media);
   if (!media.identity || media.identity->readings.empty()) return;
   if (!media.identity->is_sure()) return media.notes.push_back(doubt_text(*media.identity));
   const Reading& best = media.identity->best();
   media.notes.push_back(fmt::format("{}: {} ({:.2f})", reading_text(best), media.identity->reason, best.certainty));
-  media.hint.layout = best.layout.value_or(Layout::kSeparate);
+  if (!are_tracks(media.views)) media.hint.layout = best.layout.value_or(Layout::kSeparate);
   media.hint.projection = best.projection;
   media.hint.bars = media.identity->bars;
 }

@@ -12,6 +12,7 @@
 #include "ods/identify/identify.h"
 #include "ods/picture/stored_picture.h"
 #include "ods/video/container/video_file.h"
+#include "ods/video/decode.h"
 
 namespace ods {
 
@@ -35,7 +36,8 @@ struct MediaFile {
 
   // Set for a video.
   std::optional<VideoFile> video;
-  VideoTrack track;
+  VideoTrack track;             // if two tracks are joined, of the joined pictures
+  Views views = Views::kFirst;  // for VideoDecoder
 };
 
 // Opens a picture, a pair (%V), frames (their first one stands for all) or a video. The pixels are examined only if

@@ -12,6 +12,7 @@
 
 #include "ods/base/error.h"
 #include "ods/video/interleaved.h"
+#include "ods/video/joined_tracks.h"
 #include "ods/video/tracks/av.h"
 
 extern "C" {
@@ -231,9 +232,11 @@ static std::vector<std::string> dropped_metadata(const AVFrame& frame) {
 }
 
 struct VideoDecoder::State {
-  std::string what;  // for messages
+  std::string path, what;  // what: for messages
   Views views = Views::kFirst;
   VideoStream stream;
+  Extent own_size;                       // size of a picture of the track
+  std::unique_ptr<VideoDecoder> joined;  // if are_tracks(views)
   Owned<AVFormatContext> file;
   const AVStream* source = nullptr;
   Owned<AVCodecContext> decoder;
@@ -246,17 +249,9 @@ struct VideoDecoder::State {
     throw Error(ErrorKind::kInput, fmt::format("{}: {}", what, why));
   }
 
-  // Some demuxers number tracks differently: then use the stream that FFmpeg ranks best, which is the largest.
   void find_stream(uint64_t track) {
-    const int best = av_find_best_stream(file.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-    if (best == AVERROR_STREAM_NOT_FOUND) fail("FFmpeg finds no pictures in it; the file may be damaged or unfinished");
-    checked(best, ErrorKind::kInput, what);
-    source = file->streams[best];
-    for (unsigned i = 0; i < file->nb_streams; i++) {
-      const AVStream* each = file->streams[i];
-      const bool has_pictures = each->codecpar->codec_type == AVMEDIA_TYPE_VIDEO;
-      if (has_pictures && static_cast<uint64_t>(each->id) == track) source = each;
-    }
+    source = av::pictures_of(*file, path, track);
+    if (source == nullptr) fail("FFmpeg finds no pictures in it; the file may be damaged or unfinished");
     for (unsigned i = 0; i < file->nb_streams; i++) {
       AVStream* each = file->streams[i];
       each->discard = each == source ? AVDISCARD_DEFAULT : AVDISCARD_ALL;
@@ -286,6 +281,7 @@ struct VideoDecoder::State {
                        chroma_name(stream.chroma)));
     }
     if (has_layers(views)) stream.size.width *= 2;
+    own_size = stream.size;
     stream.clock = {source->time_base.den, source->time_base.num};
     if (file->start_time != AV_NOPTS_VALUE) {
       stream.file_start = static_cast<double>(file->start_time) / AV_TIME_BASE;
@@ -359,7 +355,7 @@ struct VideoDecoder::State {
     VideoStream own;
     const std::string fault = read_format(static_cast<AVPixelFormat>(frame.format), own);
     if (!fault.empty()) fail(fault);
-    if (size.width != stream.size.width || size.height != stream.size.height || own.bits != stream.bits ||
+    if (size.width != own_size.width || size.height != own_size.height || own.bits != stream.bits ||
         own.chroma != stream.chroma || own.has_alpha != stream.has_alpha) {
       fail(fmt::format("picture {} has another format than the first", count));
     }
@@ -404,13 +400,16 @@ struct VideoDecoder::State {
 VideoDecoder::VideoDecoder(const std::string& path, uint64_t track, Views views, int threads)
     : state_(std::make_unique<State>()) {
   State& state = *state_;
-  state.views = views;
+  state.path = path, state.views = views;
   state.what = fmt::format("cannot read '{}'", path);
   state.file = av::open_file(path, state.what);
   state.find_stream(track);
   state.read_facts();
   state.open_decoder(threads);
   state.read_light();
+  if (!are_tracks(views)) return;
+  state.joined = std::make_unique<VideoDecoder>(path, other_track(path, track), Views::kFirst, threads);
+  state.stream.size = joined_size(state.own_size, views);
 }
 
 VideoDecoder::~VideoDecoder() = default;
@@ -443,6 +442,7 @@ std::optional<DecodedFrame> VideoDecoder::next() {
     result.alpha_stride = static_cast<size_t>(frame->linesize[3]);
   }
   result.memory = frame;
+  if (state.joined) return join_next(result, state.stream, *state.joined, state.own_size, state.views, state.path);
   return are_interleaved(state.views) ? take_apart(result, state.stream.size, state.views) : result;
 }
 
@@ -452,6 +452,7 @@ void VideoDecoder::skip_to(double seconds) {
   const double kRounded = 0.5;    // ticks: rounding error of a time
   const int64_t wanted = static_cast<int64_t>(std::ceil(seconds * state.ticks() - kRounded));
   state.has_skipped = true;
+  if (state.joined) state.joined->skip_to(seconds);
   const int64_t before = static_cast<int64_t>((seconds - kReordered) * state.ticks());
   if (av_seek_frame(state.file.get(), state.source->index, before, AVSEEK_FLAG_BACKWARD) >= 0) {
     avcodec_flush_buffers(state.decoder.get());

@@ -50,14 +50,19 @@ struct DecodedFrame {
 
 // The layers to decode of a stream with the eyes as layers (MV-HEVC): only the first layer, as for any other stream, or
 // both as one frame, with the left eye on the left. If the stream does not specify the order, the first one is the left
-// or the right eye's. Interleaved rows become two halves one above the other, columns two halves side by side.
-enum class Views { kFirst, kLeftAndRight, kRightAndLeft, kRows, kColumns };
+// or the right eye's. Interleaved rows become two halves one above the other, columns two halves side by side. The last
+// two join the track with the other one of its size (joined_tracks.h): both eyes, or the faces of a cube.
+enum class Views { kFirst, kLeftAndRight, kRightAndLeft, kRows, kColumns, kTwoTracks, kFaceRows };
 constexpr bool has_layers(Views views) {
   return views == Views::kLeftAndRight || views == Views::kRightAndLeft;
 }
 // Returns whether the decoder takes apart the rows or columns of such frames.
 constexpr bool are_interleaved(Views views) {
   return views == Views::kRows || views == Views::kColumns;
+}
+
+constexpr bool are_tracks(Views views) {
+  return views == Views::kTwoTracks || views == Views::kFaceRows;
 }
 
 // Returns whether this machine's libavcodec can decode both: FFmpeg 7.1 or later.

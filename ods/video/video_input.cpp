@@ -14,6 +14,7 @@
 #include "ods/picture/stored_lenses.h"
 #include "ods/video/container/complete_metadata.h"
 #include "ods/video/container/mesh_box.h"
+#include "ods/video/joined_tracks.h"
 
 namespace ods {
 
@@ -133,7 +134,12 @@ VideoInput open_video(const std::string& path, const FormatHint& given) {
   VideoInput video;
   video.path = path;
   FormatHint known = given;
-  const VideoTrack track = decoded_track(choose_track(info, {}, path), known, video);
+  const ChosenPictures chosen = choose_pictures(info, known.layout, path);
+  video.views = chosen.views;
+  if (are_tracks(video.views)) video.other_track = other_track(path, chosen.track.id);
+  if (!known.layout) known.layout = chosen.layout;
+  if (video.views == Views::kFaceRows && !known.projection) known.projection = find_projection("eac")->setting;
+  const VideoTrack track = decoded_track(chosen.track, known, video);
   if (const std::optional<Layout> split = split_layout(track, known, video)) known.layout = split;
   video.track = track.id;
   video.fps = track.fps;

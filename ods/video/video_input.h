@@ -15,10 +15,11 @@ namespace ods {
 struct VideoInput {
   std::string path;
   uint64_t track = 0;
-  Views views = Views::kFirst;  // for VideoDecoder
-  double fps = 0.0;             // 0 if unknown
-  SphericalMetadata metadata;   // complete
-  StoredPicture prototype;      // all properties of the pictures except their pixels: eyes without layers
+  Views views = Views::kFirst;          // for VideoDecoder
+  std::optional<uint64_t> other_track;  // if two are joined
+  double fps = 0.0;                     // 0 if unknown
+  SphericalMetadata metadata;           // complete
+  StoredPicture prototype;              // all properties of the pictures except their pixels: eyes without layers
 };
 
 // Opens a video. Missing metadata is completed as by ods inject; `known` takes precedence, and may have any projection.

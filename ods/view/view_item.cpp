@@ -91,6 +91,12 @@ ViewItem open_view_item(const std::string& path, const FormatHint& known, std::o
                               "apart: ods convert makes a video of it that they show",
                               path));
     }
+    if (are_tracks(video.views)) {
+      throw Error(ErrorKind::kInput,
+                  fmt::format("cannot show '{}': its pictures are two tracks, of which browsers show one: ods convert "
+                              "makes a video of it that they show",
+                              path));
+    }
     if (video.views != Views::kFirst) {
       throw Error(ErrorKind::kInput,
                   fmt::format("cannot show '{}': its eyes are layers of its stream (MV-HEVC), of which browsers show "

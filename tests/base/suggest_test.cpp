@@ -22,6 +22,9 @@ TEST(TakenBy, AFileOfAnotherKindLeadsToItsCommands) {
   for (const std::string_view video : {"RIFF\1\2\3\4AVI LIST"sv, "OggS\0"sv, "G@\x11\x10"sv, "\x06\x0e\x2b\x34\2"sv}) {
     EXPECT_NE(taken_by(video).find("-c copy FILE.mkv"), std::string::npos);
   }
+  EXPECT_NE(taken_by("\1\2\3\4G@\0\x10"sv).find("MVC"), std::string::npos) << "m2ts has a time before each packet";
+  EXPECT_NE(taken_by("#EXTM3U\n"sv).find("playlist"), std::string::npos);
+  EXPECT_NE(taken_by("PK\3\4"sv).find("npz"), std::string::npos);
   for (const std::string_view other : {""sv, "ft"sv, "hello, world"sv, "{}"sv}) EXPECT_EQ(taken_by(other), "");
 }
 

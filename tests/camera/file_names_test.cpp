@@ -12,6 +12,14 @@ namespace {
 
 using Files = std::vector<std::string>;
 
+TEST(FileNames, WordsForTheEyes) {
+  EXPECT_EQ(eye_of_words("trip_L"), kLeft);
+  EXPECT_EQ(eye_of_words("Right eye"), kRight);
+  EXPECT_EQ(eye_of_words("cam1R"), kRight);
+  EXPECT_EQ(eye_of_words(std::string("\5LINKS\0", 7)), kLeft);
+  for (const char* name : {"", "leftover", "left and right", "VideoHandler"}) EXPECT_FALSE(eye_of_words(name)) << name;
+}
+
 TEST(FileNames, BracesWithTwoWordsStandForEyes) {
   EXPECT_TRUE(names_eye("trip_{L|R}.jpg"));
   EXPECT_FALSE(names_eye("trip_{L|R|x}.jpg"));
@@ -48,6 +56,8 @@ TEST(FileNames, JoiningIsTheInverse) {
   EXPECT_EQ(joined_name({"left_a.png", "right_a.png"}), "{left|right}_a.png");
   EXPECT_EQ(joined_name({"{a|b}.png", "c.png"}), std::nullopt);
   EXPECT_EQ(joined_name({"l_{a|b|c|d|e|f}.png", "r_{a|b|c|d|e|f}.png"}), "{l|r}_{a|b|c|d|e|f}.png");
+  const Files plain = {"trip_.jpg", "trip_R.jpg"};
+  EXPECT_EQ(files_of(joined_name(plain).value()), plain) << "one of them adds nothing";
 }
 
 TEST(FileNames, TheRestOfAName) {

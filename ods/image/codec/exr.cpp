@@ -219,7 +219,9 @@ ExrDecoder::ExrDecoder(const PictureBytes& file) : name_(file.name), on_disk_(fi
       [&] {
         input_ = std::make_unique<ExrInput>(file);
         file_ = std::make_unique<Imf::MultiPartInputFile>(*input_, threads);
-        if (is_deep(file_->header(0))) throw cannot_read(name_, "it is not a flat image");
+        if (is_deep(file_->header(0)))
+          throw cannot_read(name_,
+                            "it is a deep image, with many depths in a pixel: flatten it, for example with oiiotool");
         describe();
       },
       [&](const std::string& words) { return cannot_read(name_, words); });

@@ -104,6 +104,7 @@ static bool is_track_of_type(const Element& part, const Element& entry, uint64_t
 static VideoTrack read_track(const Matroska& video, const Element& entry) {
   VideoTrack track;
   track.id = child_number(entry, kTrackNumber);
+  track.name = child_text(entry, kName);
   track.codec = child_text(entry, kCodecId);
   if (const Element* pictures = find_child(entry, kVideo)) {
     const auto side = [&](uint32_t id) {

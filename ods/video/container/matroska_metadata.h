@@ -26,6 +26,7 @@ enum Id : uint32_t {
   kTrackNumber = 0xd7,
   kTrackUid = 0x73c5,
   kTrackType = 0x83,
+  kName = 0x536e,
   kCodecId = 0x86,
   kDefaultDuration = 0x23e383,
   kVideo = 0xe0,

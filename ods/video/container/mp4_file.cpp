@@ -76,6 +76,13 @@ static BoxType handler_of(Box& track) {
   return handler == nullptr ? 0 : static_cast<BoxType>(get_number(handler->body, 8, 4));
 }
 
+// A C string in mp4; in QuickTime it begins with its length.
+static std::string name_of(Box& track) {
+  constexpr size_t kName = 24;
+  const Box* handler = find_child(open_child(track, box_type("mdia")), box_type("hdlr"));
+  return handler == nullptr || handler->body.size() < kName ? "" : handler->body.substr(kName);
+}
+
 static bool is_video(Box& track) {
   return handler_of(track) == box_type("vide");
 }
@@ -150,6 +157,7 @@ static bool has_layers(const Box& entry) {
 static VideoTrack read_video(Box& track, Box& moov) {
   VideoTrack video;
   video.id = track_id(track);
+  video.name = name_of(track);
   for (Box& entry : open_child(sample_table(track), box_type("stsd"), 8).children) {
     open_box(entry, kVisualEntry);
     if (video.codec.empty()) {

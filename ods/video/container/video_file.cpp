@@ -65,12 +65,13 @@ const VideoTrack& choose_track(const VideoFile& video, std::optional<int> id, co
   const auto as_large = [&](const VideoTrack& track) { return pixels(track) == pixels(largest); };
   if (std::count_if(video.tracks.begin(), video.tracks.end(), as_large) > 1) {
     if (small_letters(path).ends_with(".360")) {
-      throw unusable(path,
-                     "a GoPro MAX keeps its six faces in two tracks, which ods does not join: GoPro's player "
-                     "exports them as one lat-long video");
+      throw unusable(path, fmt::format("its tracks {} are not the cube of a GoPro MAX, which ods joins: GoPro's player "
+                                       "exports others as one lat-long video",
+                                       ids));
     }
-    throw unusable(path, fmt::format("several tracks share the largest size, of {}: choose one with `track`, or join "
-                                     "two eyes with ffmpeg -i VIDEO -lavfi '[0:v:0][0:v:1]vstack' EYES_TB.mp4",
+    throw unusable(path, fmt::format("several tracks share the largest size, of {}, and their names do not tell the "
+                                     "eyes: if the first one is the left eye, specify `layout` side-by-side, if the "
+                                     "right one, `layout` cross-eyed; for the first one alone, `layout` separate",
                                      ids));
   }
   return largest;

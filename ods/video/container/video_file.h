@@ -35,6 +35,7 @@ inline bool has_boxes(Container container) {
 
 struct VideoTrack {
   uint64_t id = 0;
+  std::string name;                       // as its author or a program named it
   std::string codec;                      // avc1, hvc1, V_VP9: as the container names it
   Extent size;                            // size of a frame
   double pixel_aspect = 1.0;              // width over height of a pixel

@@ -7,9 +7,11 @@
 #include <cstdio>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include "ods/base/text.h"
 #include "ods/files/read_file.h"
+#include "ods/video/container/video_file.h"
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -129,6 +131,22 @@ Owned<AVFormatContext> open_file(const std::string& path, const std::string& wha
   Owned<AVFormatContext> owned(file);
   checked_small_input(avformat_find_stream_info(file, nullptr), what);
   return owned;
+}
+
+const AVStream* pictures_of(AVFormatContext& file, const std::string& path, uint64_t track) {
+  std::vector<const AVStream*> all;
+  for (unsigned i = 0; i < file.nb_streams; i++) {
+    const AVStream* each = file.streams[i];
+    if (each->codecpar->codec_type != AVMEDIA_TYPE_VIDEO) continue;
+    if (static_cast<uint64_t>(each->id) == track) return each;
+    if ((each->disposition & AV_DISPOSITION_ATTACHED_PIC) == 0) all.push_back(each);
+  }
+  const std::vector<VideoTrack> tracks = all.size() > 1 ? read_video_file(path).tracks : std::vector<VideoTrack>();
+  for (size_t i = 0; i < tracks.size() && tracks.size() == all.size(); i++) {
+    if (tracks[i].id == track) return all[i];
+  }
+  const int best = av_find_best_stream(&file, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+  return best < 0 ? nullptr : file.streams[best];
 }
 
 }  // namespace ods::av

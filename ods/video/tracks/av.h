@@ -3,6 +3,7 @@
 //
 // Shared by the few files that use FFmpeg: owning handles, and one-line errors.
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <new>
 #include <string>
@@ -14,6 +15,7 @@ struct AVCodecContext;
 struct AVFormatContext;
 struct AVFrame;
 struct AVPacket;
+struct AVStream;
 struct SwrContext;
 
 namespace ods::av {
@@ -49,5 +51,10 @@ int checked_small_input(int code, const std::string& what);
 
 // Opens a local file, never a URL, and probes its streams. Throws Error(kInput) with a message that starts with `what`.
 Owned<AVFormatContext> open_file(const std::string& path, const std::string& what);
+
+// The stream of a track (video_file.h). If the demuxer does not number it so, as that of Matroska, it is the one at its
+// place among the tracks; if that does not exist either, the one that FFmpeg ranks best, which is the largest. Returns
+// null if there are no pictures.
+const AVStream* pictures_of(AVFormatContext& file, const std::string& path, uint64_t track);
 
 }  // namespace ods::av

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/mat3x3.hpp>
+#include <optional>
 #include <string>
 
 namespace ods {
@@ -25,9 +26,10 @@ using SoundTurn = std::function<glm::dmat3(double seconds)>;
 // The video whose pictures are encoded again. Its other contents go into the new one: sound, subtitles, timecode,
 // chapters, tags, covers, attachments.
 struct KeepOptions {
-  std::string path;       // empty to keep nothing
-  uint64_t track = 0;     // track of its pictures, as in video_file.h
-  bool has_sound = true;  // keep its sound, too
+  std::string path;                  // empty to keep nothing
+  uint64_t track = 0;                // track of its pictures, as in video_file.h
+  std::optional<uint64_t> joined{};  // the track whose pictures are joined to those
+  bool has_sound = true;             // keep its sound, too
   TimeCut cut;
   SoundTurn turn;  // rotation of ambisonic sound, which is then encoded again; null for none
   std::function<void(const std::string& words)> tell;  // reports each loss and its reason. May be empty

@@ -165,18 +165,6 @@ static void decide(const KeepOptions& keep, Container container, Kept& kept) {
   }
 }
 
-// The pictures that are encoded again, found like in VideoDecoder.
-static const AVStream* pictures_of(AVFormatContext& file, uint64_t track) {
-  const AVStream* pictures = nullptr;
-  const int best = av_find_best_stream(&file, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-  if (best >= 0) pictures = file.streams[best];
-  for (unsigned i = 0; i < file.nb_streams; i++) {
-    const AVStream* each = file.streams[i];
-    if (each->codecpar->codec_type == AVMEDIA_TYPE_VIDEO && static_cast<uint64_t>(each->id) == track) pictures = each;
-  }
-  return pictures;
-}
-
 // The ambisonics of the sound tracks of an mp4 or mov.
 static std::vector<std::optional<Ambisonics>> fields_of(const std::string& path) {
   std::vector<std::optional<Ambisonics>> fields;
@@ -187,7 +175,8 @@ static std::vector<std::optional<Ambisonics>> fields_of(const std::string& path)
 // All streams except the pictures, and the sound if it is replaced.
 static std::vector<Kept> decide_all(AVFormatContext& file, const KeepOptions& keep, Container container) {
   std::vector<Kept> all;
-  const AVStream* pictures = pictures_of(file, keep.track);
+  const AVStream* const pictures = av::pictures_of(file, keep.path, keep.track);
+  const AVStream* const joined = keep.joined ? av::pictures_of(file, keep.path, *keep.joined) : nullptr;
   const std::vector<std::optional<Ambisonics>> fields = fields_of(keep.path);
   size_t sounds = 0;
   for (unsigned i = 0; i < file.nb_streams; i++) {
@@ -195,7 +184,7 @@ static std::vector<Kept> decide_all(AVFormatContext& file, const KeepOptions& ke
     kept.from = file.streams[i];
     const bool is_sound = kept.from->codecpar->codec_type == AVMEDIA_TYPE_AUDIO;
     if (is_sound && sounds < fields.size()) kept.field = fields[sounds++];
-    if (kept.from == pictures || (is_sound && !keep.has_sound)) continue;
+    if (kept.from == pictures || kept.from == joined || (is_sound && !keep.has_sound)) continue;
     decide(keep, container, kept);
     all.push_back(std::move(kept));
   }
@@ -254,7 +243,7 @@ class KeptTracks final : public SideTracks {
 
   void add_to(AVFormatContext& file) override {
     AVStream& pictures = *file.streams[0];
-    if (const AVStream* old = pictures_of(*file_, keep_.track)) {
+    if (const AVStream* old = av::pictures_of(*file_, keep_.path, keep_.track)) {
       av::copy_tags(old->metadata, &pictures.metadata, true);
       pictures.disposition = old->disposition;
       const AVDictionaryEntry* code = av_dict_get(file_->metadata, "timecode", nullptr, 0);

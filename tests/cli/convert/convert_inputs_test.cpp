@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "ods/picture/face_files.h"
@@ -57,6 +58,39 @@ TEST_F(Inputs, EveryCommandReadsBoth) {
   EXPECT_TRUE(std::filesystem::exists(folder.path("site/item/0/left.jpg")));
   EXPECT_TRUE(std::filesystem::exists(folder.path("site/item/0/right.jpg")));
   EXPECT_FALSE(std::filesystem::exists(folder.path("site/item/1")));
+  std::filesystem::create_directory(folder.path("trip"));
+  for (const std::string& eye : {left, right}) {
+    std::filesystem::rename(eye, folder.path("trip/" + std::filesystem::path(eye).filename().string()));
+  }
+  ASSERT_EQ(run("view " + folder.path("trip") + " --export " + folder.path("whole")), 0) << err;
+  EXPECT_TRUE(std::filesystem::exists(folder.path("whole/item/0/right.jpg")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("whole/item/1")));
+}
+
+TEST_F(Inputs, OfOtherKindsLeadToTheNextStep) {
+  const std::string packet = "G@" + std::string(186, '\x11');
+  const struct {
+    const char* name;
+    std::string bytes;
+    const char* advice;
+  } kTable[] = {
+      {"00001.mts", std::string("\0\0\1\2", 4) + packet, "right eye of 3D cameras (MVC)"},
+      {"00002.m2ts", packet, "-c copy FILE.mkv"},
+      {"stream.m3u8", "#EXTM3U\n#EXT-X-VERSION:7\n", "'ffmpeg -i FILE -c copy FILE.mp4'"},
+      {"depth.npz", std::string("PK\3\4\x14\0\0\0", 8), "ods takes each .npy as depth"},
+  };
+  for (const auto& row : kTable) {
+    folder.write(row.name, row.bytes);
+    for (const char* command : {"probe", "lint", "convert"}) {
+      const bool converts = std::string(command) == "convert";
+      EXPECT_EQ(
+          run(fmt::format("{} {}{}", command, folder.path(row.name), converts ? " -o " + folder.path("x.jpg") : "")),
+          3);
+      EXPECT_TRUE(is_told(row.advice)) << command << " " << row.name << ": " << err;
+      EXPECT_TRUE(is_told(row.name)) << err;
+      EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+    }
+  }
 }
 
 TEST_F(Inputs, SixFacesAreOnePicture) {
