@@ -84,6 +84,22 @@ Ground ground_along(const Scene& scene, const std::vector<Bounds>& boxes, const 
   return {share, base > 0.0f ? floor_area(scene, axis, height, slack) / base : 0.0f};
 }
 
+// Returns whether enough of the boxes that stand at a height are tall: what is stuck on an upright board is flat.
+bool are_tall(const std::vector<Bounds>& boxes, const Bounds& bounds) {
+  constexpr float kTall = 0.75f;  // of the longer side of the base
+  const vec3 whole = bounds.high - bounds.low;
+  const float slack = kSlack * std::max({whole.x, whole.y, whole.z});
+  const float height = common_height(boxes, 2, slack).first;
+  size_t standing = 0, tall = 0;
+  for (const Bounds& box : boxes) {
+    const vec3 size = box.high - box.low;
+    if (box.low.z > height || box.low.z < height - slack) continue;
+    standing++;
+    tall += size.z >= kTall * std::max(size.x, size.y) ? 1 : 0;
+  }
+  return 2 * tall >= kMinInstances && 3 * tall >= standing;
+}
+
 bool stands_along_z(const Scene& scene) {
   constexpr float kMax = 0.5f, kFew = 0.2f, kFloor = 0.5f;
   constexpr int kY = 1, kZ = 2;
@@ -91,7 +107,7 @@ bool stands_along_z(const Scene& scene) {
   if (boxes.size() < kMinInstances) return false;
   const Bounds bounds = scene_bounds(scene);
   const Ground z = ground_along(scene, boxes, bounds, kZ);
-  if (z.standing < kMax || z.floor < kFloor) return false;
+  if (z.standing < kMax || z.floor < kFloor || !are_tall(boxes, bounds)) return false;
   return ground_along(scene, boxes, bounds, kY).standing < kFew;
 }
 

@@ -25,6 +25,17 @@ TEST(Upright, WhatStandsAlongZLiesOnItsBack) {
   EXPECT_EQ(why_on_its_back(laid_down(make_exhibition())), "things in the file stand on a floor with z up");
 }
 
+// The same with what tools that compress files leave of it: they write their own name.
+TEST(Upright, WhatIsFlatOnABoardDoesNotStand) {
+  Scene board = with_materials();
+  add_block(board, vec3(-6, -5, -0.1f), vec3(6, 5, 0), 0);
+  for (int i = 0; i < 12; i++) {
+    const float x = -5.0f + 0.85f * static_cast<float>(i), y = -4.0f + 0.7f * static_cast<float>(i * 5 % 12);
+    add_block(board, vec3(x, y, 0), vec3(x + 0.8f, y + 0.8f, 0.4f));
+  }
+  EXPECT_EQ(why_on_its_back(board), "");
+}
+
 // The Khronos sample ClearCoatTest: rows of half spheres and their labels on an upright board.
 TEST(Upright, ABoardOfBlenderIsUpright) {
   Scene board = laid_down(make_exhibition());
