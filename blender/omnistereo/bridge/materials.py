@@ -87,7 +87,7 @@ def simplify(material, ledger):
         if source is not None:
             what = "the volume" if name == "Volume" else "the displacement"
             ledger.lose(f"{what} does not come across", "material", material.name,
-                        "to render it in Blender itself: ods rig (docs/slits.md)" if name == "Volume" else "")
+                        "choose --renderer cycles")
     reader = Reader(material, ledger)
     look = reader.look_of(output.inputs["Surface"])
     if not output.inputs["Surface"].is_linked and output.inputs["Volume"].is_linked:
