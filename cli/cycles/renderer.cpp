@@ -40,15 +40,33 @@ struct Remedy {
 };
 constexpr Remedy kRemedies[] = {
     {"--quality", "the file sets it; --width, --samples and --noise change it"},
-    {"--env", "the file's world lights it"},
+    {"--env", "the file's world lights it; change the world in Blender, or use --renderer ods"},
+    {"--background", "the file's world is behind it; change the world in Blender, or use --renderer ods"},
+    {"--lamp", "add a light in Blender, or use --renderer ods"},
+    {"--light-unit", "Blender's lights are in watts"},
+    {"--unlit", "--renderer ods shows colours without light"},
     {"--bake", "Cycles computes the materials"},
+    {"--indirect", "the file sets its bounces and caustics; --bounces changes the first"},
+    {"--caustics", "the file sets them (Light Paths)"},
+    {"--clamp", "the file sets it (Light Paths, Clamping)"},
+    {"--filter", "the file sets it (Film, Pixel Filter)"},
     {"--turntable", "move the camera in the file"},
     {"--fly-to", "move the camera in the file"},
+    {"--statistics", "an .exr with the noise of each pixel needs --renderer ods"},
+    {"--object-layer", "--renderer ods writes this layer"},
     {"--save-unfinished", "--time-limit makes the best picture of a time"},
     {"--part", "ods submit splits frames"},
     {"--parts", "ods submit splits frames"},
     {"--confine", "Blender reads all files that the scene names"},
+    {"--animation", "Blender plays the file's own; --frames chooses of it"},
+    {"--variant", "a .blend has none; --scene chooses a scene"},
+    {"--solid-glass", "in Cycles all closed glass is solid"},
     {"--unit", "the file has its unit"},
+    {"--up", "in a .blend z is up"},
+    {"--as", "the file's camera is used, or --position"},
+    {"--portable", "Cycles has no such mode; --device cpu avoids differences of graphics cards"},
+    {"--with", "link it in Blender, or use --renderer ods"},
+    {"--at", "link it in Blender, or use --renderer ods"},
     {"--rig", "docs/slits.md renders slits in Blender"},
 };
 
@@ -69,8 +87,8 @@ void check_cycles_options(const std::vector<GivenWord>& given) {
     }
     if (std::ranges::find(kHonoured, word.name) != std::end(kHonoured)) continue;
     const auto* const remedy = std::ranges::find(kRemedies, word.name, &Remedy::option);
-    const std::string cure = remedy == std::end(kRemedies) ? "" : fmt::format(": {}", remedy->text);
-    throw UsageError(fmt::format("{} cannot be used with --renderer cycles{}", word.name, cure));
+    const std::string cure(remedy == std::end(kRemedies) ? "--renderer ods has it" : remedy->text);
+    throw UsageError(fmt::format("{} cannot be used with --renderer cycles: {}", word.name, cure));
   }
 }
 

@@ -216,8 +216,9 @@ static Scene load_upright(const SceneSource& source) {
       .finds_origin = !(source.foreign && source.foreign->is_blender_file)};  // its camera has the file's coordinates
   Scene scene = ods::load_scene(file, options);
   const bool is_upright = ods::find_builtin(source.name) || (source.foreign && source.foreign->is_blender_file);
-  if (source.up != ods::UpAxis::kAuto || is_upright || !ods::lies_on_its_back(scene)) return scene;
-  note("things in the file stand on a floor with z up: z is taken as up (--up z; --up y turns this off)");
+  const std::string sign = source.up != ods::UpAxis::kAuto || is_upright ? "" : ods::why_on_its_back(scene);
+  if (sign.empty()) return scene;
+  note(fmt::format("{}: z is taken as up (--up z; --up y turns this off)", sign));
   options.z_up = true;
   return ods::load_scene(file, options);
 }

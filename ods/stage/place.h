@@ -56,7 +56,7 @@ using LookAround = std::function<void(const SceneRays& rays, const Survey& surve
 // sets Scene::viewing. A scene without visible surfaces is not changed, except by a given unit. An object seen by a
 // camera of the file keeps its size. look: called once at the end. Throws Error(kInput) as scale_scene().
 //
-// The commands open a file with load_scene(); if lies_on_its_back(), they load it again with SceneOptions::z_up; then
+// The commands open a file with load_scene(); if why_on_its_back(), they load it again with SceneOptions::z_up; then
 // they settle it, and place the camera with camera_in() (ods/sequence/scene_camera.h). Built-in scenes are not settled.
 Settled settle(Scene& scene, const SettleOptions& options = {}, const LookAround& look = {});
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ods/kernel/surface.h"
+#include "ods/stage/gravity.h"
 
 namespace ods {
 
@@ -83,18 +84,41 @@ Ground ground_along(const Scene& scene, const std::vector<Bounds>& boxes, const 
   return {share, base > 0.0f ? floor_area(scene, axis, height, slack) / base : 0.0f};
 }
 
-}  // namespace
+// Returns whether enough of the boxes that stand at a height are tall: what is stuck on an upright board is flat.
+bool are_tall(const std::vector<Bounds>& boxes, const Bounds& bounds) {
+  constexpr float kTall = 0.75f;  // of the longer side of the base
+  const vec3 whole = bounds.high - bounds.low;
+  const float slack = kSlack * std::max({whole.x, whole.y, whole.z});
+  const float height = common_height(boxes, 2, slack).first;
+  size_t standing = 0, tall = 0;
+  for (const Bounds& box : boxes) {
+    const vec3 size = box.high - box.low;
+    if (box.low.z > height || box.low.z < height - slack) continue;
+    standing++;
+    tall += size.z >= kTall * std::max(size.x, size.y) ? 1 : 0;
+  }
+  return 2 * tall >= kMinInstances && 3 * tall >= standing;
+}
 
-bool lies_on_its_back(const Scene& scene) {
+bool stands_along_z(const Scene& scene) {
   constexpr float kMax = 0.5f, kFew = 0.2f, kFloor = 0.5f;
   constexpr int kY = 1, kZ = 2;
-  if (scene.generator.find("Blender") != std::string::npos) return false;
   const std::vector<Bounds> boxes = boxes_of(scene);
   if (boxes.size() < kMinInstances) return false;
   const Bounds bounds = scene_bounds(scene);
   const Ground z = ground_along(scene, boxes, bounds, kZ);
-  if (z.standing < kMax || z.floor < kFloor) return false;
+  if (z.standing < kMax || z.floor < kFloor || !are_tall(boxes, bounds)) return false;
   return ground_along(scene, boxes, bounds, kY).standing < kFew;
+}
+
+}  // namespace
+
+std::string why_on_its_back(const Scene& scene) {
+  // Our own exporter imports other formats into Blender and keeps their axes.
+  const bool is_of_blender = scene.generator.find("Blender") != std::string::npos;
+  if (is_of_blender && !scene.generator.starts_with("Omnistereo")) return "";
+  if (stands_along_z(scene)) return "things in the file stand on a floor with z up";
+  return sign_of_z_up(scene);
 }
 
 }  // namespace ods

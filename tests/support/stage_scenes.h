@@ -39,6 +39,15 @@ inline Scene moved(Scene scene, vec3 way) {
   return scene;
 }
 
+// Rotates a scene as a program with z up writes it: y becomes z, and z becomes -y.
+inline Scene laid_down(Scene scene) {
+  for (Instance& instance : scene.instances) {
+    const vec4 y = instance.row1;
+    instance.row1 = -instance.row2, instance.row2 = y;
+  }
+  return scene;
+}
+
 // A chair, 1 m high, at the origin.
 inline Scene make_chair() {
   Scene scene = with_materials();

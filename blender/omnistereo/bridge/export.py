@@ -58,13 +58,30 @@ def _nodes_by_mark(glb):
     return nodes
 
 
+def _constants(material, node, found, rules, ledger):
+    """The inputs that become constants in any case: what is the same all over, and what glTF has no pictures for."""
+    same = {key for key in found if unroll.is_constant_everywhere(materials.principled_input(node, key))}
+    if found.get("normal") == pictures.MISSING:
+        materials.unlink(node, "normal")
+        same.add("normal")
+    for key in pictures.FLAT:
+        socket = materials.principled_input(node, key)
+        fault = rules.fault(key, socket) if socket is not None else None
+        if fault is None and (key != "ior" or materials.source_of(socket) is None):
+            continue
+        same.add(key)
+        if not unroll.is_constant_everywhere(socket):
+            ledger.lose(f"a mean of what nodes compute ({socket.name})", "material", material.name)
+    return same
+
+
 def _materials(context, prepared, samples, size, folder, ledger):
     """Leaves materials that the exporter understands. By their names: emission, which are translucent, albedo_scale(),
     which read vertex colours."""
     shown = [o for o in prepared.objects if not o.hide_render]
     meshes = [o for o in shown if o.type in prepare.MESHES]
     materials.fill_slots(meshes, ledger.read(context.view_layer, "material_override"))
-    users, computed, causes, rules = {}, {}, {}, pictures.Rules(ledger)
+    users, computed, constant, causes, rules = {}, {}, {}, {}, pictures.Rules(ledger)
     for each in meshes:
         for material in {s.material for s in each.material_slots}:
             users.setdefault(material, []).append(each)
@@ -75,12 +92,15 @@ def _materials(context, prepared, samples, size, folder, ledger):
         found = pictures.computed_inputs(node, rules)
         if found and (pictures.changes(node) or (samples and material.name in samples.looks)):
             ledger.lose("values computed for each frame are frozen at the saved frame", "material", material.name)
-        unroll.unroll(material, node, found, users[material], rules, folder)
-        found = pictures.computed_inputs(node, rules)
+        same = constant[material.name] = _constants(material, node, found, rules, ledger)
+        vary = {key: fault for key, fault in found.items() if key not in same}
+        unroll.unroll(material, node, vary, users[material], rules, folder)
+        found = {key: fault for key, fault in pictures.computed_inputs(node, rules).items() if key not in same}
         if found:
             computed[material.name] = found
             sockets = [materials.principled_input(node, key) for key in found]
             causes[material.name] = set().union(*map(unroll.other_sources, sockets)) or set(found.values())
+    means.use_means(context, shown, constant, folder)
     left = computed
     if computed and size > 0:
         left = {name: computed[name] for name in bake.bake(context, shown, computed, size)}

@@ -10,12 +10,16 @@ from .looks import PLAIN, Reader, is_constant, output_of, principled_input, sour
 COLORS = {"VERTEX_COLOR": "layer_name", "ATTRIBUTE": "attribute_name"}
 
 
+def unlink(node, key):
+    for link in list(principled_input(node, key).links):
+        node.id_data.links.remove(link)
+
+
 def _set(tree, node, key, value):
     socket = principled_input(node, key)
     if socket is None or value is None:
         return
-    for link in list(socket.links):
-        tree.links.remove(link)
+    unlink(node, key)
     if is_constant(value):
         socket.default_value = value
     else:
@@ -83,7 +87,7 @@ def simplify(material, ledger):
         if source is not None:
             what = "the volume" if name == "Volume" else "the displacement"
             ledger.lose(f"{what} does not come across", "material", material.name,
-                        "to render it in Blender itself: ods rig (docs/slits.md)" if name == "Volume" else "")
+                        "choose --renderer cycles")
     reader = Reader(material, ledger)
     look = reader.look_of(output.inputs["Surface"])
     if not output.inputs["Surface"].is_linked and output.inputs["Volume"].is_linked:

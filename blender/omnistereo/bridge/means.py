@@ -7,7 +7,7 @@ import bpy
 from mathutils import Vector
 
 from .looks import output_of, principled_input, source_of
-from .pictures import BAKED
+from .pictures import BAKED, FLAT
 from .prepare import MESHES
 from .stage import Stage, pixels
 
@@ -63,11 +63,12 @@ def use_means(context, shown, computed, folder):
     for name, keys in computed.items():
         material = bpy.data.materials[name]
         node = source_of(output_of(material.node_tree).inputs["Surface"]).node
-        for key in (key for key in BAKED if key in keys and key != "normal"):
+        for key in (key for key in (*BAKED, *FLAT) if key in keys and key != "normal"):
             mean = _mean(context, users[name], material, key, folder)
             if mean is None:
                 continue
             socket = principled_input(node, key)
             for link in list(socket.links):
                 material.node_tree.links.remove(link)
-            socket.default_value = (*mean, 1.0) if key in ("color", "emission") else min(max(sum(mean) / 3, 0.0), 1.0)
+            most = 1.0 if key in BAKED else 100.0
+            socket.default_value = (*mean, 1.0) if key in ("color", "emission") else min(max(sum(mean) / 3, 0.0), most)

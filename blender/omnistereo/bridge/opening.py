@@ -1,7 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The Omnistereo authors
 # SPDX-License-Identifier: Apache-2.0
 """Opens a file in Blender: a .blend, or one that Blender imports."""
+import ctypes
+import gzip
 import os
+import zlib
 
 import bpy
 
@@ -18,10 +21,44 @@ def repair_numpy():
             setattr(numpy, name, kind)
 
 
-def _version_of(path):
-    """Of the Blender that saved a file, by its first bytes; (0, 0) if it is packed."""
+class _Buffer(ctypes.Structure):
+    """ZSTD_inBuffer and ZSTD_outBuffer."""
+
+    _fields_ = [("start", ctypes.c_char_p), ("size", ctypes.c_size_t), ("at", ctypes.c_size_t)]
+
+
+def _unpacked(start, most):
+    """The first bytes of what Zstandard has packed; Blender's Python has no module for that. Empty: no library."""
+    try:
+        zstd = ctypes.CDLL("libzstd.so.1")
+    except OSError:
+        return b""
+    zstd.ZSTD_createDStream.restype = ctypes.c_void_p
+    stream, space = ctypes.c_void_p(zstd.ZSTD_createDStream()), ctypes.create_string_buffer(most)
+    source, result = _Buffer(start, len(start), 0), _Buffer(ctypes.cast(space, ctypes.c_char_p), most, 0)
+    zstd.ZSTD_decompressStream(stream, ctypes.byref(result), ctypes.byref(source))
+    zstd.ZSTD_freeDStream(stream)
+    return space.raw[:result.at]
+
+
+def _start_of(path):
+    """The first bytes of a file, packed or not."""
     with open(path, "rb") as file:
-        start = file.read(17)
+        start = file.read(1 << 18)  # a block of Zstandard has half of that at most
+    if start.startswith(b"\x28\xb5\x2f\xfd"):
+        return _unpacked(start, 17)
+    if start.startswith(b"\x1f\x8b"):
+        with gzip.open(path) as file:
+            return file.read(17)
+    return start[:17]
+
+
+def _version_of(path):
+    """Of the Blender that saved a file, by its first bytes; (0, 0): they do not tell."""
+    try:
+        start = _start_of(path)
+    except (EOFError, zlib.error):
+        return (0, 0)
     # BLENDER-v304, and from 5.0 on BLENDER17-01v0500.
     digits = start[13:17] if start[7:9].isdigit() else start[9:12]
     return divmod(int(digits), 100) if start.startswith(b"BLENDER") and digits.isdigit() else (0, 0)

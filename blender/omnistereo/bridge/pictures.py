@@ -8,9 +8,16 @@ new in Blender makes a picture computed, not wrong.
 from .looks import label_of, nodes_behind, principled_input, source_of
 
 BAKED = ("color", "metallic", "roughness", "transmission", "alpha", "emission", "normal")
+FLAT = ("specular", "ior")  # never baked; the exporter drops what it does not take
 SRGB = ("color", "emission")
+MISSING = "a picture that is missing"
 SPLIT = {"SEPRGB", "SEPARATE_COLOR"}
 PAIRS = (("color", "alpha"), ("metallic", "roughness"))  # which glTF has in one picture
+
+
+def has_pixels(node):
+    """Whether an Image Texture has a picture; without one Cycles shows one colour all over."""
+    return node.image is not None and (node.image.source != "FILE" or node.image.size[0] > 0)
 
 
 class Rules:
@@ -49,8 +56,8 @@ class Rules:
         """The same of an Image Texture: its picture, how that is laid out and repeated."""
         if self._is_set(node, "image", "image_user", "interpolation", "extension"):
             return label_of(node)
-        if node.image is None:
-            return "a picture that is missing"
+        if not has_pixels(node):
+            return MISSING
         layout = self.layout_fault(node.inputs["Vector"])
         if layout is not None:
             return layout

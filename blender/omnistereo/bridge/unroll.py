@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from .looks import label_of, nodes_behind, output_of, principled_input, source_of
-from .pictures import SRGB
+from .pictures import SRGB, has_pixels
 from .stage import Stage, pixels
 
 WIDEST = 4096  # of a picture, in pixels
@@ -60,6 +60,16 @@ def _maps_of(nodes):
         if node.type == "TEX_COORD" or (node.type == "TEX_IMAGE" and not _is_laid_out(node)):
             maps.add("")
     return maps
+
+
+def is_constant_everywhere(socket):
+    """Whether a linked input is computed of nothing that varies over a surface."""
+    node = source_of(socket).node
+    if node.type == "TEX_IMAGE" and not has_pixels(node):
+        return True
+    if node.type not in PURE or node.type.startswith("TEX_") or node.type == "UVMAP":
+        return False
+    return all(is_constant_everywhere(each) for each in node.inputs if source_of(each) is not None)
 
 
 def _used_range(users, name, map_name):

@@ -198,6 +198,44 @@ def boxes():
     plane(made)
 
 
+def constant():
+    """A product of two constants."""
+    new()
+    made, tree, body = material()
+    product = shader(tree, "MixRGB")
+    product.blend_type = "MULTIPLY"
+    for socket, value in zip(product.inputs, (1.0, (0.5, 0.4, 0.2, 1), (0.8, 0.5, 0.5, 1))):
+        socket.default_value = value
+    tree.links.new(product.outputs[0], body.inputs["Base Color"])
+    plane(made)
+
+
+def without_pictures():
+    """Colour, gloss and normals of a picture that is missing."""
+    new()
+    made, tree, body = material()
+    image = bpy.data.images.new("lost", 4, 4)
+    image.source, image.filepath = "FILE", "/nowhere/lost.png"
+    image.reload()
+    picture, normal = texture(tree, image), shader(tree, "NormalMap")
+    for name in ("Base Color", "Specular" if "Specular" in body.inputs else "Specular IOR Level"):
+        tree.links.new(picture.outputs[0], body.inputs[name])
+    tree.links.new(picture.outputs[0], normal.inputs["Color"])
+    tree.links.new(normal.outputs[0], body.inputs["Normal"])
+    plane(made)
+
+
+def computed_gloss():
+    """Specular of black and black squares: none."""
+    new()
+    made, tree, body = material()
+    checker, at = shader(tree, "TexChecker"), shader(tree, "TexCoord")
+    checker.inputs["Color1"].default_value = checker.inputs["Color2"].default_value = (*BLACK, 1)
+    tree.links.new(at.outputs["Object"], checker.inputs[0])
+    tree.links.new(checker.outputs[0], body.inputs["Specular" if "Specular" in body.inputs else "Specular IOR Level"])
+    plane(made)
+
+
 def glow():
     """Emission whose picture goes to 4, times a strength that nodes compute."""
     new()
@@ -396,8 +434,10 @@ def sparks():
 
 
 BAKED = {boxes: 32, glow_along: 32}
-SCENES = [nested_mixes, used_colors, unused_colors, mask, decal, tiles, boxes, glow, glow_along, library, override, fog,
-          settings, portal, hidden_world, two_worlds, focus, equisolid, polynomial, mirror_ball, moving, waves, sparks]
+SCENES = [nested_mixes, used_colors, unused_colors, mask, decal, tiles, boxes, constant, without_pictures,
+          computed_gloss, glow, glow_along, library, override, fog, settings, portal, hidden_world, two_worlds, focus,
+          equisolid, polynomial, mirror_ball, moving, waves, sparks]
+
 
 
 def main():

@@ -163,6 +163,32 @@ TEST_F(BlenderScenes, WhatIsAMeanIsNamedOrBaked) {
   EXPECT_EQ(warnings("boxes baked"), "");
 }
 
+TEST_F(BlenderScenes, NothingIsLostOfWhatIsTheSameAllOver) {
+  const Scene scene = load("constant");
+  const vec3 color(material_of(scene).base_color);  // times ODS_albedo
+  EXPECT_NEAR(color.x, 0.4f, 0.04f);
+  EXPECT_LT(length(color / color.x - vec3(1.0f, 0.5f, 0.25f)), 1e-3f);
+  EXPECT_EQ(warnings("constant"), "");
+}
+
+// Cycles shows magenta; the exporter would fail.
+TEST_F(BlenderScenes, APictureThatIsMissingIsMagenta) {
+  const Scene scene = load("without_pictures");
+  const Material& it = material_of(scene);
+  EXPECT_LT(length(vec3(it.base_color) / it.base_color.x - vec3(1, 0, 1)), 1e-3f);
+  EXPECT_LT(it.normal_slot.texture, 0);
+  EXPECT_EQ(warnings("without_pictures"), "the picture '/nowhere/lost.png' cannot be found\n");
+}
+
+// The exporter would leave it out.
+TEST_F(BlenderScenes, ComputedGlossIsAMean) {
+  EXPECT_EQ(warnings("computed_gloss"), "a mean of what nodes compute (Specular): material 'it'\n");
+  const Scene scene = load("computed_gloss");
+  const int layers = material_of(scene).layers;
+  ASSERT_GE(layers, 0);
+  EXPECT_EQ(scene.material_layers[static_cast<size_t>(layers)].specular_color, vec3(0.0f));
+}
+
 // The picture's peak and the computed strength are the material's, the picture is their share.
 TEST_F(BlenderScenes, EmissionMayBeBrighterThanOne) {
   const Scene scene = load("glow");
