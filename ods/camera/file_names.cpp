@@ -63,19 +63,21 @@ bool names_files(const std::string& path) {
   return names_eye(path) || names_faces(path);
 }
 
-std::vector<std::string> files_of(const std::string& path) {
-  std::vector<std::string> files;
-  if (names_eye(path)) {
-    for (int eye : {kLeft, kRight}) {
-      for (std::string& file : files_of(path_for_eye(path, eye))) files.push_back(std::move(file));
-    }
-    return files;
-  }
+static void add_faces(const std::string& path, std::vector<std::string>& files) {
   const std::optional<WordsInBraces> faces = words_in_braces(path, kFaceCount);
-  if (!faces) return {path};
+  if (!faces) return files.push_back(path);
   for (const std::string& word : faces->words) {
     files.push_back(path.substr(0, faces->begin) + word + path.substr(faces->end));
   }
+}
+
+std::vector<std::string> files_of(const std::string& path) {
+  std::vector<std::string> files;
+  if (!names_eye(path)) {
+    add_faces(path, files);
+    return files;
+  }
+  for (int eye : {kLeft, kRight}) add_faces(path_for_eye(path, eye), files);
   return files;
 }
 

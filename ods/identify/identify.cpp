@@ -397,7 +397,12 @@ static Identity identify_all(const StoredPicture& whole, const FormatHint& known
   identity.reason = candidates[0].reason;
   identity.has_other_faces = std::any_of(
       cuts.begin(), cuts.end(), [](const Cut& cut) { return cut.other_faces > kLikely && cut.two_eyes >= 0.0; });
-  for (const Candidate& each : candidates) identity.readings.push_back(each.reading);
+  // A drawing on a transparent ground looks like a circle with empty corners, a ball like a mirror ball.
+  const double share = has_clear_corners(whole) ? kLikely : 1.0;
+  for (const Candidate& each : candidates) {
+    identity.readings.push_back(each.reading);
+    identity.readings.back().certainty *= share;
+  }
   return identity;
 }
 

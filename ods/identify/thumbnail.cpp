@@ -147,6 +147,18 @@ int bars_at_ends(int count, const std::function<double(int)>& lit) {
 
 }  // namespace
 
+bool has_clear_corners(const StoredPicture& whole) {
+  const LayerPixels& layer = whole.eyes[0].layers[0];
+  constexpr size_t kAlpha = 3;
+  if (layer.channels.size() <= kAlpha) return false;
+  const auto is_clear = [&](int x, int y) {
+    const std::byte* const at = layer.first + y * layer.row_stride + x * layer.pixel_stride;
+    return sample_value(layer.sample, at + kAlpha * bytes_of(layer.sample)) == 0.0f;
+  };
+  const int right = whole.size.width - 1, bottom = whole.size.height - 1;
+  return is_clear(0, 0) && is_clear(right, 0) && is_clear(0, bottom) && is_clear(right, bottom);
+}
+
 Bars bars_of(const StoredPicture& whole) {
   constexpr int kRows = 200;
   const Rows rows = rows_of(whole);

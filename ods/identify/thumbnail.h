@@ -35,6 +35,9 @@ std::vector<Image> interleaved_eyes(const StoredPicture& whole, Layout layout);
 // The red, green and blue part, reduced to that size: linear, one channel each.
 std::vector<Image> color_parts(const StoredPicture& whole, Extent size);
 
+// Returns whether all four corners of the file are entirely transparent, as around a drawing.
+bool has_clear_corners(const StoredPicture& whole);
+
 // Black bars at two opposite sides of a file, or at all four: equally wide at both, with an edge towards the picture.
 // Returns no bars if no sides have them. `whole` as in make_thumbnail().
 Bars bars_of(const StoredPicture& whole);

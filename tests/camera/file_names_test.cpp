@@ -33,6 +33,9 @@ TEST(FileNames, FilesOfAName) {
   EXPECT_EQ(files_of("a.png"), Files{"a.png"});
   EXPECT_EQ(files_of("%V.png"), (Files{"left.png", "right.png"}));
   EXPECT_EQ(files_of("s/{a|b|c|d|e|f}.png").size(), 6u);
+  for (const char* twice : {"{l|x%V}.png", "{l|r}_{l|r}.png", "{l|r}/{%v|r}.png"}) {
+    EXPECT_EQ(files_of(twice).size(), 2u) << twice;
+  }
   const Files all = files_of("{l|r}_{a|b|c|d|e|f}.png");
   ASSERT_EQ(all.size(), 12u);
   EXPECT_EQ(all[1], "l_b.png");

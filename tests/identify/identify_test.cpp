@@ -365,6 +365,32 @@ TEST_F(Unknown, StripsOfAWorldWhoseYIsUpAreTold) {
   }
 }
 
+TEST_F(Unknown, OfATransparentGroundNothingIsLikely) {
+  StereoCamera camera;
+  camera.projection = named("mirror-ball");
+  const Image ball = seen(World::kHall, camera, kMono, {256, 256});
+  const auto identity_with = [&](float around) {
+    Picture picture;
+    EyeImage& image = picture.eyes.emplace_back();
+    image.eye = kMono;
+    image.radiance = ball;
+    image.alpha = Image(256, 256, 1);
+    for (int y = 0; y < 256; y++) {
+      for (int x = 0; x < 256; x++) {
+        const bool is_inside = std::hypot(static_cast<float>(x) - 127.5f, static_cast<float>(y) - 127.5f) < 128.0f;
+        *image.alpha.at(x, y) = is_inside ? 1.0f : around;
+      }
+    }
+    SaveOptions options;
+    options.tone = ToneCurve::kLinear;
+    save_picture(picture, options, folder.path("ball.png"));
+    return identify(open_unknown(folder.path("ball.png")));
+  };
+  EXPECT_TRUE(identity_with(1.0f).is_sure());
+  EXPECT_EQ(identity_with(1.0f).best().projection, named("mirror-ball"));
+  EXPECT_FALSE(identity_with(0.0f).is_likely());
+}
+
 TEST_F(Unknown, WhatIsKnownCountsMoreThanPixels) {
   const TwoEyes eyes = [&](int eye, const ProjectionSetting& projection, Extent size) {
     StereoCamera camera;
