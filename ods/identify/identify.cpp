@@ -443,8 +443,7 @@ std::string doubt_text(const Identity& identity) {
   constexpr double kNamed = 0.05;
   constexpr size_t kMaxNamed = 3;
   if (identity.readings.empty() || identity.is_sure()) return {};
-  const bool is_other = identity.has_other_faces || identity.is_anaglyph || identity.is_front_and_back;
-  const size_t at_least = is_other ? 0 : 2;
+  const size_t at_least = identity.is_anaglyph ? 0 : 2;
   std::vector<std::string> texts;
   for (const Reading& reading : identity.readings) {
     if ((reading.certainty < kNamed && texts.size() >= at_least) || texts.size() == kMaxNamed) break;

@@ -132,7 +132,7 @@ TEST(GuessLayout, TheShapeIsTheLastResort) {
   EXPECT_EQ(guess(128, 32, "a.png").layout, Layout::kSideBySide);
   EXPECT_EQ(guess(64, 32, "a.png").layout, std::nullopt);
   EXPECT_EQ(guess(64, 48, "a.png").layout, std::nullopt);
-  EXPECT_EQ(guess(64, 48, "a.png").reason, "by default");
+  EXPECT_EQ(guess(64, 48, "a.png").reason, "nothing tells of two eyes");
 }
 
 TEST(LoadEyes, WhatTheFileSaysGoesBeforeItsName) {

@@ -60,6 +60,10 @@ static bool has_shape(const ProjectionSetting& setting, Extent eye) {
   return eye.width % width_step(setting) == 0 && natural_height(setting, eye.width) == eye.height;
 }
 
+bool is_told_by_shape(const ProjectionSetting& setting, Extent eye) {
+  return setting.kind != kPerspective && has_shape(setting, eye);
+}
+
 // The projections that an aspect ratio alone identifies. 3:2 does not identify a cube, because most cameras' photos
 // have it.
 static std::vector<const NamedProjection*> shapes() {
@@ -311,13 +315,16 @@ struct ProjectionGuess {
 
 }  // namespace
 
-// Most pictures that are not about twice as wide as high are flat.
-static ProjectionGuess guess_by_default(Extent eye) {
+// Most pictures that are not about twice as wide as high are flat. A file with the shape of spheres may have a layout
+// that its name or metadata does not tell rightly.
+static ProjectionGuess guess_by_default(Extent eye, Extent file) {
   constexpr float kNarrow = 1.9f, kWide = 2.5f;  // wider than 16:9, which is flat
+  const ProjectionSetting sphere = find_projection("lat-long")->setting;
   ProjectionSetting flat = find_projection("perspective")->setting;
   flat.aspect = static_cast<float>(eye.width) / static_cast<float>(eye.height);
+  if (layout_of_shape(file, sphere)) return {sphere, "nothing tells what it shows, and the file has a sphere's shape"};
   if (flat.aspect > kNarrow && flat.aspect < kWide)
-    return {find_projection("lat-long")->setting, "nothing tells what it shows, and its shape is nearly a sphere's"};
+    return {sphere, "nothing tells what it shows, and its shape is nearly a sphere's"};
   return {flat, "nothing tells what it shows, and its shape is not a sphere's"};
 }
 
@@ -338,7 +345,7 @@ static std::optional<ProjectionGuess> projection_in(FormatSource source, const E
         return ProjectionGuess{shape->setting, "an eye has that shape"};
       return std::nullopt;
     case FormatSource::kNothing:
-      return guess_by_default(eye);
+      return guess_by_default(eye, shown_size(of.info));
     default:
       return std::nullopt;
   }

@@ -96,6 +96,9 @@ bool belongs_to(const Sidecar& sidecar, const FileInfo& info);
 // camera.
 Sidecar open_camera(const std::string& path, std::vector<std::string>& warnings);
 
+// Returns whether the shape of an eye speaks for a projection. No shape speaks for a window, which may have any.
+bool is_told_by_shape(const ProjectionSetting& setting, Extent eye);
+
 // The reason why a file's name would mislead readers, for messages: "its name ends in _LR, ...". Empty if the name
 // agrees or has no format suffix. layout: not set for one eye.
 std::string name_fault(const std::string& path, std::optional<Layout> layout, const ProjectionSetting& projection);

@@ -88,7 +88,7 @@ PictureTag complete_tag(const FormatHint& known, const std::string& path, std::v
                                      info.height, layout_name(*tag.layout)));
   }
   const bool is_known = known.projection || known.seen || format.has_camera || read_name(path).projection != nullptr;
-  if (!is_known && natural_height(format.camera.projection, eye->width) != eye->height) {
+  if (!is_known && !is_told_by_shape(format.camera.projection, *eye)) {
     throw unusable(path, fmt::format("neither its name (_360, _360_TB ...) nor its shape ({}x{}) identifies "
                                      "its format: give `layout` and `projection`",
                                      info.width, info.height));

@@ -59,8 +59,8 @@ inline constexpr float kWindows = 0.003f;
 LightPlan plan_light(const SceneRays& rays, const Survey& survey, const LightChoices& choices = {});
 
 // Adds the light: changes the scene's environment, background, materials and instances, and sets Scene::supplied.
-// Turns and multiplies the environment and the background, the scene's own ones as well. A turn by a fraction of a texel
-// mixes neighbours linearly, as the kernel's look-up does; it keeps the picture's total light.
+// Turns and multiplies the environment and the background, the scene's own ones as well. A turn by a fraction of a
+// texel mixes neighbours linearly, as the kernel's look-up does; it keeps the picture's total light.
 void apply_light(Scene& scene, const Survey& survey, const LightPlan& plan, const LightChoices& choices = {});
 
 // The sun that lights most of the surfaces visible from a point, among several directions at elevations of 35 to 65

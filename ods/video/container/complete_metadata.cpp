@@ -87,7 +87,7 @@ static void guess_projection(SphericalMetadata& known, const StereoFormat& forma
   const Extent shown{static_cast<int>(std::lround(track.size.width * track.pixel_aspect)), track.size.height};
   const Extent eye = whole_eye(format.layout.layout.value_or(Layout::kSeparate), shown).value_or(shown);
   const bool is_known = format.has_camera || read_name(path).projection != nullptr;
-  if (!is_known && natural_height(format.camera.projection, eye.width) != eye.height) {
+  if (!is_known && !is_told_by_shape(format.camera.projection, eye)) {
     throw Error(ErrorKind::kInput,
                 fmt::format("cannot tell what '{}' shows, from its name (_360_TB, _180_LR ...) or its shape "
                             "({}x{}): give `layout` and `projection`",

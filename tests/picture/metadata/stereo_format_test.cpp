@@ -383,6 +383,7 @@ struct Guess {
 };
 
 constexpr Layout kTb = Layout::kTopBottom, kLr = Layout::kSideBySide;
+constexpr const char* kSphere = "lat-long: nothing tells what it shows, and the file has a sphere's shape";
 constexpr const char* kFlat = "perspective: nothing tells what it shows, and its shape is not a sphere's";
 const Guess kGuesses[] = {
     {"a.png",
@@ -409,7 +410,8 @@ const Guess kGuesses[] = {
     {"a.png", {192, 16}, kLr, "cube-6x1", {}},
     {"a.png", {16, 96}, {}, "cube-1x6", {}},
     {"a.png", {16, 192}, kTb, "cube-1x6", {}},
-    {"a_LR.png", {64, 32}, kLr, "perspective", {"side-by-side: its name ends in _LR", kFlat}},
+    {"a_LR.png", {64, 32}, kLr, "lat-long", {"side-by-side: its name ends in _LR", kSphere}},
+    {"a_LR.png", {64, 24}, kLr, "perspective", {"side-by-side: its name ends in _LR", kFlat}},
     {"a_180_LR.png", {64, 32}, kLr, "vr180", {"side-by-side: its name ends in _LR", "vr180: its name ends in _180"}},
     {"a_vr180.png",
      {64, 32},
@@ -418,7 +420,7 @@ const Guess kGuesses[] = {
      {"side-by-side: it has the shape of two eyes, vr180", "vr180: its name ends in _vr180"}},
     {"a_180.png", {64, 64}, {}, "vr180", {}},
     {"a_180.png", {32, 64}, kTb, "vr180", {}},
-    {"a_mono.png", {64, 64}, {}, "perspective", {"one eye: its name ends in _mono", kFlat}},
+    {"a_mono.png", {64, 64}, {}, "lat-long", {"one eye: its name ends in _mono", kSphere}},
     {"a_TB_360.png",
      {64, 48},
      kTb,
