@@ -43,7 +43,8 @@ TEST_F(ProbeCommand, InjectGoesByTheNameAndSaysSo) {
   const Json video = probe(path)["video"]["video"][0];
   EXPECT_EQ(video["v1"]["stereo"], "top-bottom");
   EXPECT_EQ(video["v2"]["projection"], "lat-long");
-  EXPECT_TRUE(video["warnings"].empty());
+  ASSERT_EQ(video["warnings"].size(), 1u) << video["warnings"] << "the file has no pictures";
+  EXPECT_TRUE(video["warnings"][0].get<std::string>().starts_with("cannot read '" + path)) << video["warnings"];
   EXPECT_TRUE(video["vexu"].is_null());
   EXPECT_EQ(video["players"].size(), 5u);
   ASSERT_EQ(run("inject --apple " + path), 0) << err;
