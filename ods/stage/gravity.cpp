@@ -35,6 +35,7 @@ struct Box {
     bounds.high = empty ? p : max(bounds.high, p);
     empty = false;
   }
+  void add(const Bounds& other) { add(other.low), add(other.high); }
   vec3 size() const { return bounds.high - bounds.low; }
 };
 
@@ -86,14 +87,11 @@ struct NameSigns {
   bool y = false;
 };
 
-NameSigns names_in(const Scene& scene, const std::vector<Box>& boxes, const Box& all) {
+NameSigns names_in(const Scene& scene, const std::vector<std::optional<Bounds>>& boxes, const Box& all) {
   const Things things = things_of(scene);
   std::vector<Box> of_thing(things.names.size());
   for (size_t i = 0; i < boxes.size(); i++) {
-    if (boxes[i].empty) continue;
-    Box& box = of_thing[static_cast<size_t>(things.of_instance[i])];
-    box.add(boxes[i].bounds.low);
-    box.add(boxes[i].bounds.high);
+    if (boxes[i]) of_thing[static_cast<size_t>(things.of_instance[i])].add(*boxes[i]);
   }
   NameSigns signs;
   for (size_t k = 0; k < of_thing.size(); k++) {
@@ -181,7 +179,7 @@ struct Room {
   int step(float height) const { return static_cast<int>(std::floor(height / slack)); }
 };
 
-// What spans the scene along two axes is its walls, floor and ceiling; all else are things.
+// Parts that span the scene along two axes are its walls, floor and ceiling; all other parts are things.
 void add_part(Room& room, const Scene& scene, const Instance& instance, const Part& part) {
   int spans = 0;
   for (int axis = 0; axis < 3; axis++) spans += part.box.size()[axis] > 0.6f * room.size[axis] ? 1 : 0;
@@ -258,17 +256,26 @@ bool is_room_with_z_up(const Scene& scene, const Box& all) {
 
 }  // namespace
 
-std::string sign_of_z_up(const Scene& scene) {
-  std::vector<Box> boxes(scene.instances.size());
-  Box all;
+std::vector<std::optional<Bounds>> instance_boxes(const Scene& scene) {
+  std::vector<std::optional<Bounds>> boxes(scene.instances.size());
   for (size_t i = 0; i < boxes.size(); i++) {
     if (is_hidden(scene, i)) continue;
-    const Mesh& mesh = mesh_of(scene, scene.instances[i]);
+    const Instance& instance = scene.instances[i];
+    const Mesh& mesh = mesh_of(scene, instance);
+    Box box;
     for (uint k = 0; k < mesh.vertex_count; k++) {
-      const vec3 p = to_world(scene.instances[i], scene.vertices[mesh.first_vertex + k].position);
-      boxes[i].add(p);
-      all.add(p);
+      box.add(to_world(instance, scene.vertices[mesh.first_vertex + k].position));
     }
+    if (!box.empty) boxes[i] = box.bounds;
+  }
+  return boxes;
+}
+
+std::string sign_of_z_up(const Scene& scene) {
+  const std::vector<std::optional<Bounds>> boxes = instance_boxes(scene);
+  Box all;
+  for (const std::optional<Bounds>& box : boxes) {
+    if (box) all.add(*box);
   }
   if (all.empty) return "";
   const NameSigns names = names_in(scene, boxes, all);

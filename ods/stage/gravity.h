@@ -3,11 +3,16 @@
 //
 // Signs of the direction of gravity in a scene: names, cameras, things that stand in a room.
 #pragma once
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "ods/scene/scene.h"
 
 namespace ods {
+
+// The box of each instance in the world, at rest; nullopt for hidden instances and for meshes without vertices.
+std::vector<std::optional<Bounds>> instance_boxes(const Scene& scene);
 
 // Returns the sign by which +Z is up in a scene whose file claims that +Y is, as part of a message; empty if there is
 // none, or one for +Y. At rest. The signs are:

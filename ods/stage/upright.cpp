@@ -26,17 +26,8 @@ struct Ground {
 // The box of each visible instance.
 std::vector<Bounds> boxes_of(const Scene& scene) {
   std::vector<Bounds> boxes;
-  for (size_t i = 0; i < scene.instances.size(); i++) {
-    if (is_hidden(scene, i)) continue;
-    const Instance& instance = scene.instances[i];
-    const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-    Bounds box;
-    for (uint k = 0; k < mesh.vertex_count; k++) {
-      const vec3 p = to_world(instance, scene.vertices[mesh.first_vertex + k].position);
-      box.low = k == 0 ? p : min(box.low, p);
-      box.high = k == 0 ? p : max(box.high, p);
-    }
-    boxes.push_back(box);
+  for (const std::optional<Bounds>& box : instance_boxes(scene)) {
+    if (box) boxes.push_back(*box);
   }
   return boxes;
 }

@@ -6,6 +6,7 @@ import os
 import bpy
 from mathutils import Vector
 
+from . import materials
 from .looks import output_of, principled_input, source_of
 from .pictures import BAKED, FLAT
 from .prepare import MESHES
@@ -68,7 +69,6 @@ def use_means(context, shown, computed, folder):
             if mean is None:
                 continue
             socket = principled_input(node, key)
-            for link in list(socket.links):
-                material.node_tree.links.remove(link)
+            materials.unlink(node, key)
             most = 1.0 if key in BAKED else 100.0
             socket.default_value = (*mean, 1.0) if key in ("color", "emission") else min(max(sum(mean) / 3, 0.0), most)
