@@ -293,8 +293,7 @@ static void take_chosen(const ChosenPictures& chosen, MediaFile& media) {
   media.track = chosen.track;
   media.views = chosen.views;
   if (!media.hint.layout && !media.hint.one_eye) media.hint.layout = chosen.layout;
-  if (media.views == Views::kFaceRows && !media.hint.projection)
-    media.hint.projection = find_projection("eac")->setting;
+  if (!media.hint.projection) media.hint.projection = chosen.projection;
   if (chosen.note) media.notes.push_back(*chosen.note);
   if (small_letters(media.path).ends_with(".lrv"))
     media.notes.emplace_back("a camera's preview of low resolution: the recording beside it has the same number");

@@ -199,7 +199,7 @@ std::optional<DecodedFrame> join_next(const DecodedFrame& picture, const VideoSt
 }
 
 static ChosenPictures joined_eyes(const VideoTrack& left, const VideoTrack& right, Layout layout) {
-  ChosenPictures chosen{left, Views::kTwoTracks, layout, {}};
+  ChosenPictures chosen{left, Views::kTwoTracks, right.id, layout};
   chosen.track.size.width *= 2;
   chosen.note = fmt::format("its eyes are two tracks: {} and {} of the same size", left.id, right.id);
   const VideoStereo stereo = *stereo_with(arrangement_of(layout));
@@ -223,11 +223,13 @@ static std::vector<const VideoTrack*> largest_pair(const VideoFile& video) {
 
 ChosenPictures choose_pictures(const VideoFile& video, std::optional<Layout> layout, const std::string& path) {
   const std::vector<const VideoTrack*> pair = largest_pair(video);
-  if (pair.empty()) return {choose_track(video, {}, path), Views::kFirst, {}, {}};
+  if (pair.empty()) return {choose_track(video, {}, path)};
   const VideoTrack &one = *pair[0], &other = *pair[1];
   if (const std::optional<FaceRows> rows = face_rows_of(one.size)) {
-    ChosenPictures chosen{one, Views::kFaceRows, Layout::kSeparate, "a cube in two tracks, as GoPro's MAX stores it"};
+    ChosenPictures chosen{one, Views::kFaceRows, other.id, Layout::kSeparate};
     chosen.track.size = rows->whole();
+    chosen.projection = find_projection("eac")->setting;
+    chosen.note = "a cube in two tracks, as GoPro's MAX stores it";
     return chosen;
   }
   if (small_letters(path).ends_with(".insv")) {  // how the lenses look is for their pixels to tell
@@ -235,17 +237,16 @@ ChosenPictures choose_pictures(const VideoFile& video, std::optional<Layout> lay
     chosen.layout.reset(), chosen.note = "its two lenses are two tracks, as Insta360 stores them";
     return chosen;
   }
-  if (layout == Layout::kSeparate) return {one, Views::kFirst, {}, {}};
+  if (layout == Layout::kSeparate) return {one};
   const std::optional<int> first = eye_of_words(one.name), second = eye_of_words(other.name);
   const bool is_told = first && second && *first != *second;
-  if (layout && layout != Layout::kSideBySide && layout != Layout::kCrossEyed)
-    return {choose_track(video, {}, path), Views::kFirst, {}, {}};
+  if (layout && layout != Layout::kSideBySide && layout != Layout::kCrossEyed) return {choose_track(video, {}, path)};
   if (is_told) {
     return *first == kLeft ? joined_eyes(one, other, layout.value_or(Layout::kSideBySide))
                            : joined_eyes(other, one, layout.value_or(Layout::kSideBySide));
   }
   if (layout) return joined_eyes(one, other, *layout);
-  return {choose_track(video, {}, path), Views::kFirst, {}, {}};
+  return {choose_track(video, {}, path)};
 }
 
 }  // namespace ods

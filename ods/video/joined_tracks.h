@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 
+#include "ods/camera/projection.h"
 #include "ods/video/container/video_file.h"
 #include "ods/video/decode.h"
 
@@ -53,8 +54,10 @@ std::optional<DecodedFrame> join_next(const DecodedFrame& picture, const VideoSt
 struct ChosenPictures {
   VideoTrack track;  // the first one; if it is joined, with the size and the metadata of the joined pictures
   Views views = Views::kFirst;
-  std::optional<Layout> layout;     // of joined pictures
-  std::optional<std::string> note;  // for users: what was joined, and by which words
+  std::optional<uint64_t> other{};                // the joined track
+  std::optional<Layout> layout{};                 // of joined pictures
+  std::optional<ProjectionSetting> projection{};  // of joined pictures, if their format determines it
+  std::optional<std::string> note{};              // for users: what was joined, and by which words
 };
 
 // `layout` is the caller's. Two tracks of eyes are joined if their names tell the eyes, or `layout` is side-by-side

@@ -136,9 +136,9 @@ VideoInput open_video(const std::string& path, const FormatHint& given) {
   FormatHint known = given;
   const ChosenPictures chosen = choose_pictures(info, known.layout, path);
   video.views = chosen.views;
-  if (are_tracks(video.views)) video.other_track = other_track(path, chosen.track.id);
+  video.other_track = chosen.other;
   if (!known.layout) known.layout = chosen.layout;
-  if (video.views == Views::kFaceRows && !known.projection) known.projection = find_projection("eac")->setting;
+  if (!known.projection) known.projection = chosen.projection;
   const VideoTrack track = decoded_track(chosen.track, known, video);
   if (const std::optional<Layout> split = split_layout(track, known, video)) known.layout = split;
   video.track = track.id;

@@ -172,6 +172,8 @@ TEST(ChoosePictures, TheRowsOfACubeNeedNoNames) {
   EXPECT_EQ(chosen.views, Views::kFaceRows);
   EXPECT_EQ(chosen.track.size.height, 2688);
   EXPECT_EQ(chosen.layout, Layout::kSeparate);
+  EXPECT_EQ(chosen.projection, find_projection("eac")->setting);
+  EXPECT_EQ(chosen.other, 2u);
   EXPECT_THROW(choose_pictures(two_tracks("", "", {5952, 1920}), {}, "max2.360"), Error);
 }
 

@@ -53,6 +53,11 @@ std::span<const NameWordRow> name_words() {
   return rows;
 }
 
+bool is_packing(Layout layout) {
+  const EyePacking how = arrangement_of(layout).how;
+  return how != EyePacking::kMixed && how != EyePacking::kAlone;
+}
+
 bool is_neutral_token(std::string_view word) {
   constexpr std::string_view kSilent[] = {"injected", "alpha", "3d",   "vr",   "hdr",   "sdr",   "h264",   "h265",
                                           "hevc",     "av1",   "x264", "x265", "final", "quest", "quest2", "quest3"};
@@ -71,8 +76,7 @@ static std::optional<Layout> layout_token(const std::string& word) {
     if (row.word == word && row.layout) return row.layout;
   }
   const std::optional<Layout> layout = layout_of(word);
-  const EyePacking how = layout ? arrangement_of(*layout).how : EyePacking::kAlone;
-  const bool is_word = how != EyePacking::kMixed && how != EyePacking::kAlone && how != EyePacking::kCheckerboard;
+  const bool is_word = layout && is_packing(*layout) && arrangement_of(*layout).how != EyePacking::kCheckerboard;
   return is_word ? layout : std::nullopt;
 }
 

@@ -22,6 +22,9 @@ struct NameWordRow {
 };
 std::span<const NameWordRow> name_words();
 
+// Returns whether the layout packs both eyes into one picture, so that they can be separated.
+bool is_packing(Layout layout);
+
 // Returns whether a word between or after these says nothing about the format: a number, a size (1920x1080, 8k, 2160p),
 // a rate (60fps), a codec, `injected`, `alpha` and a few more.
 bool is_neutral_token(std::string_view word);

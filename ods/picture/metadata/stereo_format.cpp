@@ -28,11 +28,6 @@ namespace ods {
 
 // --- the name --------------------------------------------------------------------------------------------------------
 
-static bool is_packing(Layout layout) {
-  const EyePacking how = arrangement_of(layout).how;
-  return how != EyePacking::kMixed && how != EyePacking::kAlone;
-}
-
 std::string name_end(const ProjectionSetting& projection, Layout layout) {
   const bool is_whole = is_full_lat_long(projection) || is_cube(projection.kind);
   const char* const angle = is_vr180(projection) ? "_180" : is_whole ? "_360" : "";
