@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ods layers has in common for scenes and pictures: its progress, and its files, which are the layered scene with
+// The parts of ods layers that scenes and pictures share: its progress, and its files, which are the layered scene with
 // its stereo picture, or a page.
 #pragma once
 #include "cli/console/interrupt.h"

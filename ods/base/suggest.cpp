@@ -51,7 +51,7 @@ static constexpr std::pair<std::string_view, std::string_view> kForeign[] = {
     {"%PDF"sv, "a PDF document"sv},
 };
 
-// What leads to a file that ods reads.
+// Formats that name or contain files which ods reads.
 static constexpr std::pair<std::string_view, std::string_view> kLeading[] = {
     {"#EXTM3U"sv,
      "a playlist (HLS), which names the pieces of a video: 'ffmpeg -i FILE -c copy FILE.mp4' makes one video of them"sv},

@@ -132,7 +132,7 @@ TEST(FilledHalves, AreNotSeenInPanoramas) {
   }
 }
 
-// The format tells why it was chosen: nobody asked for it.
+// A format that the pixels showed has their evidence as its reason, not a request.
 TEST(RawFileReason, IsWhatThePixelsShow) {
   const TemporaryFolder folder;
   const LensWorld shown = [](int, vec3 direction) { return shown_light(World::kHall, vec3(0.0f), direction); };

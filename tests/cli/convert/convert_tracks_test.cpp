@@ -43,7 +43,7 @@ class TwoTracks : public Cli {
     ASSERT_EQ(ran.code, 0) << ran.out;
   }
 
-  // What the first picture of a video shows, as a display shows it.
+  // The first picture of a video, in display values.
   StoredPicture first_picture(const std::string& name) const {
     const VideoInput video = open_video(folder.path(name));
     VideoDecoder decoder(video.path, video.track, video.views);
