@@ -4,21 +4,22 @@
 // The start of a bundle (ods/view/bundle.h), with $base, its own address, before it and the modules after it. Browsers
 // do not let a page from disk read files, so it gets a file from the script FILE.js beside it.
 const $modules = {};
-let $later;
+const $later = {};
 
-const $script = () => new Promise((done, fail) => {
-  const script = Object.assign(document.createElement('script'), { src: new URL('later.js', $base) });
+const $script = (file) => new Promise((done, fail) => {
+  const script = Object.assign(document.createElement('script'), { src: new URL(`${file}.js`, $base) });
   script.onload = () => done(window.omnistereoLater);
-  script.onerror = () => fail(new Error('A part of this page did not load: later.js. Is the server still running?'));
+  script.onerror = () => fail(new Error(`A part of this page did not load: ${file}.js. Is the server still running?`));
   document.head.append(script);
 });
 
-// Some modules are in a separate script, later.js (ods/view/bundle.h); of a module it is later.mjs, by $bring().
+// Some modules are in separate scripts (ods/view/bundle.h); of a module they are modules, by $bring.
 async function $load(name) {
   if ($modules[name]) return $modules[name];
-  $later ??= (typeof $bring === 'undefined' ? $script() : $bring()).then((later) => later($modules, $load, $base, fetch));
-  await $later.catch((error) => {
-    $later = null; // the next call tries again
+  const file = name === 'tour.js' ? 'later-tour' : 'later';
+  $later[file] ??= (typeof $bring === 'undefined' ? $script(file) : $bring[file]().then(({ later }) => later)).then((later) => later($modules, $load, $base, fetch));
+  await $later[file].catch((error) => {
+    $later[file] = null; // the next call tries again
     throw error;
   });
   return $modules[name];

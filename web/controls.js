@@ -154,7 +154,7 @@ export class Controls {
     find('count').textContent = !viewer.scene && isOneOfMany ? `${item + 1} / ${view.items.length}` : '';
     find('name').title = name;
     this.mark();
-    if (player.isPage && view.live) document.title = `${about.name} – Omnistereo`;
+    if (player.isPage && view.live) document.title = `${about.title ?? about.name} – Omnistereo`;
     find('picture').ariaLabel = t('{}. Look around with the arrow keys; ? lists all keys.', name || t('A panorama'));
     find('reason').textContent = choice.layout ? '' : (about.layout_reason ?? '');
     find('why').hidden = !find('reason').textContent;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The controls of the headset's panel, and their drawing. A control has its box in pixels, a text or an icon, and
-// either run() or, for a slider, its position 0..1 and drag(part, isLast).
+// either run() or, for a slider, its position 0..1 and drag(part, isLast); it may paint(context, box, isHovered, ink) a
+// picture of its own.
 import { clamp } from './geometry.js';
 import { WORN } from './modes.js';
 
@@ -47,7 +48,7 @@ function lay(rows) {
 function entriesOf({ viewer }) {
   const { studio } = viewer.steering ?? {};
   const { exposure, tone } = viewer.choice;
-  const files = viewer.view.items.map(({ name, thumbnail }, i) => ({ name, thumbnail, on: !viewer.scene && i === viewer.item, run: () => viewer.open(i, { exposure, tone }) }));
+  const files = viewer.view.items.map(({ title, name, thumbnail }, i) => ({ name: title ?? name, thumbnail, on: !viewer.scene && i === viewer.item, run: () => viewer.open(i, { exposure, tone }) }));
   return studio ? [{ name: studio.scene.name, on: Boolean(viewer.scene), run: () => studio.showScene() }, ...files] : files;
 }
 
@@ -107,8 +108,9 @@ export function controlsOf(headset, panel) {
   const worn = Math.max(WORN.findIndex(({ name }) => name === state.worn), 0);
   const many = entries.length > 1;
   return lay([
-    [{ text: panel.message || viewer.about?.name || '', share: 9, isName: true }, { id: 'close', icon: 'close', run: () => panel.close() }],
+    [{ text: panel.message || (viewer.about?.title ?? viewer.about?.name) || '', share: 9, isName: true }, { id: 'close', icon: 'close', run: () => panel.close() }],
     ...listRows(panel, entries),
+    ...(viewer.guide?.rows() ?? []),
     ...videoRows(viewer),
     [
       ...(many ? [{ id: 'previous', icon: 'previous', run: () => viewer.go(-1) }, { id: 'next', icon: 'next', run: () => viewer.go(1) }] : []),
@@ -136,7 +138,8 @@ function fitted(context, text, width) {
   return `${text.slice(0, length)}…`;
 }
 
-function paintOne(context, { box: [x, y, width, height], text, icon, image, part, on, run, isName }, isHovered) {
+function paintOne(context, { box, text, icon, image, part, on, run, isName, paint }, isHovered) {
+  const [x, y, width, height] = box;
   const fill = (style, ...box) => {
     context.fillStyle = style;
     context.beginPath();
@@ -154,6 +157,7 @@ function paintOne(context, { box: [x, y, width, height], text, icon, image, part
   if (on && isHovered) fill('#ffd08a', x, y, width, height);
   const ink = on ? '#1b1c1e' : '#f4f4f2';
   Object.assign(context, { fillStyle: ink, strokeStyle: ink, textBaseline: 'middle', textAlign: isName ? 'left' : 'center' });
+  paint?.(context, box, isHovered, ink);
   if (icon) {
     const middle = new DOMMatrix().translate(x + (text ? 46 : width / 2), y + height / 2).scale(2.4).translate(-12, -12);
     const path = new Path2D();

@@ -53,6 +53,7 @@ export class HeadsetPanel {
   free() {
     this.heard.abort();
     this.subtitles.free();
+    this.spots?.free();
     this.sheets.free();
     for (const texture of [this.face, this.label]) this.gl.deleteTexture(texture);
   }
@@ -119,6 +120,8 @@ export class HeadsetPanel {
     const { at, back } = poseOf(transform);
     const pointer = { source, from: at, along: back.map((x) => -x) };
     const hit = this.sheet && meet(this.sheet, pointer);
+    if (!hit?.isInside && !this.isOpen) Object.assign(pointer, this.spots?.find(pointer, this.head.at));
+    if (pointer.control) return pointer;
     return { ...pointer, hit, control: hit?.isInside ? this.controlAt(hit) : null };
   }
 
@@ -145,7 +148,7 @@ export class HeadsetPanel {
     const isLed = this.pointers.length || this.pinchesLook;
     const gaze = this.pointer(null, pose);
     if (!isLed) this.pointers = [gaze];
-    this.stay(!isLed || !this.isOpen ? gaze : { control: null }, seconds);
+    this.stay(!isLed || !(this.isOpen || gaze.control?.isSpot) ? gaze : { control: null }, seconds);
     for (const { source, hit } of this.pointers) {
       const held = this.held.get(source);
       if (hit && held?.drag) this.drag(Object.assign(held, { hit }), hit, false);
@@ -155,8 +158,12 @@ export class HeadsetPanel {
   // Acts once per dwelling, or repeatedly where that makes sense.
   stay(gaze, seconds) {
     const { control } = gaze;
-    if (control?.id !== this.dwell.id) this.dwell = { id: control?.id, for: 0, isDone: false };
+    const { item } = this.headset.viewer;
+    const rests = control?.isSpot && this.dwell.id && this.dwell.item !== item; // one look leads on only once
+    if (rests) Object.assign(this.dwell, { id: control.id, isDone: true });
+    else if (control?.id !== this.dwell.id) this.dwell = { id: control?.id, item, for: 0, isDone: false };
     if (!control || this.dwell.isDone) return;
+    this.dwell.at = control.isSpot ? gaze.hit.at : null;
     this.dwell.for += 1000 * seconds;
     if (this.dwell.for < DWELL) return;
     Object.assign(this.dwell, { for: 0, isDone: !control.repeats });
@@ -175,7 +182,7 @@ export class HeadsetPanel {
   press(source, pose) {
     if (!pose) return false;
     const { hit, control } = this.pointer(source, pose);
-    if (!hit?.isInside || !(this.isOpen || this.isSought)) return false;
+    if (!hit?.isInside || !(this.isOpen || this.isSought || control?.isSpot)) return false;
     this.held.set(source, { ...control, hit });
     if (control?.drag) this.drag(control, hit, false);
     return true;
@@ -197,15 +204,22 @@ export class HeadsetPanel {
     const seconds = Math.min((now - (this.last ?? now)) / 1000, 0.1);
     this.last = now;
     this.head = poseOf(pose.transform);
-    this.subtitles.update(this.headset.viewer.subtitles?.text ?? '', this.head);
+    const { subtitles, guide } = this.headset.viewer;
+    this.subtitles.update(subtitles?.text || guide?.text || '', this.head);
+    this.spots ??= guide?.wear(this);
     if (this.isOpen) this.content = controlsOf(this.headset, this);
     this.follow(now, seconds);
     this.point(frame, pose, seconds);
     if (this.isOpen) this.repaint();
   }
 
+  // The controls at which pointers aim, or that they hold.
+  aimed() {
+    return new Set(this.pointers.map(({ source, control }) => this.held.get(source)?.id ?? control?.id));
+  }
+
   repaint() {
-    this.hovered = new Set(this.pointers.map(({ source, control }) => this.held.get(source)?.id ?? control?.id));
+    this.hovered = this.aimed();
     const { content } = this;
     const what = JSON.stringify([content, ...this.hovered]);
     if (what === this.painted) return;
@@ -218,12 +232,17 @@ export class HeadsetPanel {
   // The objects to draw for an eye, over the picture.
   things({ eye, index }) {
     const things = this.subtitles.sheet ? [this.subtitles.sheet] : [];
-    const isMenu = this.isOpen || this.isSought;
+    const spots = !this.isOpen && this.spots;
+    if (spots) things.unshift(...spots.things({ eye, index }, this.aimed()));
+    const isMenu = this.isOpen || this.isSought || spots?.isSeen;
     if (this.isOpen) things.push({ color: DIM }, { ...this.sheet, face: this.face });
     else if (this.isSought) things.push({ ...this.sheet, face: this.label, color: [1, 1, 1, this.pointers.some(({ control }) => control) || this.dwell.id ? 1 : 0.6] });
     if (isMenu) for (const pointer of this.pointers) things.push(...this.traces(pointer, eye));
     const { dwell } = this;
-    if (isMenu && dwell.id && !dwell.isDone) things.push({ ...facing(plus(this.head.at, this.head.back, -0.98 * DISTANCE), eye, 0.03), color: [...ACCENT, 1], ring: [0.7, dwell.for / DWELL] });
+    if (isMenu && dwell.id && !dwell.isDone) {
+      const at = dwell.at ?? plus(this.head.at, this.head.back, -0.98 * DISTANCE);
+      things.push({ ...facing(at, eye, (0.03 * Math.hypot(...plus(at, eye, -1))) / DISTANCE), color: [...ACCENT, 1], ring: [0.7, dwell.for / DWELL] });
+    }
     const { marker, turn } = this.headset;
     if (marker && index === (marker.eye === 'right' ? 1 : 0)) this.mark = eye;
     if (marker && this.mark) {
@@ -240,7 +259,7 @@ export class HeadsetPanel {
   }
 
   get isSeen() {
-    return Boolean(this.isOpen || this.isSought || this.subtitles.sheet || this.headset.marker);
+    return Boolean(this.isOpen || this.isSought || this.spots?.isSeen || this.subtitles.sheet || this.headset.marker);
   }
 
   // view: { rays, eye, index, box, target }, see Sheets.draw(); index: 0 for the left eye.

@@ -226,7 +226,7 @@ export class Headset {
     else if (this.panel?.isOpen) this.panel.close();
     else if (this.viewer.scene) this.viewer.steering.select();
     else if (picture?.video) picture.toggle();
-    else this.viewer.go(1);
+    else if (!this.viewer.view.tour) this.viewer.go(1);
   }
 
   // Buttons and sticks have no events; a new press acts once.

@@ -34,12 +34,12 @@ function watchAddress(player) {
     return viewer.view.live ? 'Link copied. It works as long as ods view runs' : 'Link copied';
   };
   for (const event of ['change', 'open']) viewer.addEventListener(event, () => (timer ??= setTimeout(write, 250)));
-  addEventListener('hashchange', () => {
+  addEventListener('hashchange', async () => {
     if (location.hash === written) return;
     const to = readState(location.hash);
-    viewer.set(to.look);
     player.frame = to.frame;
-    if (!viewer.scene) viewer.open(findItem(viewer.view.items, to), to.choice);
+    if (!viewer.scene) await viewer.open(findItem(viewer.view.items, to), to.choice);
+    viewer.set(to.look); // a tour has turned it
   });
 }
 

@@ -1,67 +1,103 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// An author's notes on a picture: its caption, and hotspots, each a button in a direction, with a card of text. In
-// view.json: { caption, hotspots: [{ yaw, pitch, title, text }] } (docs/view.md). They are text, never HTML.
+// The caption and the spots of a picture over it at the desk: each spot is a button, in both eyes' pictures if both are
+// shown. A spot with a text opens a card, a way of a tour leads on. All is text, never HTML. The spots come from the
+// guide (tour.js).
 import { make } from './elements.js';
-import { clamp } from './geometry.js';
+import { clamp, degrees } from './geometry.js';
+import { modeOf } from './modes.js';
 import { partsOf, placeOf } from './places.js';
+import { t } from './translate.js';
+import { seenBy } from './tour-ways.js';
 
-export function showNotes(viewer) {
+const RING = 0.35; // metres: radius of the ring around the foot of a sign
+
+// The parts of the view, each with the eye for which it is: 1 left, -1 right. Where both share it, there are two parts.
+function seenParts(viewer) {
+  const { state } = viewer;
+  const parts = partsOf(viewer);
+  const both = parts.length === 1 && modeOf(state.mode).parts(0)[0].show === 'anaglyph';
+  if (both) return [{ ...parts[0], side: 1, tint: 'red' }, { ...parts[0], side: -1, tint: 'cyan' }];
+  return parts.map((part) => ({ ...part, side: parts.length < 2 ? 0 : (part.eye ^ Number(state.swap)) ? -1 : 1 }));
+}
+
+export function showNotes(viewer, guide) {
   const caption = make('p', { id: 'caption' });
   const layer = make('div', { id: 'spots' });
   const card = make('div', { id: 'card', role: 'status', hidden: true });
   viewer.element.after(layer, caption, card);
-  let spots = []; // { spot, buttons: one for each part of the view }
-  let open = null;
+  let entries = []; // { spot, buttons, rings }: one for each part of the view
 
-  const tell = (entry) => {
-    open = entry === open ? null : entry;
-    for (const { buttons, spot } of spots) buttons.forEach((button) => (button.ariaExpanded = String(spot === open?.spot)));
-    card.hidden = !open;
-    if (open) card.replaceChildren(make('strong', { textContent: open.spot.title }), make('p', { textContent: open.spot.text ?? '' }));
-    place();
+  const makeButton = (spot, k) => {
+    const label = spot.to === undefined ? spot.title : t('Go to {}', spot.title);
+    const button = make('button', { type: 'button', className: spot.to === undefined ? 'spot' : 'spot way', ariaLabel: label, hidden: true },
+      make('i'), make('span', { textContent: spot.to === undefined ? spot.number : spot.title }));
+    if (spot.to === undefined) Object.assign(button.dataset, { tip: spot.title });
+    if (k) Object.assign(button, { tabIndex: -1, ariaHidden: 'true' });
+    button.addEventListener('click', () => spot.run());
+    button.addEventListener('focus', () => button.classList.contains('away') && viewer.set(seenBy(0, spot.at)));
+    return button;
   };
   const fill = () => {
     const { about } = viewer;
-    open = null;
-    card.hidden = true;
     caption.textContent = about?.caption ?? '';
     caption.hidden = !caption.textContent;
-    spots = (about?.hotspots ?? []).map((spot, i) => {
-      const entry = { spot };
-      entry.buttons = [0, 1].map(() => {
-        const button = make('button', { type: 'button', className: 'spot', textContent: i + 1, ariaLabel: spot.title, ariaExpanded: 'false', hidden: true });
-        button.dataset.tip = spot.title;
-        button.addEventListener('click', () => tell(entry));
-        return button;
-      });
-      return entry;
-    });
-    layer.replaceChildren(...spots.flatMap(({ buttons }) => buttons));
+    const { activeElement } = layer.getRootNode();
+    const hadFocus = layer.contains(activeElement);
+    entries = guide.spots.map((spot) => ({
+      spot, buttons: [0, 1].map((k) => makeButton(spot, k)),
+      rings: spot.foot ? [0, 1].map(() => make('div', { className: 'ring', hidden: true })) : [],
+    }));
+    layer.replaceChildren(...entries.flatMap(({ rings, buttons }) => [...rings, ...buttons]));
     place();
+    if (hadFocus) viewer.element.focus({ preventScroll: true });
+  };
+  const find = (point, part) => {
+    const { state, picture } = viewer;
+    const seen = seenBy(part.side, point, picture?.mono ? { ipd: 0 } : picture?.camera);
+    return placeOf(viewer, { ...seen, yaw: seen.yaw - (part.side * state.shift) / 2 }, part);
+  };
+  const placeRing = (ring, { foot }, part) => {
+    const way = Math.hypot(foot[0], foot[2]) || 1;
+    const ahead = [(RING * foot[0]) / way, 0, (RING * foot[2]) / way];
+    const aside = [-ahead[2], 0, ahead[0]];
+    const near = (axis, sign) => part && find(foot.map((x, i) => x + sign * axis[i]), part);
+    const [left, right, low, high] = [near(aside, -1), near(aside, 1), near(ahead, -1), near(ahead, 1)];
+    ring.hidden = !(left && right && low && high);
+    if (ring.hidden) return;
+    const [width, height] = [Math.hypot(right[0] - left[0], right[1] - left[1]), Math.hypot(high[0] - low[0], high[1] - low[1])];
+    Object.assign(ring.style, { left: `${(left[0] + right[0] - width) / 2}px`, top: `${(low[1] + high[1] - height) / 2}px`, width: `${width}px`, height: `${height}px` });
+    ring.className = `ring ${part.tint ?? ''}`;
   };
   const place = () => {
-    const parts = viewer.session ? [] : partsOf(viewer);
-    for (const { spot, buttons } of spots) {
+    const parts = viewer.session || !viewer.picture ? [] : seenParts(viewer);
+    for (const { spot, buttons, rings } of entries) {
+      rings.forEach((ring, i) => placeRing(ring, spot, parts[i]));
       buttons.forEach((button, i) => {
-        const at = parts[i] && placeOf(viewer, spot, parts[i]);
-        button.hidden = !at;
-        if (at) button.style.translate = `${at[0]}px ${at[1]}px`;
+        const at = parts[i] && find(spot.at, parts[i]);
+        button.hidden = i > 0 && !at;
+        button.classList.toggle('away', !at);
+        for (const tint of ['red', 'cyan']) button.classList.toggle(tint, parts[i]?.tint === tint);
+        if (spot.to === undefined) button.ariaExpanded = String(spot === guide.open);
+        if (at) Object.assign(button.style, { left: `${at[0] - button.offsetWidth / 2}px`, top: `${at[1] - button.offsetHeight / 2}px` });
       });
     }
-    const at = open && parts[0] && placeOf(viewer, open.spot, parts[0]);
+    const { open } = guide;
+    const at = open && parts[0] && find(open.at, parts[0]);
     card.hidden = !at;
     if (!at) return;
+    card.replaceChildren(make('strong', { textContent: open.title }), make('p', { textContent: open.text ?? '' }));
     const left = clamp(at[0] - card.offsetWidth / 2, 8, viewer.element.clientWidth - card.offsetWidth - 8);
     const above = at[1] - card.offsetHeight - 26;
     card.style.translate = `${left}px ${above > 8 ? above : at[1] + 26}px`;
   };
   layer.addEventListener('keydown', (event) => {
-    if (event.key === 'Escape' && open) tell(open);
+    if (event.key === 'Escape' && guide.open) guide.tell(guide.open);
   });
   viewer.addEventListener('change', place);
-  viewer.addEventListener('open', fill);
+  guide.addEventListener('spots', fill);
+  guide.addEventListener('tell', place);
   new ResizeObserver(place).observe(viewer.element);
   fill();
 }

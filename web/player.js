@@ -17,7 +17,7 @@ const IDLE = 3000; // milliseconds until the bar fades
 const TURN = 6; // degrees per second
 const EXTRAS = {
   grid: () => import('./grid-numbers.js'),
-  notes: () => import('./notes.js'),
+  tour: () => import('./tour.js'),
   subtitles: () => import('./subtitles.js'),
   sound: () => import('./ambisonics.js'),
 };
@@ -34,7 +34,7 @@ export class Player {
   // that receives keys. isPage: the page has no other content, so the wheel belongs to the picture, too. nameOf(item):
   // its name for users, if any; isSingle(): whether there are no other items to choose. isVisitors: the bar has what
   // visitors need, not the tools of the makers of pictures.
-  constructor(element, root, { view, base, wanted = {}, keys = element, isPage = false, isVisitors = false, nameOf = ({ name }) => name, isSingle = () => false }) {
+  constructor(element, root, { view, base, wanted = {}, keys = element, isPage = false, isVisitors = false, nameOf = ({ title, name }) => title ?? name, isSingle = () => false }) {
     Object.assign(this, { element, root, wanted, isPage, isVisitors, keys, nameOf, isSingle });
     element.append(...makeMarkup());
     const viewer = new Viewer(this.find('picture'), view, base);
@@ -232,7 +232,7 @@ export class Player {
       for (const event of ['change', 'open']) viewer.addEventListener(event, look);
     };
     extra('grid', ({ state }) => state.grid, ({ numberGrid }) => numberGrid(viewer));
-    extra('notes', ({ about }) => about?.hotspots || about?.caption, ({ showNotes }) => showNotes(viewer));
+    extra('tour', ({ about, view }) => about?.hotspots || about?.caption || view.tour, ({ showTour }) => showTour(this));
     extra('subtitles', ({ about }) => about?.video?.subtitles, ({ showSubtitles }) => showSubtitles(this));
     extra('sound', ({ about }) => about?.video?.sound, ({ hearVideos }) => hearVideos(this));
   }

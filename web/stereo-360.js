@@ -140,11 +140,13 @@ export class Stereo360 extends Base {
 
   // Items with their addresses: from view.json, which ods view --export writes, or none.
   async loadView() {
+    const path = this.getAttribute('tour');
     if (this.hasAttribute('src') && !this.hasAttribute('view')) return { items: [] };
-    const table = new URL(this.getAttribute('view') ?? new URL('view.json', import.meta.url ?? document.baseURI), document.baseURI);
+    const table = new URL(path ?? this.getAttribute('view') ?? new URL('view.json', import.meta.url ?? document.baseURI), document.baseURI);
     const answer = await fetch(table);
-    if (!answer.ok) throw new Error(`${table.pathname} did not load (${answer.status}): ods view --export writes it`);
+    if (!answer.ok) throw new Error(`${table.pathname} did not load (${answer.status})${path ? '' : ': ods view --export writes it'}`);
     const view = await answer.json();
+    if (path) return (await import('./tour.js')).readTour(view, table, (file) => this.itemOf(file));
     for (const item of view.items) FILES.forEach((file) => item[file] && (item[file] = new URL(item[file], table).href));
     return view;
   }
@@ -181,7 +183,7 @@ export class Stereo360 extends Base {
 
   start() {
     const isSingle = () => this.hasAttribute('src') || this.hasAttribute('item');
-    this.player = new Player(this.box, this.shadowRoot, { view: this.view, base: document.baseURI, nameOf: () => this.ariaLabel ?? '', isSingle, isVisitors: this.getAttribute('controls') !== 'all' });
+    this.player = new Player(this.box, this.shadowRoot, { view: this.view, base: document.baseURI, nameOf: ({ title }) => title ?? this.ariaLabel ?? '', isSingle, isVisitors: this.getAttribute('controls') !== 'all' });
     const { viewer } = this;
     viewer.addEventListener('failed', ({ detail }) => this.fail(detail));
     viewer.addEventListener('loading', ({ detail }) => this.say('progress', detail));
@@ -220,11 +222,13 @@ export class Stereo360 extends Base {
     const image = new URL(src, document.baseURI).href;
     const known = items.findIndex((item) => item.image === image);
     if (known >= 0) return known;
-    const name = decodeURIComponent(image.split('/').pop());
+    return items.push(this.itemOf(image)) - 1;
+  }
+
+  itemOf(image) {
     const { pathname } = new URL(image);
     const kind = /\.glb$/i.test(pathname) ? 'layers' : VIDEO.test(pathname) ? 'video' : 'picture';
-    items.push({ name, kind, image, layout: 'top-bottom', projection: 'lat-long', video: { fps: this.number('fps', 30) } });
-    return items.length - 1;
+    return { name: decodeURIComponent(image.split('/').pop()), kind, image, layout: 'top-bottom', projection: 'lat-long', video: { fps: this.number('fps', 30) } };
   }
 
   async show() {

@@ -31,6 +31,7 @@ export class Viewer extends EventTarget {
     this.choice = {}; // layout, projection, exposure, tone, if they differ from the item
     this.pace = null; // since the first panorama
     this.ahead = null; // ahead.js, once there are pictures to fetch
+    this.guide = null; // tour.js, if there are hotspots or a tour
     this.waiting = false;
     this.isProvisional = false; // better pictures follow soon: a slow GPU does not draw this one exactly
     this.settling = null; // a token of the exact drawing in progress
@@ -233,7 +234,8 @@ export class Viewer extends EventTarget {
     const { Ahead } = await import('./ahead.js');
     if (!this.panorama) return;
     this.ahead ??= new Ahead();
-    const beside = [1, -1].map((by) => items[(this.item + by + items.length) % items.length]).filter(({ kind, light }) => kind === 'picture' && !light);
+    const next = this.guide?.next() ?? [1, -1].map((by) => (this.item + by + items.length) % items.length);
+    const beside = next.map((i) => items[i]).filter(({ kind, light }) => kind === 'picture' && !light);
     this.ahead.keep(beside.flatMap((item) => imageAddresses(this.view, item, this.base)).map(({ href }) => href));
   }
 

@@ -73,7 +73,8 @@ std::string index_page(const std::vector<ViewItem>& items, const PageTexts& text
   };
   const ViewItem& first = items.front();
   const std::string name = std::filesystem::path(first.name).stem().native();
-  const std::string about = ods::xml_text(first.notes.caption.empty() ? name : first.notes.caption);
+  const std::string& named = first.title.empty() ? name : first.title;
+  const std::string about = ods::xml_text(first.notes.caption.empty() ? named : first.notes.caption);
   const std::string title = texts.title.empty() ? about : ods::xml_text(texts.title);
   const std::string poster = ods::item_file(0, ods::kPosterFile), file = item_files(first, 0).front();
   replace(R"(lang="en")", fmt::format(R"(lang="{}")", texts.language));
@@ -98,11 +99,14 @@ void write_page(const std::vector<ViewItem>& items, const PageTexts& texts, cons
   for (const char* const entry : {"main.js", "stereo-360.js"}) {
     ods::write_file(folder + "/" + entry, ods::bundle(entry));
   }
-  ods::write_file(folder + "/later.js", ods::bundle_later(ods::PageHost::kFolder));
+  for (const std::string_view later : ods::kLaterScripts) {
+    ods::write_file(fmt::format("{}/{}", folder, later), ods::bundle_later(later, ods::PageHost::kFolder));
+  }
 }
 
 // The page and view.json come last: they list the other files.
-void write_site(const std::vector<ViewItem>& items, const PageTexts& texts, const std::string& folder) {
+void write_site(const std::vector<ViewItem>& items, const PageTexts& texts, const ods::Tour* tour,
+                const std::string& folder) {
   for (size_t i = 0; i < items.size(); i++) {
     std::vector<std::string> files = item_files(items[i], i);
     if (items[i].has_own_file) copy_file(items[i].path, folder + "/" + files[0]);
@@ -121,8 +125,9 @@ void write_site(const std::vector<ViewItem>& items, const PageTexts& texts, cons
     }
     for (const std::string& file : files) write_script_beside(folder + "/" + file);
   }
+  if (tour && tour->plan) copy_file(tour->plan->image, folder + "/" + plan_file(*tour->plan));
   write_page(items, texts, folder);
-  ods::write_file(folder + "/view.json", view_json(items, false, {}));
+  ods::write_file(folder + "/view.json", view_json(items, false, {}, tour));
   write_script_beside(folder + "/view.json");
 }
 
@@ -146,10 +151,11 @@ std::vector<std::string> page_languages() {
   return languages;
 }
 
-std::string export_site(const std::vector<ViewItem>& items, const std::string& folder, const PageTexts& texts) {
+std::string export_site(const std::vector<ViewItem>& items, const std::string& folder, const PageTexts& texts,
+                        const ods::Tour* tour) {
   ods::AtomicFolder site(folder);
   try {
-    write_site(items, texts, site.draft());
+    write_site(items, texts, tour, site.draft());
     site.commit();
   } catch (const ods::Error& error) {
     throw ods::Error(error.kind(), with_final_names(site, error.what()));

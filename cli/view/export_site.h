@@ -10,16 +10,16 @@
 
 // The texts of an exported page.
 struct PageTexts {
-  std::string title;            // of the page and of links to it; by default the first item's caption, or its file's name
+  std::string title;  // of the page and of links to it; by default the first item's caption, or its file's name
   std::string language = "en";  // of the page's own texts: web/translations-*.js
 };
 
 // Returns the languages of the page, sorted.
 std::vector<std::string> page_languages();
 
-// Writes the page, view.json and the items' files into the folder, as a whole or not at all
+// tour: the items are its panoramas. Writes the page, view.json and the items' files into the folder, as a whole or not at all
 // (ods/files/atomic_folder.h). A file that browsers read is copied, all else becomes a JPEG of each eye. Files of an
 // earlier export are replaced, others stay. Returns view.json's path. Throws Error(kInput), Error(kOutput); then the
 // folder is as it was.
-std::string export_site(const std::vector<ods::ViewItem>& items, const std::string& folder,
-                        const PageTexts& texts = {});
+std::string export_site(const std::vector<ods::ViewItem>& items, const std::string& folder, const PageTexts& texts = {},
+                        const ods::Tour* tour = nullptr);

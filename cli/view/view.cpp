@@ -58,7 +58,7 @@ std::optional<SceneSource> scene_of(const ViewJob& job) {
 }
 
 void serve(const ViewJob& job) {
-  ViewSite site(open_items(job), scene_of(job));
+  ViewSite site(open_items(job), scene_of(job), job.tour);
   const std::string folder = state_folder();
   WebOptions web;
   web.secret = job.lan && !job.keep_secret ? random_secret() : kept_secret(folder);
@@ -88,12 +88,13 @@ void serve(const ViewJob& job) {
 }
 
 void view(ViewJob job) {
+  find_tour(job);
   find_scene(job);
   if (!job.scene.empty() && !job.objects.files.empty()) {
     throw UsageError("--with is for a layered scene, which ods layers makes of a scene");
   }
   if (job.folder.empty()) return serve(job);
-  announce_file(export_site(open_items(job), job.folder, job.texts));
+  announce_file(export_site(open_items(job), job.folder, job.texts, job.tour ? &*job.tour : nullptr));
 }
 
 }  // namespace

@@ -32,6 +32,7 @@ constexpr const char* kViewExamples =
     "  ods view scene.glb                        the studio: the scene, rendered while you look\n"
     "  ods view scene.layers.glb                 a layered scene, in which the head moves\n"
     "  ods view scene.layers.glb --with robot.glb --at 0.4,0,-1\n"
+    "  ods view tour.json                        panoramas with ways between them, a compass and a plan\n"
     "  ods view picture_360_TB.png --export site/ --title \"The harbour\" --lang de";
 
 constexpr const char* kViewSummary =
@@ -112,7 +113,7 @@ ViewJob parse_view(Options& options) {
   options.describe(kViewSummary, kViewExamples);
   options.arguments(
       ValueKind::input_file("FILE"), job.paths,
-      "pictures, videos, layered scenes, and folders of them (%V in a name: one file per eye), or a scene");
+      "pictures, videos, layered scenes, and folders of them (%V in a name: one file per eye), or a scene, or a tour");
   options.group("Objects in a layered scene");
   add_object_options(options, job.objects, "the layered scene");
   options.group("Input, if it is not detected");
@@ -163,6 +164,17 @@ void find_scene(ViewJob& job) {
   if (!job.folder.empty()) throw UsageError("--export writes pictures and videos: render the scene first");
 }
 
+void find_tour(ViewJob& job) {
+  const auto found = std::ranges::find_if(job.paths, ods::names_tour);
+  if (found == job.paths.end()) return;
+  if (job.paths.size() > 1) throw UsageError("a tour is shown alone: its file lists its panoramas");
+  if (!job.objects.files.empty()) throw UsageError("--with is for a layered scene, not for a tour");
+  const std::string path = *found;
+  job.tour = ods::read_tour(path);
+  job.paths.clear();
+  for (const ods::TourStop& stop : job.tour->panoramas) job.paths.push_back(stop.file);
+}
+
 std::vector<ViewItem> open_items(const ViewJob& job) {
   std::vector<ViewItem> items;
   for (const std::string& path : with_companions(job)) {
@@ -182,5 +194,11 @@ std::vector<ViewItem> open_items(const ViewJob& job) {
     }
   }
   add_objects(job.objects, items);
+  if (!job.tour) return items;
+  if (items.size() != job.tour->panoramas.size()) {
+    throw ods::Error(ods::ErrorKind::kInput,
+                     "two panoramas of the tour are the eyes of one: join them, as ods convert does, or rename them");
+  }
+  ods::add_tour(*job.tour, items);
   return items;
 }

@@ -14,8 +14,9 @@
 
 struct ViewJob {
   std::vector<std::string> paths;
-  std::string scene;      // for the studio; empty: none
-  ObjectOptions objects;  // put into the layered scene
+  std::string scene;              // for the studio; empty: none
+  ObjectOptions objects;          // put into the layered scene
+  std::optional<ods::Tour> tour;  // of which the paths are the panoramas
   ods::FormatHint known;
   std::string folder;  // to export to; empty: serve
   PageTexts texts;     // of the export
@@ -29,6 +30,10 @@ ViewJob parse_view(Options& options);
 
 // Moves the scene from the paths to job.scene. Throws UsageError if there are two.
 void find_scene(ViewJob& job);
+
+// Reads the tour, if the path is one, and replaces the path by those of its panoramas. Throws UsageError if there are
+// other paths, and as read_tour().
+void find_tour(ViewJob& job);
 
 // The files, and those in folders that can be shown, in the order of their names. Throws Error(kInput) for a file that
 // cannot be shown; of a folder such files are left out, with a note, but one must be left.

@@ -64,8 +64,11 @@ std::optional<size_t> item_number(const std::string& path) {
 
 }  // namespace
 
-ViewSite::ViewSite(std::vector<ViewItem> items, const std::optional<SceneSource>& scene)
-    : host_(scene ? ods::PageHost::kStudio : ods::PageHost::kView), script_(ods::bundle("main.js", host_)) {
+ViewSite::ViewSite(std::vector<ViewItem> items, const std::optional<SceneSource>& scene,
+                   const std::optional<ods::Tour>& tour)
+    : tour_(tour),
+      host_(scene ? ods::PageHost::kStudio : ods::PageHost::kView),
+      script_(ods::bundle("main.js", host_)) {
   for (const ViewItem& item : items) add(item);
   if (!scene) return;
   studio_ =
@@ -202,12 +205,17 @@ WebAnswer ViewSite::answer(const WebRequest& request) {
   if (request.path == "view.json") {
     const ods::Json studio = studio_ ? studio_->description() : ods::Json();
     const std::lock_guard<std::mutex> lock(of_items_);
-    return {.type = "application/json", .body = view_json(items_, true, studio)};
+    return {.type = "application/json", .body = view_json(items_, true, studio, tour_ ? &*tour_ : nullptr)};
   }
   if (request.path.starts_with("item/")) return item(request.path, request);
+  if (tour_ && tour_->plan && request.path == plan_file(*tour_->plan)) {
+    return {.type = std::string(ods::media_type(request.path)), .file = tour_->plan->image};
+  }
   const std::string name = request.path.empty() ? "index.html" : request.path;
   if (name == "main.js") return {.type = std::string(ods::media_type(name)), .body = script_};
-  if (name == "later.js") return {.type = std::string(ods::media_type(name)), .body = ods::bundle_later(host_)};
+  if (const std::string later = ods::bundle_later(name, host_); !later.empty()) {
+    return {.type = std::string(ods::media_type(name)), .body = later};
+  }
   const ods::PageFile* const file = ods::find_page_file(name);
   if (!file) return nothing_there();
   return {.type = std::string(ods::media_type(name)), .body = std::string(file->data)};

@@ -21,13 +21,14 @@
 
 class ViewSite {
  public:
-  // scene: for the studio; none: no scene is shown. Throws as Studio.
-  ViewSite(std::vector<ods::ViewItem> items, const std::optional<SceneSource>& scene);
+  // scene: for the studio; none: no scene is shown. tour: the items are its panoramas. Throws as Studio.
+  ViewSite(std::vector<ods::ViewItem> items, const std::optional<SceneSource>& scene,
+           const std::optional<ods::Tour>& tour = {});
 
   // Thread-safe. "" is the page; alive confirms that the server runs, and has the number of pages that share;
   // item/N/left.jpg takes exposure, tone, width, and a layout and projection chosen in the page; item/N/preview.jpg and
   // item/N/thumbnail.jpg; item/N/comfort.json, comfort-left.jpg and comfort-right.jpg are a ComfortLayer;
-  // item/N/object-K.glb is an object, and a POST to objects?item=N moves the objects (docs/view.md). Throws
+  // the plan of a tour; item/N/object-K.glb is an object, and a POST to objects?item=N moves the objects (docs/view.md). Throws
   // UsageError for an invalid query.
   WebAnswer answer(const WebRequest& request);
 
@@ -48,6 +49,7 @@ class ViewSite {
   // Returns nullopt if its files have changed since it was opened.
   std::optional<ods::ViewItem> item_at(size_t number) const;
 
+  std::optional<ods::Tour> tour_;
   mutable std::mutex of_items_;  // a rendering of the studio becomes an item
   std::vector<ods::ViewItem> items_;
   std::vector<std::vector<std::string>> files_;  // of each, behind all links

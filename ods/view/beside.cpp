@@ -20,8 +20,6 @@ constexpr size_t kMaxNotes = 256 << 10;
 constexpr size_t kMaxSubtitles = 2 << 20;
 constexpr size_t kMaxHotspots = 200;
 constexpr size_t kMaxCaption = 400;
-constexpr size_t kMaxTitle = 100;
-constexpr size_t kMaxText = 1000;
 
 // The file with another extension beside a file, and its contents; empty if there is none.
 std::string text_beside(const std::string& path, const char* end, size_t maximum, std::string& name) {
@@ -30,6 +28,8 @@ std::string text_beside(const std::string& path, const char* end, size_t maximum
   if (!std::filesystem::is_regular_file(name, ignored)) return "";
   return read_text(name, maximum);
 }
+
+}  // namespace
 
 std::string text_of(JsonReader& reader, const std::string& key, size_t maximum, bool is_needed) {
   const Json* const found = reader.find(key);
@@ -40,7 +40,25 @@ std::string text_of(JsonReader& reader, const std::string& key, size_t maximum, 
   return found->get<std::string>();
 }
 
-}  // namespace
+std::vector<Hotspot> hotspots_of(JsonReader& reader, const std::string& file, const std::string& noun,
+                                 const std::string& place, std::vector<std::string>& warnings) {
+  const Json* const list = reader.find("hotspots");
+  std::vector<Hotspot> hotspots;
+  if (!list) return hotspots;
+  if (!list->is_array() || list->size() > kMaxHotspots) {
+    reader.fail("hotspots", fmt::format("must be a list of at most {}", kMaxHotspots));
+  }
+  for (const Json& each : *list) {
+    JsonReader entry(each, file, noun, fmt::format("{}hotspots.{}", place, hotspots.size()), warnings);
+    Hotspot& hotspot = hotspots.emplace_back();
+    entry.number("yaw", hotspot.yaw, -360.0f, 360.0f);
+    entry.number("pitch", hotspot.pitch, -90.0f, 90.0f);
+    entry.number("distance", hotspot.distance, 0.5f, 1000.0f);
+    hotspot.title = text_of(entry, "title", kMaxHotspotTitle, true);
+    hotspot.text = text_of(entry, "text", kMaxHotspotText, false);
+  }
+  return hotspots;
+}
 
 Notes read_notes(const std::string& picture) {
   std::string name;
@@ -51,19 +69,7 @@ Notes read_notes(const std::string& picture) {
   std::vector<std::string> warnings;
   JsonReader reader(json, name, "notes", "", warnings);
   notes.caption = text_of(reader, "caption", kMaxCaption, false);
-  const Json* const list = reader.find("hotspots");
-  if (!list) return notes;
-  if (!list->is_array() || list->size() > kMaxHotspots) {
-    reader.fail("hotspots", fmt::format("must be a list of at most {}", kMaxHotspots));
-  }
-  for (const Json& each : *list) {
-    JsonReader entry(each, name, "notes", fmt::format("hotspots.{}", notes.hotspots.size()), warnings);
-    Hotspot& hotspot = notes.hotspots.emplace_back();
-    entry.number("yaw", hotspot.yaw, -360.0f, 360.0f);
-    entry.number("pitch", hotspot.pitch, -90.0f, 90.0f);
-    hotspot.title = text_of(entry, "title", kMaxTitle, true);
-    hotspot.text = text_of(entry, "text", kMaxText, false);
-  }
+  notes.hotspots = hotspots_of(reader, name, "notes", "", warnings);
   return notes;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
@@ -54,14 +55,19 @@ bool is_left_out(std::string_view name, PageHost host) {
   return name == "share.js" && host == PageHost::kFolder;
 }
 
-// The module that few pages need: in a folder, it and the modules that only it imports are in later.js.
-constexpr std::string_view kRare = "layered.js";
+// The modules that few pages need: in a folder, each is in a later script, with the modules that only it imports; of a
+// server, the tour is.
+constexpr std::string_view kLayered = "layered.js", kTour = "tour.js";
+
+bool is_rare(std::string_view name, PageHost host) {
+  return name == kTour || (name == kLayered && host == PageHost::kFolder);
+}
 
 struct Modules {
   std::set<std::string> known;
   std::string script;
   std::vector<std::string> later;  // modules that they import on demand
-  bool import_rare = false;
+  bool has_rare = false;           // among them
 };
 
 // After its imports.
@@ -77,8 +83,8 @@ void add_later(PageHost host, Modules& modules) {
   while (!modules.later.empty()) {
     const std::string name = modules.later.back();
     modules.later.pop_back();
-    if (host == PageHost::kFolder && name == kRare) {
-      modules.import_rare = true;
+    if (is_rare(name, host)) {
+      modules.has_rare = true;
     } else {
       add(name, host, modules);
     }
@@ -108,16 +114,21 @@ std::string bundle(const std::string& entry, PageHost host, ScriptKind kind) {
   const std::string exported =
       fmt::format("{}", fmt::join(names_in(std::string(find_page_file(entry)->data), kExport, 3), ", "));
   const char* const import_later =
-      all.import_rare ? "const $bring = async () => (await import('./later.mjs')).later;\n" : "";
+      all.has_rare
+          ? "const $bring = { later: () => import('./later.mjs'), 'later-tour': () => import('./later-tour.mjs') };\n"
+          : "";
   return fmt::format("{}const $base = import.meta.url;\n{}{}export const {{ {} }} = $modules['{}'];\n", kNotice,
                      import_later, script, exported, entry);
 }
 
-std::string bundle_later(PageHost host, ScriptKind kind) {
+std::string bundle_later(std::string_view name, PageHost host, ScriptKind kind) {
+  if (std::ranges::find(kLaterScripts, name) == std::end(kLaterScripts)) return "";
+  const bool is_tour = name == kLaterScripts[1], is_folder = host == PageHost::kFolder;
   Modules modules = first_of("main.js", host);
-  if (host == PageHost::kFolder) add_later(host, modules);
+  if (is_folder) add_later(host, modules);
   modules.script.clear();
-  if (host == PageHost::kFolder) add(std::string(kRare), host, modules);
+  if (is_tour) modules.later.clear();
+  if (is_tour || is_folder) add(std::string(is_tour ? kTour : kLayered), host, modules);
   add_later(host, modules);
   return fmt::format("{}{} = ($modules, $load, $base, fetch) => {{\n'use strict';\n{}}};\n", kNotice,
                      kind == ScriptKind::kModule ? "export const later" : "window.omnistereoLater", modules.script);

@@ -5,6 +5,7 @@
 // all that it imports become one script (web/bundle.js).
 #pragma once
 #include <string>
+#include <string_view>
 
 namespace ods {
 
@@ -15,12 +16,16 @@ enum class PageHost { kFolder, kView, kStudio };
 enum class ScriptKind { kClassic, kModule };
 
 // entry: a module of the page, main.js. A folder's script has everything but what only layered scenes need; a server's
-// script has the code for the first view. Both load later.js when they need more; a script of kModule imports later.mjs
-// instead, and exports what its entry exports.
+// script has the code for the first view. Both load kLaterScripts when they need more; a script of kModule imports those
+// of the same names that end in .mjs instead, and exports what its entry exports.
 std::string bundle(const std::string& entry, PageHost host = PageHost::kFolder, ScriptKind kind = ScriptKind::kClassic);
 
-// Returns later.js, or later.mjs, which the scripts of a host load.
-std::string bundle_later(PageHost host, ScriptKind kind = ScriptKind::kClassic);
+// In a folder, later.js has what only layered scenes need; a server's has all but the code for the first view. The
+// other one has hotspots and tours.
+inline constexpr std::string_view kLaterScripts[] = {"later.js", "later-tour.js"};
+
+// Returns the text of one of kLaterScripts, which the scripts of a host load; empty for any other name.
+std::string bundle_later(std::string_view name, PageHost host, ScriptKind kind = ScriptKind::kClassic);
 
 // The script FILE.js that an export writes beside FILE: it holds the file's bytes in base64, 4/3 of their size. A page
 // that is opened from disk loads it, because browsers do not let such a page read files.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/view/package.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "ods/files/read_file.h"
@@ -25,8 +27,11 @@ std::map<std::string, std::string> package_files(const std::string& folder) {
   files["stereo-360.js"] = bundle("stereo-360.js");
   files["aframe.js"] = bundle("aframe.js");
   files["stereo-360.mjs"] = bundle("stereo-360.js", PageHost::kFolder, ScriptKind::kModule);
-  files["later.js"] = bundle_later(PageHost::kFolder);
-  files["later.mjs"] = bundle_later(PageHost::kFolder, ScriptKind::kModule);
+  for (const std::string_view later : kLaterScripts) {
+    files[std::string(later)] = bundle_later(later, PageHost::kFolder);
+    const std::string module = fmt::format("{}.mjs", later.substr(0, later.rfind('.')));
+    files[module] = bundle_later(later, PageHost::kFolder, ScriptKind::kModule);
+  }
   files["three.mjs"] = bundle("three.js", PageHost::kFolder, ScriptKind::kModule);
   files["aframe.mjs"] = bundle("aframe.js", PageHost::kFolder, ScriptKind::kModule);
   return files;

@@ -191,6 +191,7 @@ static Json item_json(const ViewItem& item, size_t index, bool is_live) {
   const std::vector<std::string> files = item_files(item, index);
   const bool is_mono = item.picture.eyes.size() == 1 || item.picture.front_and_back;
   Json json = {{"name", item.name}, {"kind", name_in(kItemKindTable, item.kind)}};
+  if (!item.title.empty()) json["title"] = item.title;
   if (item.has_own_file) {
     json["image"] = files[0];
   } else {
@@ -218,7 +219,11 @@ static Json item_json(const ViewItem& item, size_t index, bool is_live) {
   if (item.is_light) json["exposure"] = 0, json["tone"] = tone_curve_name(ToneCurve::kNeutral);
   if (!item.notes.caption.empty()) json["caption"] = item.notes.caption;
   for (const Hotspot& spot : item.notes.hotspots) {
-    json["hotspots"].push_back({{"yaw", spot.yaw}, {"pitch", spot.pitch}, {"title", spot.title}, {"text", spot.text}});
+    json["hotspots"].push_back({{"yaw", spot.yaw},
+                                {"pitch", spot.pitch},
+                                {"distance", decimal(spot.distance)},
+                                {"title", spot.title},
+                                {"text", spot.text}});
   }
   if (!is_live && has_stills(item)) json["poster"] = item_file(index, kPosterFile);
   if (item.kind != ItemKind::kVideo) return json;
@@ -228,8 +233,18 @@ static Json item_json(const ViewItem& item, size_t index, bool is_live) {
   return json;
 }
 
-std::string view_json(std::span<const ViewItem> items, bool is_live, const Json& studio) {
+void add_tour(const Tour& tour, std::span<ViewItem> items) {
+  for (size_t i = 0; i < items.size(); i++) {
+    const TourStop& stop = tour.panoramas[i];
+    items[i].title = stop.title;
+    if (!stop.text.empty()) items[i].notes.caption = stop.text;
+    items[i].notes.hotspots.insert(items[i].notes.hotspots.end(), stop.hotspots.begin(), stop.hotspots.end());
+  }
+}
+
+std::string view_json(std::span<const ViewItem> items, bool is_live, const Json& studio, const Tour* tour) {
   Json json = {{"items", Json::array()}, {"live", is_live}, {"studio", studio}};
+  if (tour) json["tour"] = tour_json(*tour);
   for (size_t i = 0; i < items.size(); i++) json["items"].push_back(item_json(items[i], i, is_live));
   return json_document(json);
 }

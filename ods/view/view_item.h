@@ -15,6 +15,7 @@
 #include "ods/picture/stored_picture.h"
 #include "ods/view/beside.h"
 #include "ods/view/placements.h"
+#include "ods/view/tour.h"
 
 namespace ods {
 
@@ -38,6 +39,7 @@ struct ViewItem {
   vec3 ahead{0.0f};      // of a layered scene: the place for an object that has none
   std::vector<ViewObject> objects;  // of a layered scene; the caller adds them
   std::string name;                 // for people: the file's name without its folder
+  std::string title;                // in a tour, instead of the name
   bool is_light = false;            // scene-linear: shown with an exposure and a tone curve
   bool has_own_file = false;  // browsers read the file itself and divide it into eyes; else each eye is sent as a JPEG
   FormatHint known;           // the format as far as the caller specified it
@@ -54,8 +56,12 @@ struct ViewItem {
 ViewItem open_view_item(const std::string& path, const FormatHint& known = {},
                         std::optional<PictureReader> reader = {});
 
-// Returns the page's view.json: items, and the studio. is_live: eyes are sent by a server, which can develop them again. studio: of the studio, or null.
-std::string view_json(std::span<const ViewItem> items, bool is_live, const Json& studio);
+// Gives the items of a tour, which are its panoramas, its titles, texts and hotspots.
+void add_tour(const Tour& tour, std::span<ViewItem> items);
+
+// Returns the page's view.json: items, and the studio. is_live: eyes are sent by a server, which can develop them again.
+// studio: of the studio, or null. tour: the items are its panoramas, or null.
+std::string view_json(std::span<const ViewItem> items, bool is_live, const Json& studio, const Tour* tour = nullptr);
 
 // The name under which view.json refers to a file of an item, relative to itself: item/0/NAME.
 std::string item_file(size_t index, std::string_view name);

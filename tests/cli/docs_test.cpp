@@ -285,6 +285,10 @@ class Pages : public ::testing::Test {
     if (kind == ".txt") return folder.write(name, "0,1,-2\n");
     if (kind == ".keys") return folder.write(name, "0 1.5  # degrees\n0:01 -2\n");
     if (kind == ".unfinished") return provide_unfinished(name);
+    if (name == "tour.json") {
+      provide_file("hall_360_TB.jpg");
+      return folder.write(name, R"({"panoramas": ["hall_360_TB.jpg"]})");
+    }
     if (kind == ".json") return make("ods camera --for json --width 4096 -o " + name);
     if (kind == ".mp4" || kind == ".mov" || kind == ".mkv" || kind == ".webm") {
       provide_file("sound.wav");

@@ -21,9 +21,11 @@ TEST(Bundle, IsNoModule) {
     EXPECT_EQ(script.find("studio-panel"), std::string::npos) << entry;
   }
   for (const PageHost host : {PageHost::kFolder, PageHost::kView, PageHost::kStudio}) {
-    const std::string script = bundle_later(host);
-    for (const char* const word : {"\nimport ", "\nexport ", "import("}) {
-      EXPECT_EQ(script.find(word), std::string::npos) << word;
+    for (const std::string_view later : kLaterScripts) {
+      const std::string script = bundle_later(later, host);
+      for (const char* const word : {"\nimport ", "\nexport ", "import("}) {
+        EXPECT_EQ(script.find(word), std::string::npos) << later << ": " << word;
+      }
     }
   }
 }
@@ -61,7 +63,8 @@ static std::set<std::string> modules_in(const std::string& script) {
 TEST(Bundle, WhatIsWantedLaterIsInAScriptOfItsOwn) {
   const std::set<std::string> folder = modules_in(bundle("main.js"));
   for (const PageHost host : {PageHost::kView, PageHost::kStudio}) {
-    const std::set<std::string> first = modules_in(bundle("main.js", host)), later = modules_in(bundle_later(host));
+    const std::set<std::string> first = modules_in(bundle("main.js", host)),
+                                later = modules_in(bundle_later("later.js", host));
     for (const std::string& name : folder) EXPECT_EQ(first.count(name) + later.count(name), 1u) << name;
     EXPECT_TRUE(first.contains("viewer.js") && later.contains("compare.js") && later.contains("headset-panel.js") &&
                 later.contains("share.js"));
@@ -69,26 +72,49 @@ TEST(Bundle, WhatIsWantedLaterIsInAScriptOfItsOwn) {
   }
 }
 
-// Few pages have layered scenes. The page and the element load the same script, which may use only what both have.
-TEST(Bundle, AFolderHasTheCodeOfLayeredScenesApart) {
-  const std::string script = bundle_later(PageHost::kFolder);
-  const std::set<std::string> later = modules_in(script);
-  EXPECT_EQ(later, (std::set<std::string>{"glb.js", "layered-draw.js", "layered.js", "meshopt.js", "objects.js",
-                                          "objects-draw.js", "objects-file.js", "objects-hands.js", "objects-light.js",
-                                          "objects-panel.js", "objects-shaders.js", "objects-surface.js"}));
+// The page and the element load the same script, which may use only what both have.
+void expect_known(const std::string& script, const std::set<std::string>& later, PageHost host = PageHost::kFolder) {
   const std::regex use(R"(\$modules\['([\w.-]+)'\];)");
   for (const char* const entry : {"main.js", "stereo-360.js"}) {
-    const std::set<std::string> first = modules_in(bundle(entry));
+    if (host != PageHost::kFolder && entry != std::string("main.js")) continue;
+    const std::set<std::string> first = modules_in(bundle(entry, host));
     for (std::sregex_iterator each(script.begin(), script.end(), use), end; each != end; ++each) {
       EXPECT_EQ(first.count((*each)[1]) + later.count((*each)[1]), 1u) << entry << ": " << (*each)[1];
     }
   }
+}
+
+// Few pages have hotspots or a tour.
+TEST(Bundle, ToursAreApart) {
+  const std::string script = bundle_later("later-tour.js", PageHost::kFolder);
+  const std::set<std::string> later = modules_in(script);
+  EXPECT_EQ(later, (std::set<std::string>{"notes.js", "tour.js", "tour-plan.js", "tour-style.js", "tour-ways.js",
+                                          "tour-worn.js"}));
+  expect_known(script, later);
+  for (const PageHost host : {PageHost::kView, PageHost::kStudio}) {
+    EXPECT_FALSE(modules_in(bundle("main.js", host)).contains("tour.js"));
+    EXPECT_FALSE(modules_in(bundle_later("later.js", host)).contains("tour.js"));
+    const std::string served = bundle_later("later-tour.js", host);
+    expect_known(served, modules_in(served), host);
+  }
+  EXPECT_EQ(bundle_later("later-other.js", PageHost::kFolder), "");
+}
+
+// Few pages have layered scenes.
+TEST(Bundle, AFolderHasTheCodeOfLayeredScenesApart) {
+  const std::string script = bundle_later("later.js", PageHost::kFolder);
+  const std::set<std::string> later = modules_in(script);
+  EXPECT_EQ(later, (std::set<std::string>{"glb.js", "layered-draw.js", "layered.js", "meshopt.js", "objects.js",
+                                          "objects-draw.js", "objects-file.js", "objects-hands.js", "objects-light.js",
+                                          "objects-panel.js", "objects-shaders.js", "objects-surface.js"}));
+  expect_known(script, later);
   const auto imports = [](const char* entry) {
     return bundle(entry, PageHost::kFolder, ScriptKind::kModule).find("import('./later.mjs')") != std::string::npos;
   };
   EXPECT_TRUE(imports("stereo-360.js"));
   EXPECT_FALSE(imports("three.js")) << "it has no use for it";
-  EXPECT_NE(bundle_later(PageHost::kFolder, ScriptKind::kModule).find("\nexport const later = ("), std::string::npos);
+  EXPECT_NE(bundle_later("later.js", PageHost::kFolder, ScriptKind::kModule).find("\nexport const later = ("),
+            std::string::npos);
 }
 
 // The imports of a module are made before it.

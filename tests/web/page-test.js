@@ -170,7 +170,7 @@ async function testCompare(player) {
 
 async function testNotes(player) {
   const { viewer } = player;
-  await until(() => document.querySelector('.spot:not([hidden])'), 'shows hotspots');
+  await until(() => document.querySelector('.spot:not([hidden], .away)'), 'shows hotspots');
   expect(find('caption').textContent === 'A <b>card</b>', 'the caption is no text');
   viewer.set({ yaw: 20, pitch: 10 });
   const spot = document.querySelector('.spot');
@@ -181,7 +181,10 @@ async function testNotes(player) {
   press('Escape', spot);
   expect(find('card').hidden, 'the card stays');
   viewer.set({ yaw: 200 });
-  expect(spot.hidden, 'a hotspot behind one is seen');
+  expect(spot.classList.contains('away') && getComputedStyle(spot).clipPath !== 'none', 'a hotspot behind one is seen');
+  spot.focus();
+  expect(Math.round(viewer.state.yaw) === 20 && !spot.classList.contains('away'), 'the Tab key does not lead to a hotspot behind one');
+  viewer.element.focus();
   viewer.set({ yaw: 0, pitch: 0 });
 }
 

@@ -1,10 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
-const tour = document.getElementById('tour');
-for (const button of document.querySelectorAll('[data-room]')) {
-  button.addEventListener('click', () => (tour.src = button.dataset.room));
-}
-
 const worn = document.getElementById('worn');
 document.getElementById('enter').addEventListener('click', () => {
   document.getElementById('said').textContent = navigator.xr ? '' : 'This browser knows no headset.';

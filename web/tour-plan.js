@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The compass of a tour, and its plan: an image of the floor with the places of the panoramas, of which the present one
+// has a cone for the view. A click on a place goes there.
+import { make } from './elements.js';
+import { radians } from './geometry.js';
+import { angleAcross } from './panorama.js';
+import { headingOf, pixelOf, placesOf } from './tour-ways.js';
+import { t } from './translate.js';
+
+const NARROW = 640; // pixels: a plan would cover a narrower picture, so it waits for a click
+
+const drawing = (tag, attributes, ...children) => {
+  const element = document.createElementNS('http://www.w3.org/2000/svg', tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.append(...children);
+  return element;
+};
+
+function makeCompass(guide) {
+  const north = [drawing('path', { d: 'M22 2l5 10H17z' }), drawing('path', { d: 'M22 41v-4M41 22h-4M3 22h4', class: 'line' })];
+  const letter = drawing('text', { x: 22, y: 27, 'text-anchor': 'middle' }, 'N');
+  const dial = drawing('g', {}, ...north, letter);
+  const button = make('button', { id: 'compass', type: 'button' }, drawing('svg', { viewBox: '0 0 44 44', 'aria-hidden': 'true' }, dial));
+  button.addEventListener('click', () => guide.north());
+  const show = () => {
+    const { heading } = guide;
+    button.hidden = heading === null;
+    if (heading === null) return;
+    dial.setAttribute('transform', `rotate(${-heading.toFixed(1)} 22 22)`);
+    letter.setAttribute('transform', `rotate(${heading.toFixed(1)} 22 22)`);
+    button.dataset.tip = button.ariaLabel = t('Compass: {}°. Look north', Math.round(heading) % 360);
+  };
+  return [button, show];
+}
+
+function makePlan(player, guide) {
+  const { viewer } = player;
+  const { plan } = guide.tour;
+  const image = make('img', { src: new URL(plan.image, viewer.base).href, alt: '', draggable: false });
+  const cone = make('div', { className: 'cone' });
+  const map = make('div', { className: 'map' }, image, cone);
+  const box = make('div', { id: 'plan', role: 'group', ariaLabel: t('Plan'), hidden: player.element.clientWidth < NARROW }, map);
+  const toggle = make('button', { id: 'plan-toggle', type: 'button', textContent: t('Plan') });
+  toggle.addEventListener('click', () => {
+    box.hidden = !box.hidden;
+    toggle.ariaExpanded = String(!box.hidden);
+  });
+  toggle.ariaExpanded = String(!box.hidden);
+  const dots = placesOf(guide.tour).map((place, i) => {
+    if (!place) return null;
+    const title = guide.titleOf(i);
+    const dot = make('button', { type: 'button', className: 'dot', ariaLabel: t('Go to {}', title) });
+    dot.dataset.tip = title;
+    dot.addEventListener('click', () => guide.go(i));
+    return Object.assign(dot, { at: pixelOf(plan, place) });
+  });
+  map.append(...dots.filter(Boolean));
+  const put = (element, [x, y]) => Object.assign(element.style, { left: `${(100 * x) / image.naturalWidth}%`, top: `${(100 * y) / image.naturalHeight}%` });
+  image.addEventListener('load', () => {
+    for (const dot of dots) if (dot) put(dot, dot.at);
+    show();
+  });
+  image.addEventListener('error', () => (toggle.hidden = box.hidden = true));
+  const show = () => {
+    dots.forEach((dot, i) => dot?.setAttribute('aria-current', String(i === viewer.item)));
+    const here = dots[viewer.item];
+    cone.hidden = !here || !image.naturalWidth;
+    if (cone.hidden) return;
+    put(cone, here.at);
+    const { clientWidth: width, clientHeight: height } = viewer.element;
+    const wide = Math.min(angleAcross(viewer.state, width / height), 180);
+    cone.style.setProperty('--wide', `${wide.toFixed(0)}deg`);
+    cone.style.rotate = `${((guide.heading ?? 0) - (plan.heading ?? 0)).toFixed(1)}deg`;
+  };
+  return [toggle, box, show];
+}
+
+export function showPlan(player, guide) {
+  const { viewer } = player;
+  const [compass, turn] = makeCompass(guide);
+  const [toggle, box, show] = guide.tour.plan ? makePlan(player, guide) : [];
+  const tools = make('div', { id: 'guide' }, ...[compass, toggle].filter(Boolean));
+  player.element.append(tools, ...(box ? [box] : []));
+  const update = () => {
+    turn();
+    show?.();
+  };
+  for (const event of ['change', 'open']) viewer.addEventListener(event, update);
+  update();
+}
+
+// Returns a function that paints a compass for a heading into a box of the headset's menu.
+export const paintCompass = (heading) => (context, [x, y, width, height], isHovered, ink) => {
+  const radius = height / 2 - 8;
+  context.save();
+  context.translate(x + height / 2 + 4, y + height / 2);
+  Object.assign(context, { lineWidth: 4, strokeStyle: ink, fillStyle: '#ffb648' });
+  context.beginPath();
+  context.arc(0, 0, radius, 0, 2 * Math.PI);
+  context.stroke();
+  context.rotate(radians(-heading));
+  context.beginPath();
+  context.moveTo(0, -radius + 4);
+  context.lineTo(radius * 0.3, 6);
+  context.lineTo(-radius * 0.3, 6);
+  context.fill();
+  context.restore();
+};

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The Omnistereo authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The guide through a picture's hotspots, and through a tour if view.json has one (docs/view.md): the spots of the open
+// picture, what they tell, and where they lead. It is viewer.guide, for the desk (notes.js, tour-plan.js) and the headset
+// (tour-worn.js). Events: `spots` (another picture has others), `tell` (what is told).
+import { wrapDegrees } from './geometry.js';
+import { showNotes } from './notes.js';
+import { paintCompass, showPlan } from './tour-plan.js';
+import { STYLE } from './tour-style.js';
+import { headingOf, pointAt, turnTo, waysOf } from './tour-ways.js';
+import { WornSpots } from './tour-worn.js';
+
+const NEXT = 4; // panoramas that are fetched ahead
+const READ = [3000, 60]; // milliseconds for a text, and for each of its letters
+
+class Guide extends EventTarget {
+  constructor(player) {
+    super();
+    const { viewer } = player;
+    const { tour } = viewer.view;
+    Object.assign(this, { viewer, tour, ways: tour && waysOf(tour), spots: [], open: null, item: -1, text: '', worn: null });
+    viewer.addEventListener('open', () => this.opened());
+  }
+
+  say(name) {
+    this.dispatchEvent(new Event(name));
+  }
+
+  titleOf(i) {
+    const { title, name } = this.viewer.view.items[i] ?? {};
+    return title ?? name ?? '';
+  }
+
+  // The picture is another one, or the same again with another layout or exposure.
+  opened() {
+    const { viewer, item: from } = this;
+    const { item, about } = viewer;
+    if (item === from) return;
+    this.item = item;
+    if (this.tour && from >= 0 && item >= 0) this.turn(turnTo(this.tour, this.ways, from, item));
+    const notes = (about?.hotspots ?? []).map((spot, i) => {
+      const entry = { ...spot, number: i + 1, at: pointAt(spot, spot.distance ?? 2.5) };
+      return Object.assign(entry, { run: () => this.tell(entry) });
+    });
+    const ways = (this.ways?.[item] ?? []).map((way) => ({ ...way, title: this.titleOf(way.to), run: () => this.go(way.to) }));
+    Object.assign(this, { spots: [...ways, ...notes], open: null });
+    this.show([this.tour && this.titleOf(item), about?.caption].filter(Boolean).join('\n'));
+    this.say('spots');
+  }
+
+  // Looks farther to the right, by degrees.
+  turn(by) {
+    const { viewer, worn } = this;
+    if (worn) worn.headset.turnBy(by);
+    viewer.set({ yaw: viewer.state.yaw + by });
+  }
+
+  go(item) {
+    const { exposure, tone } = this.viewer.choice;
+    return this.viewer.open(item, { exposure, tone });
+  }
+
+  // Opens a spot's card, or closes it.
+  tell(spot) {
+    this.open = spot === this.open ? null : spot;
+    this.show(this.open ? [spot.title, spot.text].filter(Boolean).join('\n') : '');
+    this.say('tell');
+  }
+
+  // Shows a text in the headset, until it can have been read.
+  show(text) {
+    this.text = text;
+    clearTimeout(this.reading);
+    this.reading = setTimeout(() => (this.text = ''), READ[0] + READ[1] * text.length);
+  }
+
+  // The heading of the view, 0 to 360 degrees; null where it is unknown.
+  get heading() {
+    const here = this.tour?.panoramas[this.viewer.item];
+    const heading = here && headingOf(here);
+    return heading === undefined ? null : (wrapDegrees(heading + this.viewer.state.yaw) + 360) % 360;
+  }
+
+  north() {
+    this.viewer.set({ yaw: -headingOf(this.tour.panoramas[this.viewer.item]) });
+  }
+
+  // The items that a visitor is likely to open next.
+  next() {
+    return this.ways?.[this.viewer.item]?.slice(0, NEXT).map(({ to }) => to);
+  }
+
+  // --- in the headset ---
+
+  wear(panel) {
+    return (this.worn = new WornSpots(this, panel));
+  }
+
+  // Rows of the headset's menu.
+  rows() {
+    const { heading, viewer } = this;
+    const told = [this.titleOf(viewer.item), viewer.about?.caption].filter(Boolean).join('\n');
+    const row = [];
+    if (heading !== null) row.push({ id: 'compass', text: `${Math.round(heading) % 360}°`, share: 2, paint: paintCompass(heading) });
+    if (viewer.about?.caption) row.push({ id: 'text', text: 'Text', share: 3, run: () => this.show(told) });
+    return row.length ? [row] : [];
+  }
+}
+
+export function showTour(player) {
+  const sheet = new CSSStyleSheet();
+  sheet.replaceSync(STYLE);
+  player.root.adoptedStyleSheets = [...player.root.adoptedStyleSheets, sheet];
+  const guide = (player.viewer.guide = new Guide(player));
+  showNotes(player.viewer, guide);
+  if (guide.tour) showPlan(player, guide);
+  if (player.viewer.picture) guide.opened();
+}
+
+// Returns the view of a tour.json, for <stereo-360 tour>: { items, tour }. itemOf(address) makes an item of a file. Throws
+// an Error of one line.
+export function readTour(tour, address, itemOf) {
+  const fail = (what) => {
+    throw new Error(`${address.pathname.split('/').pop()}: ${what}`);
+  };
+  if (!Array.isArray(tour?.panoramas) || !tour.panoramas.length) fail('it has no list of panoramas');
+  const nameOf = (file) => file.split('/').pop().replace(/\.\w+$/, '').replace(/_(360|180).*/, '');
+  const panoramas = tour.panoramas.map((each, i) => {
+    const entry = typeof each === 'string' ? { file: each } : { ...each };
+    if (!entry.file) fail(`panoramas.${i} has no file`);
+    return Object.assign(entry, { name: entry.name ?? nameOf(entry.file), title: entry.title ?? nameOf(entry.file) });
+  });
+  const names = panoramas.map(({ name }) => name);
+  panoramas.forEach(({ name, links, place, on_plan: pixel }, i) => {
+    if (names.indexOf(name) !== i) fail(`two panoramas are called '${name}'`);
+    for (const link of links ?? []) if (!names.includes(link.to ?? link)) fail(`panoramas.${i} leads to '${link.to ?? link}', which is no panorama's name`);
+    if (!links && names.length > 1 && !place && !(pixel && tour.plan)) fail(`panoramas.${i} ('${name}') has neither a place nor links`);
+  });
+  const url = (file) => new URL(file, address).href;
+  const items = panoramas.map(({ file, title, text, hotspots }) => ({ ...itemOf(url(file)), title, caption: text, hotspots }));
+  return { items, tour: { ...tour, panoramas, plan: tour.plan && { ...tour.plan, image: url(tour.plan.image) } } };
+}
