@@ -110,7 +110,7 @@ export function controlsOf(headset, panel) {
   return lay([
     [{ text: panel.message || (viewer.about?.title ?? viewer.about?.name) || '', share: 9, isName: true }, { id: 'close', icon: 'close', run: () => panel.close() }],
     ...listRows(panel, entries),
-    ...(viewer.guide?.rows() ?? []),
+    ...(viewer.guide?.rows(panel) ?? []),
     ...videoRows(viewer),
     [
       ...(many ? [{ id: 'previous', icon: 'previous', run: () => viewer.go(-1) }, { id: 'next', icon: 'next', run: () => viewer.go(1) }] : []),

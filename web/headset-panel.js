@@ -205,8 +205,8 @@ export class HeadsetPanel {
     this.last = now;
     this.head = poseOf(pose.transform);
     const { subtitles, guide } = this.headset.viewer;
-    this.subtitles.update(subtitles?.text || guide?.text || '', this.head);
     this.spots ??= guide?.wear(this);
+    this.subtitles.update(subtitles?.text || (!this.isOpen && guide?.text) || '', this.head);
     if (this.isOpen) this.content = controlsOf(this.headset, this);
     this.follow(now, seconds);
     this.point(frame, pose, seconds);

@@ -31,7 +31,7 @@ export function showNotes(viewer, guide) {
 
   const makeButton = (spot, k) => {
     const label = spot.to === undefined ? spot.title : t('Go to {}', spot.title);
-    const button = make('button', { type: 'button', className: spot.to === undefined ? 'spot' : 'spot way', ariaLabel: label, hidden: true },
+    const button = make('button', { type: 'button', className: spot.to === undefined ? 'spot' : 'spot way', ariaLabel: label, hidden: k > 0 },
       make('i'), make('span', { textContent: spot.to === undefined ? spot.number : spot.title }));
     if (spot.to === undefined) Object.assign(button.dataset, { tip: spot.title });
     if (k) Object.assign(button, { tabIndex: -1, ariaHidden: 'true' });
@@ -72,7 +72,9 @@ export function showNotes(viewer, guide) {
   };
   const place = () => {
     const parts = viewer.session || !viewer.picture ? [] : seenParts(viewer);
-    for (const { spot, buttons, rings } of entries) {
+    for (const entry of entries) {
+      const { spot, buttons, rings } = entry;
+      if (!entry.size?.[0]) entry.size = [buttons[0].offsetWidth, buttons[0].offsetHeight];
       rings.forEach((ring, i) => placeRing(ring, spot, parts[i]));
       buttons.forEach((button, i) => {
         const at = parts[i] && find(spot.at, parts[i]);
@@ -80,7 +82,7 @@ export function showNotes(viewer, guide) {
         button.classList.toggle('away', !at);
         for (const tint of ['red', 'cyan']) button.classList.toggle(tint, parts[i]?.tint === tint);
         if (spot.to === undefined) button.ariaExpanded = String(spot === guide.open);
-        if (at) Object.assign(button.style, { left: `${at[0] - button.offsetWidth / 2}px`, top: `${at[1] - button.offsetHeight / 2}px` });
+        if (at) Object.assign(button.style, { left: `${at[0] - entry.size[0] / 2}px`, top: `${at[1] - entry.size[1] / 2}px` });
       });
     }
     const { open } = guide;

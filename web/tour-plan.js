@@ -64,8 +64,8 @@ function makePlan(player, guide) {
   });
   image.addEventListener('error', () => (toggle.hidden = box.hidden = true));
   const show = () => {
-    dots.forEach((dot, i) => dot?.setAttribute('aria-current', String(i === viewer.item)));
-    const here = dots[viewer.item];
+    dots.forEach((dot, i) => dot?.setAttribute('aria-current', String(i === guide.item)));
+    const here = dots[guide.item];
     cone.hidden = !here || !image.naturalWidth;
     if (cone.hidden) return;
     put(cone, here.at);
@@ -88,6 +88,7 @@ export function showPlan(player, guide) {
     show?.();
   };
   for (const event of ['change', 'open']) viewer.addEventListener(event, update);
+  guide.addEventListener('spots', update);
   update();
 }
 

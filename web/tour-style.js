@@ -5,24 +5,22 @@
 // darkens the channels of that eye only, and its words light them.
 export const STYLE = `
 #spots { position: absolute; inset: 0; overflow: hidden; pointer-events: none; }
-.spot { position: absolute; width: 28px; height: 28px; min-height: 0; padding: 0; color: var(--text); font-weight: 600; pointer-events: auto; text-align: center; background: none; }
-.spot:hover { background: none; }
+.spot { position: absolute; width: 28px; height: 28px; min-height: 0; padding: 0; color: var(--text); font-weight: 600; pointer-events: auto; text-align: center; border-radius: 22px; background: var(--glass); border: 2px solid var(--text); }
 .spot::before { content: ""; position: absolute; inset: -8px; border-radius: 50%; }
-.spot > i { position: absolute; inset: 0; border-radius: 14px; background: var(--glass); border: 2px solid var(--text); }
+.spot > i { position: absolute; inset: -2px; border-radius: 22px; display: none; }
 .spot > span { position: relative; white-space: nowrap; }
-.spot:is(:hover, :focus-visible, [aria-expanded="true"]) { color: var(--solid); }
-.spot:is(:hover, :focus-visible, [aria-expanded="true"]) > i { background: var(--accent); }
+.spot:is(:hover, :focus-visible, [aria-expanded="true"]) { background: var(--accent); color: var(--solid); }
 .way { width: max-content; max-width: min(240px, 60%); height: 34px; padding: 0 16px; font-size: 15px; }
 .way::before { inset: -6px -2px; border-radius: 14px; }
-.way > i { border-radius: 17px; }
 .way > span { display: block; overflow: hidden; text-overflow: ellipsis; }
 .away { clip-path: inset(50%); pointer-events: none; left: 50% !important; top: 50% !important; }
 .ring { position: absolute; border: 3px solid #fff; outline: 1px solid rgb(0 0 0 / 60%); outline-offset: -4px; border-radius: 50%; box-shadow: 0 0 0 1px rgb(0 0 0 / 60%); }
-.red > i, .cyan > i { border: 0; mix-blend-mode: multiply; }
+.spot:is(.red, .cyan) { background: none; border-color: transparent; }
+.red > i, .cyan > i { display: block; mix-blend-mode: multiply; }
 .red > span, .cyan > span { mix-blend-mode: screen; }
-.red > i { background: #0ff !important; }
+.red > i { background: #0ff; }
 .red > span { color: #f00; }
-.cyan > i { background: #f00 !important; }
+.cyan > i { background: #f00; }
 .cyan > span { color: #0ff; }
 .ring:is(.red, .cyan) { mix-blend-mode: screen; box-shadow: none; outline: 0; }
 .ring.red { border-color: #f00; }
@@ -50,11 +48,9 @@ export const STYLE = `
 .cone { --wide: 90deg; position: absolute; width: 96px; height: 96px; margin: -48px; border-radius: 50%; pointer-events: none; background: conic-gradient(from calc(var(--wide) / -2), rgb(194 94 0 / 62%) var(--wide), transparent 0); mask: radial-gradient(#000 30%, transparent 70%); }
 @media (pointer: coarse) {
   .spot:not(.way) { width: 36px; height: 36px; }
-  .spot > i { border-radius: 18px; }
   .way { height: 44px; }
-  .way > i { border-radius: 22px; }
 }
 @media (forced-colors: active) {
-  #card, .spot > i, .dot::after { border: 1px solid ButtonText; }
+  #card, .spot, .dot::after { border: 1px solid ButtonText; }
   .dot[aria-current="true"]::after { background: Highlight; forced-color-adjust: none; }
 }`;

@@ -12,14 +12,14 @@ import { headingOf, pointAt, turnTo, waysOf } from './tour-ways.js';
 import { WornSpots } from './tour-worn.js';
 
 const NEXT = 4; // panoramas that are fetched ahead
-const READ = [3000, 60]; // milliseconds for a text, and for each of its letters
+const READ = { text: 3000, letter: 60 }; // milliseconds to read it
 
 class Guide extends EventTarget {
   constructor(player) {
     super();
     const { viewer } = player;
     const { tour } = viewer.view;
-    Object.assign(this, { viewer, tour, ways: tour && waysOf(tour), spots: [], open: null, item: -1, text: '', worn: null });
+    Object.assign(this, { viewer, tour, ways: tour && waysOf(tour), spots: [], open: null, item: -1, text: '', read: READ, worn: null });
     viewer.addEventListener('open', () => this.opened());
   }
 
@@ -45,8 +45,14 @@ class Guide extends EventTarget {
     });
     const ways = (this.ways?.[item] ?? []).map((way) => ({ ...way, title: this.titleOf(way.to), run: () => this.go(way.to) }));
     Object.assign(this, { spots: [...ways, ...notes], open: null });
-    this.show([this.tour && this.titleOf(item), about?.caption].filter(Boolean).join('\n'));
+    this.show(this.told);
     this.say('spots');
+  }
+
+  // The title of a tour's panorama, and its text.
+  get told() {
+    const { viewer: { item, about }, tour } = this;
+    return [tour && this.titleOf(item), about?.caption].filter(Boolean).join('\n');
   }
 
   // Looks farther to the right, by degrees.
@@ -72,38 +78,43 @@ class Guide extends EventTarget {
   show(text) {
     this.text = text;
     clearTimeout(this.reading);
-    this.reading = setTimeout(() => (this.text = ''), READ[0] + READ[1] * text.length);
+    this.reading = setTimeout(() => (this.text = ''), this.read.text + this.read.letter * text.length);
   }
 
   // The heading of the view, 0 to 360 degrees; null where it is unknown.
   get heading() {
-    const here = this.tour?.panoramas[this.viewer.item];
+    const here = this.tour?.panoramas[this.item]; // the viewer's item may still load
     const heading = here && headingOf(here);
     return heading === undefined ? null : (wrapDegrees(heading + this.viewer.state.yaw) + 360) % 360;
   }
 
   north() {
-    this.viewer.set({ yaw: -headingOf(this.tour.panoramas[this.viewer.item]) });
+    this.viewer.set({ yaw: -headingOf(this.tour.panoramas[this.item]) });
   }
 
   // The items that a visitor is likely to open next.
   next() {
-    return this.ways?.[this.viewer.item]?.slice(0, NEXT).map(({ to }) => to);
+    return this.ways?.[this.item]?.slice(0, NEXT).map(({ to }) => to);
   }
 
   // --- in the headset ---
 
   wear(panel) {
+    this.show(this.told);
     return (this.worn = new WornSpots(this, panel));
   }
 
+  tellAgain(panel) {
+    panel.close();
+    this.show(this.told);
+  }
+
   // Rows of the headset's menu.
-  rows() {
+  rows(panel) {
     const { heading, viewer } = this;
-    const told = [this.titleOf(viewer.item), viewer.about?.caption].filter(Boolean).join('\n');
     const row = [];
     if (heading !== null) row.push({ id: 'compass', text: `${Math.round(heading) % 360}°`, share: 2, paint: paintCompass(heading) });
-    if (viewer.about?.caption) row.push({ id: 'text', text: 'Text', share: 3, run: () => this.show(told) });
+    if (viewer.about?.caption) row.push({ id: 'text', text: 'Text', share: 3, run: () => this.tellAgain(panel) });
     return row.length ? [row] : [];
   }
 }

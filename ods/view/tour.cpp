@@ -190,8 +190,7 @@ void check_places(const Tour& tour, const std::string& file) {
     if (!needs[i] || stop.place || stop.on_plan) continue;
     throw Error(ErrorKind::kInput,
                 fmt::format("'{}' is not a valid {}: panoramas.{} ('{}') has no place: add \"place\": [x, y, z] in "
-                            "metres or \"on_plan\": [x, y] in pixels, render it with --sidecar, or give each of its "
-                            "links a yaw",
+                            "metres, \"on_plan\": [x, y] in pixels or its .camera.json, or give its links a yaw",
                             file, kTourNoun, i, stop.name));
   }
 }

@@ -3,7 +3,6 @@
 //
 // Every command that README, the pages of docs/ and help show is run, made small, on substitutes for the files that it
 // names. A command that cannot be run must at least be parsed: its exit code is not the code of a wrong command line.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -20,10 +19,6 @@
 #include <vector>
 
 #include "cli/console/command.h"
-#include "ods/identify/find_input.h"
-#include "ods/picture/face_files.h"
-#include "ods/picture/metadata/format_source.h"
-#include "ods/picture/metadata/name_words.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/save.h"
 #include "ods/render/unfinished.h"
@@ -482,23 +477,5 @@ TEST_P(Help, ExamplesWork) {
 
 INSTANTIATE_TEST_SUITE_P(Commands, Help, ::testing::ValuesIn(command_names()),
                          [](const auto& name) { return name.param; });
-
-TEST(Docs, ListTheWordsOfNames) {
-  std::string table = "| word | meaning |\n|---|---|\n", eyes = "| left | right |\n|---|---|\n", faces = "|---|\n";
-  for (const NameWordRow& row : name_words()) table += fmt::format("| `{}` | {} |\n", row.word, row.text);
-  for (const EyeWords& row : kEyeWordsTable) eyes += fmt::format("| `{}` | `{}` |\n", row.left, row.right);
-  for (const FaceWords& row : kFaceWordsTable) {
-    for (const std::string_view word : row.words) faces += fmt::format("| `{}` ", word);
-    faces += row.doubt.empty() ? "| read |\n" : fmt::format("| refused: {} |\n", row.doubt);
-  }
-  const std::string page = read_file(fs::path(source_folder()) / "docs/foreign.md");
-  for (const std::string& part : {table, eyes, faces}) EXPECT_TRUE(has(page, part)) << part;
-}
-
-TEST(Docs, ListTheSourcesOfAFormatInTheirOrder) {
-  std::string table = "| source | for example |\n|---|---|\n";
-  for (const FormatSourceRow& row : kFormatSourceTable) table += fmt::format("| {} | {} |\n", row.name, row.text);
-  EXPECT_TRUE(has(read_file(fs::path(source_folder()) / "docs/identify.md"), table)) << table;
-}
 
 }  // namespace ods::docs_test

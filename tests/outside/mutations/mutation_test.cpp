@@ -26,6 +26,7 @@
 #include "ods/video/container/video_file.h"
 #include "ods/video/decode.h"
 #include "ods/view/beside.h"
+#include "ods/view/tour.h"
 #include "tests/support/compressed_gltf.h"
 #include "tests/support/made_frames.h"
 #include "tests/support/places.h"
@@ -262,6 +263,11 @@ TEST_F(Mutations, Beside) {
           [&](const std::string&) { read_subtitles(folder.path("mutant.mp4")); });
   try_all({R"({"caption": "words", "hotspots": [{"yaw": 1.5, "pitch": 2, "title": "a", "text": "words"}]})"},
           ".notes.json", [&](const std::string&) { read_notes(folder.path("mutant.png")); });
+  try_all(
+      {R"({"panoramas": [{"file": "picture.png", "place": [1, 2, 3], "links": [{"to": "b", "yaw": 5}], "floor": 0.5},
+              {"file": "picture.png", "name": "b", "on_plan": [1, 2]}], "height": 1.5,
+              "plan": {"image": "picture.png", "metres_per_pixel": 0.01}})"},
+      ".json", [&](const std::string& path) { read_tour(path); });
 }
 
 }  // namespace ods::mutation_test
