@@ -9,7 +9,8 @@ import { angleAcross } from './panorama.js';
 import { headingOf, pixelOf, placesOf } from './tour-ways.js';
 import { t } from './translate.js';
 
-const NARROW = 640; // pixels: a plan would cover a narrower picture, so it waits for a click
+const ROOMY = [800, 560]; // pixels: a plan would cover a smaller picture, so it waits for a click
+const BESIDE = 280; // pixels: what is above the plan, and below it
 
 const drawing = (tag, attributes, ...children) => {
   const element = document.createElementNS('http://www.w3.org/2000/svg', tag);
@@ -41,7 +42,7 @@ function makePlan(player, guide) {
   const image = make('img', { src: new URL(plan.image, viewer.base).href, alt: '', draggable: false });
   const cone = make('div', { className: 'cone' });
   const map = make('div', { className: 'map' }, image, cone);
-  const box = make('div', { id: 'plan', role: 'group', ariaLabel: t('Plan'), hidden: player.element.clientWidth < NARROW }, map);
+  const box = make('div', { id: 'plan', role: 'group', ariaLabel: t('Plan'), hidden: player.element.clientWidth < ROOMY[0] || player.element.clientHeight < ROOMY[1] }, map);
   const toggle = make('button', { id: 'plan-toggle', type: 'button', textContent: t('Plan') });
   toggle.addEventListener('click', () => {
     box.hidden = !box.hidden;
@@ -70,6 +71,7 @@ function makePlan(player, guide) {
     if (cone.hidden) return;
     put(cone, here.at);
     const { clientWidth: width, clientHeight: height } = viewer.element;
+    image.style.maxHeight = `${Math.min(Math.max(height - BESIDE, 90), 240)}px`;
     const wide = Math.min(angleAcross(viewer.state, width / height), 180);
     cone.style.setProperty('--wide', `${wide.toFixed(0)}deg`);
     cone.style.rotate = `${((guide.heading ?? 0) - (plan.heading ?? 0)).toFixed(1)}deg`;

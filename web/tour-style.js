@@ -41,7 +41,7 @@ export const STYLE = `
 #plan-toggle { border-radius: 999px; padding: 0 14px; }
 #plan { position: absolute; right: max(12px, env(safe-area-inset-right)); top: calc(var(--below) + var(--side) + 66px); max-width: min(240px, 60cqw); padding: 6px; border-radius: 12px; background: var(--glass); border: 1px solid var(--edge); }
 .map { position: relative; overflow: hidden; border-radius: 7px; }
-.map img { display: block; max-width: 100%; max-height: min(240px, 40cqh, 34vh); background: #fff; }
+.map img { display: block; max-width: 100%; background: #fff; }
 .dot { position: absolute; width: 28px; height: 28px; min-height: 0; margin: -14px; padding: 0; border-radius: 50%; }
 .dot::after { content: ""; position: absolute; inset: 7px; border-radius: 50%; background: #1b1c1e; border: 2px solid #fff; }
 .dot:hover::after, .dot[aria-current="true"]::after { background: #c25e00; }

@@ -190,7 +190,7 @@ async function testTranslations() {
   const { OBJECT_KEYS } = await import('./src/objects.js');
   for (const { label, group } of [...ACTIONS, ...MOVES, ...OBJECT_KEYS]) if (label) texts.add(label).add(group);
   for (const { label, visitors } of MODES) texts.add(label).add(visitors ?? label);
-  for (const file of ['actions', 'compare', 'controls', 'markup', 'player', 'stereo-360']) {
+  for (const file of ['actions', 'compare', 'controls', 'markup', 'notes', 'player', 'stereo-360', 'tour-plan']) {
     const source = await (await fetch(`src/${file}.js`)).text();
     for (const [, one, other] of source.matchAll(/\bt\((?:[^()'`]*\? )?'([^']*)'(?: : '([^']*)')?/g)) texts.add(one).add(other ?? one);
   }
