@@ -165,8 +165,8 @@ void add_lens_options(Options& options, ods::FormatHint& known) {
                "its halves are fisheyes that look ahead and back (Gear 360, Theta, Insta360): one eye");
   options.custom(
       "--circle", "X,Y,R[,X,Y,R]", "", [&known](const std::string& text) { parse_circles(text, known); },
-      "the image circle of its fisheye, if it does not touch the edges: middle and radius in pixels of the eye's "
-      "picture; six numbers: the left eye's and the right one's");
+      "the image circle of its fisheye, if it does not touch the edges: middle and radius in pixels of the eye as "
+      "players show it; six numbers: the left eye's and the right one's");
 }
 
 void finish_lens_options(ods::FormatHint& known) {

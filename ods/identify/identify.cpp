@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "ods/camera/odd_halves.h"
 #include "ods/identify/eye_match.h"
@@ -35,6 +36,7 @@ struct Cut {
   Image shown;               // the first eye, as a display shows it
   Marks marks;               // marks of the first eye
   bool has_bars = false;     // black bars around the file
+  bool is_still = false;     // as EyeMatch::is_still
   double broken = 0.0;       // as breaks_in_middle()
   double other_faces = 0.0;  // evidence that it has the faces of a cube in an order that we do not support
   PointPairs pairs;          // pairs between both eyes
@@ -60,10 +62,35 @@ Cut two_halves(const Thumbnail& thumbnail, EyePacking how) {
   const Layout layout = *layout_with({how});
   cut.eyes = unpack(layout, without_middle(layout, thumbnail.light));
   const EyeMatch match = match_eyes(cut.eyes);
-  cut.two_eyes = match.mark();
+  cut.two_eyes = match.mark(), cut.is_still = match.is_still;
   const char* halves = how == EyePacking::kStacked ? "its upper and lower half" : "its left and right half";
   cut.reason = fmt::format("{} match at {:.0f} % of {} places", halves, 100.0 * match.share, match.places);
   return cut;
+}
+
+// Returns whether both eyes are the same picture: they differ less than its adjacent pixels do.
+bool are_equal(const std::vector<Image>& eyes) {
+  const Image first = shown(eyes[0]), second = shown(eyes[1]);
+  double between = 0.0, beside = 0.0;
+  for (int y = 0; y < first.height; y++) {
+    for (int x = 0; x + 1 < first.width; x++) {
+      between += static_cast<double>(std::abs(*first.at(x, y) - *second.at(x, y)));
+      beside += static_cast<double>(std::abs(*first.at(x, y) - *first.at(x + 1, y)));
+    }
+  }
+  return between < 0.2 * beside;
+}
+
+// Returns whether the halves of a sphere match only because it repeats itself every half turn: they continue in each
+// other, nothing moves, and little but what repeats has its like in the other half.
+bool repeats(const Cut& cut, Extent file) {
+  constexpr double kFew = 0.35;
+  const bool is_sphere = std::abs(file.width - 2 * file.height) <= 2;
+  if (cut.how != EyePacking::kBeside || cut.two_eyes <= 0.0 || !cut.is_still || !is_sphere || cut.broken >= 0.0)
+    return false;
+  if (are_equal(cut.eyes)) return true;
+  const PointPairs pairs = find_pairs(shown(cut.eyes[0]), shown(cut.eyes[1]));
+  return static_cast<double>(pairs.found.size()) < kFew * pairs.places;
 }
 
 double between(double value, double no, double yes) {
@@ -72,9 +99,10 @@ double between(double value, double no, double yes) {
 
 // Evidence that rows or columns alternate between the eyes: then adjacent ones differ more than every other one, and
 // more than in the perpendicular direction. Noise differs equally everywhere.
-double alternate(double along, double across) {
+double alternate(double along, double across, double differs) {
   if (along <= 0.0 || across <= 0.0) return -1.0;
-  return std::min(between(along, 0.85, 1.0), between(along / across, 1.1, 1.5));
+  const double seen = between(differs, 0.002, 0.006);  // programs dither gradients in such patterns
+  return std::min({between(along, 0.85, 1.0), between(along / across, 1.1, 1.5), seen});
 }
 
 // Evidence of a checkerboard: its diagonals differ more than adjacent pixels in a row or a column. In other pictures
@@ -84,15 +112,16 @@ double alternate_both_ways(const Thumbnail& thumbnail) {
   if (less <= 0.0) return -1.0;
   const double crossed = thumbnail.crossed;
   const double as_much_as_both = std::max(between(crossed / more, 0.8, 0.95), between(crossed, 1.2, 1.6));
-  return std::min({between(crossed, 0.65, 0.95), as_much_as_both, between(crossed / less, 1.05, 1.3)});
+  const double seen = between(thumbnail.diagonal, 0.004, 0.012);  // as in alternate()
+  return std::min({between(crossed, 0.65, 0.95), as_much_as_both, between(crossed / less, 1.05, 1.3), seen});
 }
 
 Cut interleaved(const StoredPicture& whole, const Thumbnail& thumbnail, EyePacking how) {
   Cut cut;
   cut.how = how;
   const double rows = thumbnail.other_rows, columns = thumbnail.other_columns, both = alternate_both_ways(thumbnail);
-  cut.two_eyes = how == EyePacking::kRows      ? alternate(rows, columns)
-                 : how == EyePacking::kColumns ? alternate(columns, rows)
+  cut.two_eyes = how == EyePacking::kRows      ? alternate(rows, columns, thumbnail.below)
+                 : how == EyePacking::kColumns ? alternate(columns, rows, thumbnail.beside)
                                                : both;
   if (how != EyePacking::kCheckerboard && both > 0.0) cut.two_eyes = -1.0;
   cut.reason = "every other pixel is more alike than neighbours";
@@ -112,12 +141,14 @@ std::vector<Cut> all_cuts(const StoredPicture& whole, const Thumbnail& thumbnail
   for (const EyePacking how : {EyePacking::kRows, EyePacking::kColumns, EyePacking::kCheckerboard}) {
     if (unpacked_size(*layout_with({how}), thumbnail.file)) cuts.push_back(interleaved(whole, thumbnail, how));
   }
+  const double broken = breaks_in_middle(shown(cuts[0].eyes[0]));
   double maximum = 0.0;
-  for (const Cut& cut : cuts) maximum = std::max(maximum, cut.two_eyes);
+  for (Cut& cut : cuts) {
+    cut.broken = broken, cut.two_eyes = repeats(cut, thumbnail.file) ? -1.0 : cut.two_eyes;
+    maximum = std::max(maximum, cut.two_eyes);
+  }
   cuts[0].two_eyes = -maximum;
   cuts[0].reason = "no two parts of it match";
-  const double broken = breaks_in_middle(shown(cuts[0].eyes[0]));
-  for (Cut& cut : cuts) cut.broken = broken;
   for (Cut& cut : cuts) {
     cut.shown = shown(cut.eyes[0]);
     const Image other = cut.eyes.size() == 2 ? shown(cut.eyes[1]) : Image();
@@ -377,6 +408,20 @@ std::string reading_text(const Reading& reading) {
                      projection_name(reading.projection));
 }
 
+// A drawing on a transparent ground looks like a circle with empty corners, a ball like a mirror ball; the margins of a
+// page look like poles.
+static void doubt_drawings(const StoredPicture& whole, std::vector<Candidate>& candidates) {
+  constexpr double kLessThanCorners = 0.2;  // share of black; around a circle that touches all edges there is more
+  const bool is_clear = has_clear_corners(whole), is_page = !is_clear && has_one_ground(whole);
+  const bool is_framed = is_page || (!is_clear && has_one_ground(whole, kLessThanCorners));
+  for (Candidate& each : candidates) {
+    const int kind = each.reading.projection.kind;
+    const bool is_drawn = is_fisheye(kind) ? is_page : is_framed && kind != kPerspective;
+    if (is_clear || is_drawn) each.reading.certainty *= kLikely;
+  }
+  std::ranges::stable_sort(candidates, std::greater<>(), [](const Candidate& each) { return each.reading.certainty; });
+}
+
 static Identity identify_all(const StoredPicture& whole, const FormatHint& known, bool has_bars) {
   if (std::min(whole.size.width, whole.size.height) < kMinSide) return {};
   const Thumbnail thumbnail = make_thumbnail(whole);
@@ -394,15 +439,11 @@ static Identity identify_all(const StoredPicture& whole, const FormatHint& known
   const double front_and_back = known.layout ? 0.0 : front_and_back_mark(cuts);
   identity.is_anaglyph = anaglyph > kLikely, identity.is_front_and_back = front_and_back > kLikely;
   share_certainty(cuts, std::max(anaglyph, front_and_back), candidates);
+  doubt_drawings(whole, candidates);
   identity.reason = candidates[0].reason;
   identity.has_other_faces = std::any_of(
       cuts.begin(), cuts.end(), [](const Cut& cut) { return cut.other_faces > kLikely && cut.two_eyes >= 0.0; });
-  // A drawing on a transparent ground looks like a circle with empty corners, a ball like a mirror ball.
-  const double share = has_clear_corners(whole) ? kLikely : 1.0;
-  for (const Candidate& each : candidates) {
-    identity.readings.push_back(each.reading);
-    identity.readings.back().certainty *= share;
-  }
+  for (const Candidate& each : candidates) identity.readings.push_back(each.reading);
   return identity;
 }
 

@@ -192,7 +192,8 @@ bool wants_lenses(const FormatHint& known, const std::string& path, bool is_open
   const std::optional<ProjectionSetting> told = known_projection(known, path);
   const std::optional<Layout> layout = known_layout(known, path);
   const bool is_done = !known.lenses.empty() || known.camera || known.one_eye || names_eye(path);
-  if (is_done || (layout && !arrangement_of(*layout).is_halves())) return false;
+  const EyeArrangement eyes = layout ? arrangement_of(*layout) : EyeArrangement();
+  if (is_done || (layout && (!eyes.is_halves() || eyes.squeezed))) return false;  // squeezed circles are ellipses
   return told ? is_fisheye(told->kind) : known.front_and_back || is_open;
 }
 

@@ -96,7 +96,7 @@ float difference(float a, float b) {
 void compare_neighbours(const Rows& rows, Thumbnail& thumbnail) {
   constexpr int kRows = 96;
   double beside[2] = {}, below[2] = {};  // differences of adjacent pixels, and of every other one
-  double along = 0.0, down = 0.0, diagonal = 0.0;
+  double along = 0.0, down = 0.0, diagonal = 0.0, blocks = 0.0;
   std::vector<float> here, next, other;
   for (int i = 0; i < kRows; i++) {
     const int y = static_cast<int>(static_cast<int64_t>(thumbnail.file.height - 2) * i / kRows);
@@ -109,12 +109,14 @@ void compare_neighbours(const Rows& rows, Thumbnail& thumbnail) {
       below[1] += static_cast<double>(difference(here[x], other[x]));
       const float a = as_shown(here[x]), b = as_shown(here[x + 1]), c = as_shown(next[x]), d = as_shown(next[x + 1]);
       along += static_cast<double>(std::abs(a - b + c - d)), down += static_cast<double>(std::abs(a + b - c - d));
-      diagonal += static_cast<double>(std::abs(a - b - c + d));
+      diagonal += static_cast<double>(std::abs(a - b - c + d)), blocks++;
     }
   }
   if (beside[1] > 0.0) thumbnail.other_columns = beside[0] / beside[1];
   if (below[1] > 0.0) thumbnail.other_rows = below[0] / below[1];
   if (std::min(along, down) > 0.0) thumbnail.crossed = diagonal / std::min(along, down);
+  if (blocks == 0.0) return;
+  thumbnail.diagonal = diagonal / blocks, thumbnail.beside = beside[0] / blocks, thumbnail.below = below[0] / blocks;
 }
 
 constexpr float kBlack = 0.07f;  // as displayed, including codec artifacts
@@ -157,6 +159,54 @@ bool has_clear_corners(const StoredPicture& whole) {
   };
   const int right = whole.size.width - 1, bottom = whole.size.height - 1;
   return is_clear(0, 0) && is_clear(right, 0) && is_clear(0, bottom) && is_clear(right, bottom);
+}
+
+namespace {
+
+// Pixels of nearly one colour. Around lenses and in the dark there is black, too, but no page of it.
+struct Ground {
+  vec3 color;
+  bool is_dark() const { return std::max({color.x, color.y, color.z}) <= 0.08f; }
+  bool has(vec3 other) const {
+    const vec3 off = abs(other - color);
+    return std::max({off.x, off.y, off.z}) <= (is_dark() ? 0.002f : 0.015f);  // JPEG's artifacts
+  }
+};
+
+}  // namespace
+
+bool has_one_ground(const StoredPicture& whole, double least_black) {
+  constexpr int kPlaces = 256;
+  constexpr double kMost = 0.6, kMuch = 0.15;
+  const LayerPixels& layer = whole.eyes[0].layers[0];
+  if (whole.is_float || layer.channels.size() < 3) return false;
+  const auto color = [&](double x, double y) {
+    const auto column = static_cast<ptrdiff_t>(x * whole.size.width),
+               row = static_cast<ptrdiff_t>(y * whole.size.height);
+    const std::byte* const at = layer.first + row * layer.row_stride + column * layer.pixel_stride;
+    const size_t step = bytes_of(layer.sample);
+    return vec3(sample_value(layer.sample, at), sample_value(layer.sample, at + step),
+                sample_value(layer.sample, at + 2 * step));
+  };
+  const auto share = [&](const Ground& ground, const std::function<vec3(int)>& at, int count) {
+    int own = 0;
+    for (int i = 0; i < count; i++) own += ground.has(at(i)) ? 1 : 0;
+    return static_cast<double>(own) / count;
+  };
+  const auto part = [](int i) { return (i + 0.5) / kPlaces; };
+  constexpr double kEnd = 1.0 - 1e-9;
+  const std::function<vec3(int)> edges[] = {
+      [&](int i) { return color(part(i), 0.0); }, [&](int i) { return color(part(i), kEnd); },
+      [&](int i) { return color(0.0, part(i)); }, [&](int i) { return color(kEnd, part(i)); }};
+  // A colour that most of an edge has is that of one of a few of its pixels.
+  for (int i = kPlaces / 16; i < kPlaces; i += kPlaces / 8) {
+    const Ground ground{edges[0](i)};
+    const bool is_around = std::ranges::all_of(
+        edges, [&](const std::function<vec3(int)>& edge) { return share(ground, edge, kPlaces) >= kMost; });
+    const auto inside = [&](int k) { return color(part(k % kPlaces), part(k / kPlaces)); };
+    if (is_around && share(ground, inside, kPlaces * kPlaces) >= (ground.is_dark() ? least_black : kMuch)) return true;
+  }
+  return false;
 }
 
 Bars bars_of(const StoredPicture& whole) {

@@ -20,6 +20,9 @@ struct Thumbnail {
   // In 2x2 blocks: the ratio of diagonal difference to the smaller of row and column difference. About 1 for noise,
   // less for a picture, more if pixels alternate like a checkerboard.
   double crossed = 0.0;
+  // The mean of that diagonal difference, and of the differences of adjacent pixels in a row and in a column, as
+  // displayed, 0..1.
+  double diagonal = 0.0, beside = 0.0, below = 0.0;
 };
 
 inline constexpr int kThumbnailSide = 1008;  // divisible by two eyes of six faces
@@ -37,6 +40,10 @@ std::vector<Image> color_parts(const StoredPicture& whole, Extent size);
 
 // Returns whether all four corners of the file are entirely transparent, as around a drawing.
 bool has_clear_corners(const StoredPicture& whole);
+
+// Returns whether the file is a drawing, a page or a plot: one colour makes up most of each of its four edges, and much
+// of the rest. least_black: the share of black that is as much; lenses are in black, too.
+bool has_one_ground(const StoredPicture& whole, double least_black = 0.5);
 
 // Black bars at two opposite sides of a file, or at all four: equally wide at both, with an edge towards the picture.
 // Returns no bars if no sides have them. `whole` as in make_thumbnail().

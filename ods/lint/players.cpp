@@ -170,7 +170,7 @@ std::vector<std::string> video_warnings(const VideoFile& video, const VideoTrack
         name_warning(path, track.v2 || track.v1 ? v2.takes_it_for : "nothing" + advice(video, track, path, "tags it")));
   }
   const std::optional<SphericalMetadata> said = declared_metadata(track);
-  const std::string fault = said ? shape_fault(*said, track.size) : "";
+  const std::string fault = said ? shape_fault(*said, track) : "";
   if (!fault.empty()) warnings.push_back(fault);
   warn_of_size(track, warnings);
   return warnings;

@@ -36,7 +36,7 @@ static void take_bars(StoredPicture& picture, const Bars& bars) {
   }
 }
 
-void take_lenses(StoredPicture& picture, const FormatHint& known, const std::string& path) {
+void take_lenses(StoredPicture& picture, const FormatHint& known, Extent shown, const std::string& path) {
   constexpr float kUsualFov = 195.0f;  // usual value of cameras that look ahead and back
   if (known.bars.any()) return take_bars(picture, known.bars);
   if (known.lenses.empty() && !known.front_and_back) return;
@@ -44,13 +44,13 @@ void take_lenses(StoredPicture& picture, const FormatHint& known, const std::str
     throw cannot_read(path, "fisheyes that look ahead and back are two halves: `layout` side-by-side or top-bottom");
   }
   std::vector<FisheyeLens> lenses = known.lenses;
-  if (lenses.empty()) lenses.push_back(inscribed_lens(picture.size, kUsualFov));
+  if (lenses.empty()) lenses.push_back(inscribed_lens(shown, kUsualFov));
   lenses.resize(picture.eyes.size(), lenses[0]);
   if (known.front_and_back) lenses[1].yaw += 180.0f;
   picture.maps.clear();
   for (const FisheyeLens& lens : lenses) {
-    if (const std::string fault = lens_fault(lens, picture.size); !fault.empty()) throw cannot_read(path, fault);
-    picture.maps.push_back(make_map(lens, picture.size));
+    if (const std::string fault = lens_fault(lens, shown); !fault.empty()) throw cannot_read(path, fault);
+    picture.maps.push_back(make_map(lens, shown));
   }
   picture.front_and_back = known.front_and_back;
   picture.camera.projection = find_projection(known.front_and_back ? "lat-long" : "vr180")->setting;

@@ -14,8 +14,8 @@ FisheyeLens inscribed_lens(Extent eye, float fov);
 
 // Gives the picture the lenses that the caller specifies (FormatHint::lenses, front_and_back), if any: its maps, and as
 // its projection the front half or, if they look ahead and back, the whole sphere of one eye. Black bars
-// (FormatHint::bars) become maps of the rest of the picture. Throws Error(kInput) for circles outside the picture, or
-// not two halves if they look ahead and back.
-void take_lenses(StoredPicture& picture, const FormatHint& known, const std::string& path);
+// (FormatHint::bars) become maps of the rest of the picture. shown: the size of an eye as players show it, which the
+// circles are in. Throws Error(kInput) for circles outside the picture, or not two halves if they look ahead and back.
+void take_lenses(StoredPicture& picture, const FormatHint& known, Extent shown, const std::string& path);
 
 }  // namespace ods

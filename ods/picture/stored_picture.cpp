@@ -416,10 +416,8 @@ void PictureReader::set_format(const FormatHint& known) {
     open_second_eye(readers, path, format.guesses);
   }
   StoredPicture found = describe(readers, format, path);
-  // A projection alone does not have the shape of a window: its pixels are square.
-  if (known.projection && !known.camera && known.projection->kind == kPerspective && known.projection->aspect == 1.0f) {
-    found.camera.projection.aspect = static_cast<float>(found.size.width) / static_cast<float>(found.size.height);
-  }
+  const Extent shown = names_faces(path) ? found.size : shown_eye(info(), found.layout);
+  if (known.projection && !known.camera) found.camera.projection = with_shape(found.camera.projection, shown);
   if (!memory) {
     shares = shares_of(readers, path, found.layout, options.color_only);
     keep_common(shares, path, found.guesses);
@@ -428,7 +426,7 @@ void PictureReader::set_format(const FormatHint& known) {
   for (StoredEye& stored : found.eyes) {
     for (LayerPixels& layer : stored.layers) layer.first = nullptr;
   }
-  take_lenses(found, known, path);
+  take_lenses(found, known, shown, path);
   header = std::move(found), eye = format.eye;
 }
 

@@ -10,6 +10,7 @@
 
 #include "ods/base/error.h"
 #include "ods/files/scratch.h"
+#include "ods/image/format/pixel_place.h"
 #include "ods/picture/metadata/phone_window.h"
 #include "ods/picture/stored_lenses.h"
 #include "ods/video/container/complete_metadata.h"
@@ -164,9 +165,11 @@ VideoInput open_video(const std::string& path, const FormatHint& given) {
                                      eye->height));
   }
   prototype.size = *eye;
+  if (track.pixel_aspect != 1.0) file.numbers[std::string(kPixelAspect)] = {static_cast<float>(track.pixel_aspect)};
+  const Extent shown = shown_eye(file, prototype.layout);
   const bool is_window = track.layers && video.metadata.projection == VideoProjection::kFlat;
-  all.projection = known.projection ? *known.projection
-                   : is_window      ? phone_window(track.layers->fov, *eye, prototype.guesses)
+  all.projection = known.projection ? with_shape(*known.projection, shown)
+                   : is_window      ? phone_window(track.layers->fov, shown, prototype.guesses)
                                     : projection_of(video.metadata, path);
   const StereoFormat format = find_format(file, path, all);
   prototype.camera = format.camera;
@@ -178,7 +181,7 @@ VideoInput open_video(const std::string& path, const FormatHint& given) {
   }
   prototype.eyes.resize(prototype.layout == Layout::kSeparate ? 1 : 2);
   for (size_t i = 0; prototype.eyes.size() == 2 && i < 2; i++) prototype.eyes[i].eye = i == 0 ? kLeft : kRight;
-  take_lenses(prototype, known, path);
+  take_lenses(prototype, known, shown, path);
   return video;
 }
 

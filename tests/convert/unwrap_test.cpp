@@ -43,10 +43,12 @@ bool look(const FisheyeLens& lens, Extent eye, vec2 uv, vec3& direction) {
   return true;
 }
 
-MadePicture picture_of(const std::vector<FisheyeLens>& lenses, Extent eye, const Waves& waves) {
+// eye: its size as players show it. across: stored pixels for each of its columns.
+MadePicture picture_of(const std::vector<FisheyeLens>& lenses, Extent eye, const Waves& waves, double across = 1.0) {
   StereoCamera camera;
   camera.ipd = 0.0f;
-  MadePicture made = make_picture(camera, eye, {kLeft, kRight});
+  const Extent stored{static_cast<int>(std::lround(eye.width * across)), eye.height};
+  MadePicture made = make_picture(camera, stored, {kLeft, kRight});
   made.picture.is_float = true;
   made.picture.layout = Layout::kSideBySide;
   add_layer<float>(made, {"R", "G", "B"}, LayerRule::kLight, SampleType::kFloat, [&](int which, vec2 uv, float* out) {
@@ -99,7 +101,7 @@ TEST(StoredLenses, CirclesOffTheMiddleAreUnwrappedExactly) {
     MadePicture made = picture_of({left, right}, kEye, waves);
     FormatHint known;
     known.lenses = {left, right};
-    take_lenses(made.picture, known, "a");
+    take_lenses(made.picture, known, kEye, "a");
     ASSERT_TRUE(is_vr180(made.picture.camera.projection));
     ConvertTarget target = same_format(made.picture);
     EXPECT_EQ(target.eyes, (std::vector<int>{kLeft, kRight}));
@@ -114,6 +116,21 @@ TEST(StoredLenses, CirclesOffTheMiddleAreUnwrappedExactly) {
   }
 }
 
+// The circles of a file whose pixels are not square, or whose eyes are squeezed, are circles where players show them.
+TEST(StoredLenses, CirclesAreInTheEyeAsItIsShown) {
+  const Waves waves;
+  const FisheyeLens left = lens_at(143.3f, 135.8f, 131.0f, 190.0f), right = lens_at(155.6f, 141.1f, 131.0f, 190.0f);
+  for (const double across : {0.75, 1.5}) {
+    MadePicture made = picture_of({left, right}, kEye, waves, across);
+    FormatHint known;
+    known.lenses = {left, right};
+    take_lenses(made.picture, known, kEye, "a");
+    const Error2 error = error_of(made.picture, same_format(made.picture), waves);
+    EXPECT_LT(error.maximum, 0.04) << across;
+    EXPECT_LT(error.mean, 0.004) << across;
+  }
+}
+
 // The sensor is lower than the circle: what is cut is empty, not something else.
 TEST(StoredLenses, CutCirclesLeaveEmptyWhatTheyDoNotHave) {
   const Waves waves;
@@ -121,7 +138,7 @@ TEST(StoredLenses, CutCirclesLeaveEmptyWhatTheyDoNotHave) {
   MadePicture made = picture_of({lens, lens}, kEye, waves);
   FormatHint known;
   known.lenses = {lens};
-  take_lenses(made.picture, known, "a");
+  take_lenses(made.picture, known, kEye, "a");
   const Conversion conversion = convert(made.picture, same_format(made.picture));
   EXPECT_EQ(conversion.rows.layers[0].channels.back(), "A") << "the target sees more than the picture has";
   const int height = conversion.rows.eye.height;
@@ -142,7 +159,7 @@ TEST(StoredLenses, FrontAndBackBecomeOneSphere) {
     MadePicture made = picture_of({front, made_back}, kEye, waves);
     FormatHint known;
     known.lenses = {front, back}, known.front_and_back = true;
-    take_lenses(made.picture, known, "a");
+    take_lenses(made.picture, known, kEye, "a");
     const ConvertTarget target = same_format(made.picture);
     EXPECT_EQ(target.eyes, std::vector<int>{kMono});
     EXPECT_TRUE(is_full_lat_long(target.camera.projection));
@@ -163,7 +180,7 @@ TEST(StoredLenses, TheSeamIsBlended) {
                    [&](int which, vec2, float* out) { std::fill_n(out, 3, which == kRight ? 0.4f : 0.6f); });
   FormatHint known;
   known.lenses = {lens}, known.front_and_back = true;
-  take_lenses(made.picture, known, "a");
+  take_lenses(made.picture, known, kEye, "a");
   ConvertTarget target = same_format(made.picture);
   target.eye = {720, 360};
   const Conversion conversion = convert(made.picture, target);
@@ -191,7 +208,7 @@ TEST(StoredLenses, WhatIsNoCircleOfThePictureIsRefused) {
     FormatHint known;
     known.lenses = lenses, known.front_and_back = front_and_back;
     try {
-      take_lenses(picture, known, "a.jpg");
+      take_lenses(picture, known, kEye, "a.jpg");
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::kInput);
       return std::string(error.what());

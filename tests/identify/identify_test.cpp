@@ -392,6 +392,91 @@ TEST_F(Unknown, OfATransparentGroundNothingIsLikely) {
   EXPECT_NEAR(clear.best().certainty, 0.5 * opaque.best().certainty, 1e-6);
 }
 
+// A plot has the same boxes, axes and words in both halves, and margins that are as even as poles.
+Image plot(Extent size, float paper) {
+  Image image(size.width, size.height, 3);
+  std::ranges::fill(image.pixels, paper);
+  const auto fill = [&](float left, float top, float right, float bottom, float value) {
+    const auto at = [](float part, int side) { return static_cast<int>(part * static_cast<float>(side)); };
+    for (int y = at(top, size.height); y < at(bottom, size.height); y++) {
+      for (int x = at(left, size.width); x < at(right, size.width); x++) std::fill_n(image.at(x, y), 3, value);
+    }
+  };
+  if (paper > 0.0f) fill(0.04f, 0.05f, 0.96f, 0.7f, 0.7f * paper);
+  for (int i = 0; i < 12; i++) {
+    const float x = 0.06f + 0.075f * static_cast<float>(i);
+    const float top = 0.08f + 0.09f * static_cast<float>((5 * (i % 6) + i / 6) % 6);
+    fill(x, top, x + 0.02f, top + 0.08f, std::abs(paper - 0.8f)),
+        fill(x + 0.022f, top + 0.03f, x + 0.042f, top + 0.12f, std::abs(paper - 0.95f));
+    fill(x + 0.009f, top - 0.03f, x + 0.011f, top + 0.13f, 1.0f - paper);
+    for (float y = 0.72f; y < 0.9f; y += 0.014f)  // words
+      fill(x + 0.005f, y, x + 0.02f + 0.03f * std::abs(std::sin(300.0f * y)), y + 0.007f, std::abs(paper - 0.9f));
+  }
+  return image;
+}
+
+TEST_F(Unknown, ADrawingIsNotSurelyASphere) {
+  for (const Extent size : {Extent{900, 900}, Extent{1200, 600}, Extent{640, 320}, Extent{1280, 720}}) {
+    for (const float paper : {1.0f, 0.9f, 0.0f}) {
+      const TwoEyes drawn = [&](int, const ProjectionSetting&, Extent) { return plot(size, paper); };
+      write_unknown(folder.path("plot.png"), {std::nullopt, named("perspective")}, drawn, size);
+      const StoredPicture whole = open_unknown(folder.path("plot.png"));
+      EXPECT_TRUE(has_one_ground(whole)) << size.width << " " << paper;
+      const Identity seen = identify(whole);
+      const bool is_flat = seen.readings.empty() || seen.best().projection.kind == kPerspective;
+      EXPECT_TRUE(is_flat || !seen.is_likely()) << size.width << " " << paper << ": " << reading_text(seen.best());
+    }
+  }
+}
+
+TEST_F(Unknown, AWorldHasNoGround) {
+  for (const World world : kWorlds) {
+    for (const char* name : {"lat-long", "vr180", "fisheye", "perspective", "cube-3x2"}) {
+      const std::string path = folder.path("world.jpg");
+      write_unknown(
+          path, {std::nullopt, named(name)},
+          [&](int, const ProjectionSetting& setting, Extent) { return eye_of(world, setting, kMono, 256); },
+          unknown_eye(named(name), 256));
+      EXPECT_FALSE(has_one_ground(open_unknown(path))) << world_name(world) << " " << name;
+    }
+  }
+}
+
+// The first scene of a game engine: a grid up to the horizon, the same in all four directions, below stars.
+Image grid_world() {
+  constexpr float kPi = 3.14159265f;
+  Image room(1024, 512, 3);
+  const auto line = [](float at, float far) {
+    const float off = std::abs(at - std::round(at)) / (0.03f + 0.02f * far);
+    return std::exp(-off * off) / (1.0f + 0.1f * far);
+  };
+  for (int y = 0; y < room.height; y++) {
+    for (int x = 0; x < room.width; x++) {
+      const float up = 0.5f * kPi - (static_cast<float>(y) + 0.5f) / 512.0f * kPi;
+      const float around = (static_cast<float>(x) + 0.5f) / 512.0f * kPi, far = 1.0f / std::tan(std::max(-up, 1e-3f));
+      const float grid = std::max(line(far * std::sin(around), far), line(far * std::cos(around), far));
+      const float light = up > 0.0f ? 0.2f * std::exp(-up / 0.12f) : 0.2f * grid * std::exp(-far / 14.0f);
+      std::fill_n(room.at(x, y), 3, light);
+    }
+  }
+  uint32_t state = 3;
+  const auto next = [&](uint32_t below) { return (state = state * 1664525u + 1013904223u) / 65536u % below; };
+  for (int star = 0; star < 900; star++) {
+    const int x = static_cast<int>(next(1024)), y = static_cast<int>(next(235));
+    std::fill_n(room.at(x, y), 3, 0.05f + 0.4f * static_cast<float>(next(100)) / 100.0f);
+  }
+  return room;
+}
+
+TEST_F(Unknown, AWorldThatRepeatsItselfIsOneEye) {
+  write_unknown(folder.path("grid.jpg"), {std::nullopt, named("lat-long")},
+                [](int, const ProjectionSetting&, Extent) { return grid_world(); }, {1024, 512});
+  const Identity seen = identify(open_unknown(folder.path("grid.jpg")));
+  ASSERT_FALSE(seen.readings.empty());
+  EXPECT_EQ(reading_text(seen.best()), "one eye, lat-long");
+  EXPECT_TRUE(seen.is_likely()) << seen.best().certainty;
+}
+
 TEST_F(Unknown, WhatIsKnownCountsMoreThanPixels) {
   const TwoEyes eyes = [&](int eye, const ProjectionSetting& projection, Extent size) {
     StereoCamera camera;

@@ -138,31 +138,39 @@ static FileBox read_header(const FileInput& file, uint64_t at, uint64_t left) {
 
 namespace {
 
-// The parts of a video that were found so far.
+// The parts of a video or a HEIF picture that were found so far.
 struct FoundParts {
   bool header = false, media = false, fragments = false;
 
   void add(BoxType type) {
-    header = header || type == box_type("moov"), media = media || type == box_type("mdat");
+    header = header || type == box_type("moov") || type == box_type("meta");
+    media = media || type == box_type("mdat");
     fragments = fragments || type == box_type("moof");
   }
 };
 
 }  // namespace
 
-// Returns whether a whole video ends before this position, and what follows is not another part of it that was cut
+// Returns whether the bytes at this position cannot be a box: its size is less than its header's or leads beyond the
+// end.
+static bool is_no_box(const FileInput& file, uint64_t at) {
+  const uint64_t left = file.size() - at;
+  const std::string header = file.read(at, std::min<uint64_t>(left, 16));
+  const uint64_t size = get_number(header, 0, 4);
+  if (size == 1) return left < 16 || get_number(header, 8, 8) < 16 || get_number(header, 8, 8) > left;
+  return size != 0 && (size < 8 || size > left);
+}
+
+// Returns whether the file is whole before this position, and what follows is not another part of it that was cut
 // short.
 static bool is_trailer(const FileInput& file, uint64_t at, const FoundParts& before) {
   constexpr BoxType kParts[] = {box_type("moov"), box_type("mdat"), box_type("moof"), box_type("mfra"),
                                 box_type("free"), box_type("skip"), box_type("uuid"), box_type("meta"),
                                 box_type("sidx"), box_type("styp"), box_type("emsg"), box_type("udta")};
   if (!before.header || !before.media) return false;
-  const uint64_t left = file.size() - at;
-  if (left < 8) return !before.fragments;
-  const std::string header = file.read(at, 8);
-  const uint64_t size = get_number(header, 0, 4);
-  const auto type = static_cast<BoxType>(get_number(header, 4, 4));
-  return size > 1 && (size < 8 || size > left) && std::ranges::find(kParts, type) == std::end(kParts);
+  if (file.size() - at < 8) return !before.fragments;
+  const auto type = static_cast<BoxType>(get_number(file.read(at + 4, 4), 0, 4));
+  return is_no_box(file, at) && std::ranges::find(kParts, type) == std::end(kParts);
 }
 
 std::vector<FileBox> scan_boxes(const FileInput& file) {

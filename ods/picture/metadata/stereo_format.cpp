@@ -183,6 +183,17 @@ static Extent shown_size(const FileInfo& info) {
   return {std::max(1, static_cast<int>(std::lround(info.width * pixel_aspect(info)))), info.height};
 }
 
+Extent shown_eye(const FileInfo& info, std::optional<Layout> layout) {
+  const Layout how = layout.value_or(Layout::kSeparate);
+  return whole_eye(how, without_middle(how, shown_size(info))).value_or(Extent{1, 1});
+}
+
+ProjectionSetting with_shape(ProjectionSetting setting, Extent shown) {
+  if (setting.kind == kPerspective && setting.aspect == 1.0f)
+    setting.aspect = static_cast<float>(shown.width) / static_cast<float>(shown.height);
+  return setting;
+}
+
 static std::optional<LayoutGuess> layout_in(FormatSource source, const Evidence& of) {
   const Extent file = shown_size(of.info);
   const auto guess = [&](std::optional<Layout> layout, const std::string& reason) {
@@ -348,8 +359,7 @@ static std::optional<ProjectionGuess> projection_in(FormatSource source, const E
 
 // Sets the camera's projection if no camera is known.
 static void guess_projection(const Evidence& of, StereoFormat& format) {
-  const Layout layout = format.layout.layout.value_or(Layout::kSeparate);
-  const Extent eye = whole_eye(layout, without_middle(layout, shown_size(of.info))).value_or(Extent{1, 1});
+  const Extent eye = shown_eye(of.info, format.layout.layout);
   const ProjectionGuess guess = *first_answer([&](FormatSource source) { return projection_in(source, of, eye); });
   format.camera.projection = guess.setting;
   format.guesses.push_back(fmt::format("{}: {}", projection_name(guess.setting), guess.reason));

@@ -65,10 +65,11 @@ struct FormatHint {
   std::optional<Layout> layout;
   std::optional<StereoCamera> camera;
   std::optional<ProjectionSetting> projection;  // also the camera's
-  std::vector<FisheyeLens> lenses;              // for each eye, or one for both; the projection then does not apply
-  bool front_and_back = false;                  // the halves are fisheyes that look ahead and back, for one eye
-  std::string seen_lenses;  // for messages: how the pixels showed layout and lenses; empty if they were asked for
-  Bars bars;                // around all eyes together; the layout is not a cube's and not interleaved
+  // For each eye, or one for both; the projection then does not apply. In pixels of the eye as players show it.
+  std::vector<FisheyeLens> lenses;
+  bool front_and_back = false;  // the halves are fisheyes that look ahead and back, for one eye
+  std::string seen_lenses;      // for messages: how the pixels showed layout and lenses; empty if they were asked for
+  Bars bars;                    // around all eyes together; the layout is not a cube's and not interleaved
   std::optional<SeenFormat> seen;  // takes precedence only over the aspect ratio
 };
 
@@ -87,6 +88,13 @@ struct StereoFormat {
 // Finds the format. %V or %v in the path stands for two files; `info` is the left one's. Throws Error(kInput) for an
 // anaglyph, or an invalid sidecar, unless the caller knows the layout or the projection.
 StereoFormat find_format(const FileInfo& info, const std::string& path, const FormatHint& known);
+
+// The size of an eye as players show it: not squeezed, with square pixels. layout: not set for one eye.
+Extent shown_eye(const FileInfo& info, std::optional<Layout> layout);
+
+// A window without a shape of its own, as its name alone gives it, in the shape of that eye; any other projection as it
+// is.
+ProjectionSetting with_shape(ProjectionSetting setting, Extent shown);
 
 // Returns false if the sidecar belongs to another picture of the same name. picture.exr and picture.png share one.
 bool belongs_to(const Sidecar& sidecar, const FileInfo& info);

@@ -149,14 +149,17 @@ bool is_told_by_shape(const SphericalMetadata& known, const VideoTrack& track, c
 
 // --- contradictions --------------------------------------------------------------------------------------------------
 
-// Squeezed eyes are square, or have the width that headsets' decoders prefer.
-std::string shape_fault(const SphericalMetadata& metadata, Extent size) {
+// Squeezed eyes are square, or have the width that headsets' decoders prefer. Rows and columns have the shape of halves.
+std::string shape_fault(const SphericalMetadata& metadata, const VideoTrack& track) {
+  const Extent size = track.size;
   if (metadata.projection != VideoProjection::kEquirect || metadata.is_partial() || size.height == 0) return {};
-  const double aspect = static_cast<double>(size.width) / size.height;
+  const double aspect = track.pixel_aspect * size.width / size.height;
   const EyeArrangement eyes = arrangement_of(metadata.stereo.value_or(VideoStereo::kOneView));
-  const double whole = !eyes.is_halves() ? 2.0 : eyes.how == EyePacking::kStacked ? 1.0 : 4.0;
+  const bool is_stacked = eyes.how == EyePacking::kStacked || eyes.how == EyePacking::kRows;
+  const bool is_beside = eyes.how == EyePacking::kBeside || eyes.how == EyePacking::kColumns;
+  const double whole = is_stacked ? 1.0 : is_beside ? 4.0 : 2.0;
   const auto has_aspect = [&](double of) { return std::abs(aspect / of - 1.0) < 0.02; };
-  if (has_aspect(whole) || (eyes.is_halves() && (has_aspect(2.0) || has_aspect(16.0 / 9.0)))) return {};
+  if (has_aspect(whole) || has_aspect(2.0) || (eyes.is_halves() && has_aspect(16.0 / 9.0))) return {};
   return fmt::format("its metadata specifies {}, which does not fit {}x{} pixels", metadata_text(metadata), size.width,
                      size.height);
 }
@@ -242,7 +245,7 @@ std::vector<MetadataConflict> find_conflicts(const SphericalMetadata& known, con
   } catch (const Error&) {
     // An unreadable sidecar has no information.
   }
-  const std::string fault = shape_fault(*said, track.size);
+  const std::string fault = shape_fault(*said, track);
   if (known.stereo || known.projection || !conflicts.empty() || fault.empty()) return conflicts;
   const bool is_square = track.size.width == track.size.height;
   conflicts.push_back({fault, fmt::format("`layout` {} or {}", stereo_name(*said->stereo),

@@ -47,7 +47,7 @@ std::vector<MetadataConflict> find_conflicts(const SphericalMetadata& known, con
                                              const std::string& path);
 
 // The reason why a whole-sphere video with this metadata cannot have this size, for messages. Empty if it can.
-std::string shape_fault(const SphericalMetadata& metadata, Extent size);
+std::string shape_fault(const SphericalMetadata& metadata, const VideoTrack& track);
 
 // Returns whether V2, or StereoMode and Projection, can express this metadata, or the track has it already.
 bool can_express(Container container, const VideoTrack& track, const SphericalMetadata& metadata);

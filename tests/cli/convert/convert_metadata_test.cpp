@@ -8,6 +8,7 @@
 
 #include <filesystem>
 
+#include "ods/image/format/png_chunks.h"
 #include "ods/picture/metadata/sidecar.h"
 #include "ods/picture/save.h"
 #include "ods/picture/stored_picture.h"
@@ -94,6 +95,41 @@ TEST_F(ConvertMetadata, OfAVideo) {
   EXPECT_EQ(stereo(v2 + apple, v1), VideoStereo::kTopBottom) << "V2";
   EXPECT_EQ(stereo(apple, v1), VideoStereo::kSideBySide) << "V1";
   EXPECT_EQ(stereo(apple, ""), VideoStereo::kRightLeft) << "vexu";
+}
+
+// A window that is asked for has the shape that players show: of one eye, not squeezed, with square pixels.
+TEST_F(ConvertMetadata, AWindowHasTheShapeThatIsShown) {
+  FormatHint asked;
+  asked.projection = named("perspective");
+  const auto aspect_of_video = [&](int across, Layout layout) {
+    made::Mp4Options options;
+    options.widths = {512}, options.height = 256;
+    std::string video = made::mp4(options);
+    const size_t shape = video.find("pasp");
+    video.replace(shape + 4, 8, made::number(static_cast<uint64_t>(across), 4) + made::number(2, 4));
+    folder.write("window.mp4", video);
+    asked.layout = layout;
+    return open_video(folder.path("window.mp4"), asked).prototype.camera.projection.aspect;
+  };
+  EXPECT_FLOAT_EQ(aspect_of_video(2, Layout::kSeparate), 2.0f);
+  EXPECT_FLOAT_EQ(aspect_of_video(1, Layout::kSeparate), 1.0f);
+  EXPECT_FLOAT_EQ(aspect_of_video(3, Layout::kSeparate), 3.0f);
+  EXPECT_FLOAT_EQ(aspect_of_video(2, Layout::kSideBySide), 1.0f);
+  EXPECT_FLOAT_EQ(aspect_of_video(2, Layout::kSideBySideHalf), 2.0f);
+  EXPECT_FLOAT_EQ(aspect_of_video(2, Layout::kTopBottom), 4.0f);
+
+  save_picture(one_eye(), {}, folder.path("window.png"));
+  const std::string wide = made::number(1000, 4) + made::number(2000, 4) + '\1';  // pixels for each metre
+  folder.write("wide.png", folder.read("window.png").insert(kPngAfterHeader, png_chunk("pHYs", wide)));
+  const auto aspect_of_picture = [&](const char* name, Layout layout) {
+    OpenOptions options;
+    options.format = asked, options.format.layout = layout;
+    return open_picture(folder.path(name), options).camera.projection.aspect;
+  };
+  EXPECT_FLOAT_EQ(aspect_of_picture("window.png", Layout::kSeparate), 2.0f);
+  EXPECT_FLOAT_EQ(aspect_of_picture("window.png", Layout::kSideBySideHalf), 2.0f);
+  EXPECT_FLOAT_EQ(aspect_of_picture("wide.png", Layout::kSeparate), 4.0f);
+  EXPECT_FLOAT_EQ(aspect_of_picture("wide.png", Layout::kSideBySide), 2.0f);
 }
 
 // --- circles ---------------------------------------------------------------------------------------------------------
