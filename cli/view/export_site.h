@@ -17,9 +17,9 @@ struct PageTexts {
 // Returns the languages of the page, sorted.
 std::vector<std::string> page_languages();
 
-// tour: the items are its panoramas. Writes the page, view.json and the items' files into the folder, as a whole or not at all
+// Writes the page, view.json and the items' files into the folder, as a whole or not at all
 // (ods/files/atomic_folder.h). A file that browsers read is copied, all else becomes a JPEG of each eye. Files of an
-// earlier export are replaced, others stay. Returns view.json's path. Throws Error(kInput), Error(kOutput); then the
-// folder is as it was.
+// earlier export are replaced, others stay. tour: the items are its panoramas. Returns view.json's path. Throws
+// Error(kInput), Error(kOutput); then the folder is as it was.
 std::string export_site(const std::vector<ods::ViewItem>& items, const std::string& folder, const PageTexts& texts = {},
                         const ods::Tour* tour = nullptr);

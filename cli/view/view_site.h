@@ -28,8 +28,8 @@ class ViewSite {
   // Thread-safe. "" is the page; alive confirms that the server runs, and has the number of pages that share;
   // item/N/left.jpg takes exposure, tone, width, and a layout and projection chosen in the page; item/N/preview.jpg and
   // item/N/thumbnail.jpg; item/N/comfort.json, comfort-left.jpg and comfort-right.jpg are a ComfortLayer;
-  // the plan of a tour; item/N/object-K.glb is an object, and a POST to objects?item=N moves the objects (docs/view.md). Throws
-  // UsageError for an invalid query.
+  // item/N/object-K.glb is an object, and a POST to objects?item=N moves the objects (docs/view.md); plan.* is
+  // the plan of a tour. Throws UsageError for an invalid query.
   WebAnswer answer(const WebRequest& request);
 
   // The studio, for studio/drop; null if there is none.

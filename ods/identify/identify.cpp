@@ -81,8 +81,8 @@ bool are_equal(const std::vector<Image>& eyes) {
   return between < 0.2 * beside;
 }
 
-// Returns whether the halves of a sphere match only because it repeats itself every half turn: they continue in each
-// other, nothing moves, and little but what repeats has its like in the other half.
+// Returns whether the halves of a sphere match only because it repeats itself every half turn: the one continues
+// in the other, nothing moves, and few other details of it are found in the other half.
 bool repeats(const Cut& cut, Extent file) {
   constexpr double kFew = 0.35;
   const bool is_sphere = std::abs(file.width - 2 * file.height) <= 2;
@@ -411,9 +411,9 @@ std::string reading_text(const Reading& reading) {
 // A drawing on a transparent ground looks like a circle with empty corners, a ball like a mirror ball; the margins of a
 // page look like poles.
 static void doubt_drawings(const StoredPicture& whole, std::vector<Candidate>& candidates) {
-  constexpr double kLessThanCorners = 0.2;  // share of black; around a circle that touches all edges there is more
+  constexpr double kBlackGround = 0.2;  // less than the black corners around a circle that touches all edges
   const bool is_clear = has_clear_corners(whole), is_page = !is_clear && has_one_ground(whole);
-  const bool is_framed = is_page || (!is_clear && has_one_ground(whole, kLessThanCorners));
+  const bool is_framed = is_page || (!is_clear && has_one_ground(whole, kBlackGround));
   for (Candidate& each : candidates) {
     const int kind = each.reading.projection.kind;
     const bool is_drawn = is_fisheye(kind) ? is_page : is_framed && kind != kPerspective;

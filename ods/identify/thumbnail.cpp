@@ -163,7 +163,8 @@ bool has_clear_corners(const StoredPicture& whole) {
 
 namespace {
 
-// Pixels of nearly one colour. Around lenses and in the dark there is black, too, but no page of it.
+// The ground of a drawing: pixels of nearly one colour. Black is judged more strictly, because it also surrounds the
+// circles of lenses and fills dark scenes.
 struct Ground {
   vec3 color;
   bool is_dark() const { return std::max({color.x, color.y, color.z}) <= 0.08f; }
@@ -175,9 +176,9 @@ struct Ground {
 
 }  // namespace
 
-bool has_one_ground(const StoredPicture& whole, double least_black) {
+bool has_one_ground(const StoredPicture& whole, double min_black) {
   constexpr int kPlaces = 256;
-  constexpr double kMost = 0.6, kMuch = 0.15;
+  constexpr double kEdgeShare = 0.6, kInsideShare = 0.15;
   const LayerPixels& layer = whole.eyes[0].layers[0];
   if (whole.is_float || layer.channels.size() < 3) return false;
   const auto color = [&](double x, double y) {
@@ -198,13 +199,14 @@ bool has_one_ground(const StoredPicture& whole, double least_black) {
   const std::function<vec3(int)> edges[] = {
       [&](int i) { return color(part(i), 0.0); }, [&](int i) { return color(part(i), kEnd); },
       [&](int i) { return color(0.0, part(i)); }, [&](int i) { return color(kEnd, part(i)); }};
-  // A colour that most of an edge has is that of one of a few of its pixels.
+  // If most of an edge has one colour, one of these few pixels has it.
   for (int i = kPlaces / 16; i < kPlaces; i += kPlaces / 8) {
     const Ground ground{edges[0](i)};
     const bool is_around = std::ranges::all_of(
-        edges, [&](const std::function<vec3(int)>& edge) { return share(ground, edge, kPlaces) >= kMost; });
+        edges, [&](const std::function<vec3(int)>& edge) { return share(ground, edge, kPlaces) >= kEdgeShare; });
     const auto inside = [&](int k) { return color(part(k % kPlaces), part(k / kPlaces)); };
-    if (is_around && share(ground, inside, kPlaces * kPlaces) >= (ground.is_dark() ? least_black : kMuch)) return true;
+    if (is_around && share(ground, inside, kPlaces * kPlaces) >= (ground.is_dark() ? min_black : kInsideShare))
+      return true;
   }
   return false;
 }

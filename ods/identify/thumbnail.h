@@ -42,8 +42,9 @@ std::vector<Image> color_parts(const StoredPicture& whole, Extent size);
 bool has_clear_corners(const StoredPicture& whole);
 
 // Returns whether the file is a drawing, a page or a plot: one colour makes up most of each of its four edges, and much
-// of the rest. least_black: the share of black that is as much; lenses are in black, too.
-bool has_one_ground(const StoredPicture& whole, double least_black = 0.5);
+// of the rest. min_black: the share of the picture that a black ground must cover, because the circles of lenses have
+// black around them, too.
+bool has_one_ground(const StoredPicture& whole, double min_black = 0.5);
 
 // Black bars at two opposite sides of a file, or at all four: equally wide at both, with an edge towards the picture.
 // Returns no bars if no sides have them. `whole` as in make_thumbnail().

@@ -25,8 +25,8 @@ struct Notes {
 // is too long.
 Notes read_notes(const std::string& picture);
 
-// Read the values of a key of such a file; `file`, `noun` and `place` are its reader's. Throw Error(kInput) for a text of
-// more bytes than `maximum`, a missing text if it is needed, and too many hotspots.
+// Read the value of a key of such a file, also for tours. `file`, `noun` and `place` are the reader's. Throw
+// Error(kInput) for a text of more bytes than `maximum`, for a missing text that is needed, and for too many hotspots.
 std::string text_of(JsonReader& reader, const std::string& key, size_t maximum, bool is_needed);
 std::vector<Hotspot> hotspots_of(JsonReader& reader, const std::string& file, const std::string& noun,
                                  const std::string& place, std::vector<std::string>& warnings);

@@ -16,8 +16,8 @@ enum class PageHost { kFolder, kView, kStudio };
 enum class ScriptKind { kClassic, kModule };
 
 // entry: a module of the page, main.js. A folder's script has everything but what only layered scenes need; a server's
-// script has the code for the first view. Both load kLaterScripts when they need more; a script of kModule imports those
-// of the same names that end in .mjs instead, and exports what its entry exports.
+// script has the code for the first view. Both load kLaterScripts when they need more; a script of kModule imports
+// files of the same names with .mjs instead, and exports what its entry exports.
 std::string bundle(const std::string& entry, PageHost host = PageHost::kFolder, ScriptKind kind = ScriptKind::kClassic);
 
 // In a folder, later.js has what only layered scenes need; a server's has all but the code for the first view. The

@@ -27,9 +27,9 @@ namespace {
 constexpr const char* kTourNoun = "tour";
 constexpr size_t kMaxTour = 1 << 20;  // bytes
 constexpr size_t kMaxPanoramas = 500;
-constexpr size_t kMaxName = 100;         // bytes
-constexpr float kFarthest = 100'000.0f;  // metres
-constexpr float kMostPixels = 100'000.0f;
+constexpr size_t kMaxName = 100;            // bytes
+constexpr float kMaxDistance = 100'000.0f;  // metres
+constexpr float kMaxPixels = 100'000.0f;
 
 // A file beside the tour; its path if there is one.
 std::string path_beside(const std::string& tour, JsonReader& reader, const std::string& key) {
@@ -92,16 +92,16 @@ TourStop read_stop(const Json& json, const std::string& tour, const std::string&
   if (stop.name.empty()) stop.name = plain_name(stop.file);
   stop.text = text_of(reader, "text", kMaxHotspotText, false);
   std::vector<float> place;
-  if (reader.numbers("place", place, 3, -kFarthest, kFarthest)) stop.place = vec3(place[0], place[1], place[2]);
+  if (reader.numbers("place", place, 3, -kMaxDistance, kMaxDistance)) stop.place = vec3(place[0], place[1], place[2]);
   vec2 pixel(0.0f);
-  if (reader.vector("on_plan", pixel, -kMostPixels, kMostPixels)) {
+  if (reader.vector("on_plan", pixel, -kMaxPixels, kMaxPixels)) {
     if (!place.empty()) reader.fail("on_plan", "and place are both there: give one of them");
     stop.on_plan = pixel;
     stop.place.reset();
   }
   if (const auto heading = number_of(reader, "heading", -36000.0f, 36000.0f)) stop.heading = heading;
   stop.floor = floor;
-  reader.number("floor", stop.floor, -kFarthest, kFarthest);
+  reader.number("floor", stop.floor, -kMaxDistance, kMaxDistance);
   if (stop.place && stop.place->y <= stop.floor) {
     reader.fail("floor", fmt::format("must be below the camera, whose y is {:g}", stop.place->y));
   }
@@ -155,7 +155,7 @@ TourPlan read_plan(JsonReader& reader, const std::string& file) {
   read_info(plan.image);
   if (!reader.find("metres_per_pixel")) reader.fail("metres_per_pixel", "is missing: 0.01 if a metre is 100 pixels");
   reader.number("metres_per_pixel", plan.metres_per_pixel, 1e-5f, 1000.0f);
-  reader.vector("origin", plan.origin, -kMostPixels, kMostPixels);
+  reader.vector("origin", plan.origin, -kMaxPixels, kMaxPixels);
   reader.number("heading", plan.heading, -360.0f, 360.0f);
   return plan;
 }
@@ -219,7 +219,7 @@ Tour read_tour(const std::string& path) {
   JsonReader reader(json, path, kTourNoun, "", warnings);
   Tour tour;
   float floor = 0.0f;
-  reader.number("floor", floor, -kFarthest, kFarthest);
+  reader.number("floor", floor, -kMaxDistance, kMaxDistance);
   reader.number("height", tour.height, 0.1f, 1000.0f);
   const Json* const list = reader.find("panoramas");
   if (!list || !list->is_array() || list->empty() || list->size() > kMaxPanoramas) {

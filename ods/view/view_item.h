@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures, videos and layered scenes as the viewer's page shows them: a file that browsers read, or a JPEG of each eye,
-// and the camera for the page's shader. docs/view.md describes view.json.
+// Pictures, videos and layered scenes as the viewer's page shows them: a file that browsers read, or a JPEG of each
+// eye, and the camera for the page's shader. docs/view.md describes view.json.
 #pragma once
 #include <memory>
 #include <span>
@@ -56,11 +56,11 @@ struct ViewItem {
 ViewItem open_view_item(const std::string& path, const FormatHint& known = {},
                         std::optional<PictureReader> reader = {});
 
-// Gives the items of a tour, which are its panoramas, its titles, texts and hotspots.
+// Gives the tour's titles, texts and hotspots to its items; each item is a panorama.
 void add_tour(const Tour& tour, std::span<ViewItem> items);
 
-// Returns the page's view.json: items, and the studio. is_live: eyes are sent by a server, which can develop them again.
-// studio: of the studio, or null. tour: the items are its panoramas, or null.
+// Returns the page's view.json. is_live: a server sends the eyes and can develop them again. studio: the studio's
+// description, or null. tour: the tour of which the items are the panoramas, or null.
 std::string view_json(std::span<const ViewItem> items, bool is_live, const Json& studio, const Tour* tour = nullptr);
 
 // The name under which view.json refers to a file of an item, relative to itself: item/0/NAME.
@@ -86,8 +86,8 @@ bool has_stills(const ViewItem& item);
 // Returns a picture with its pixels, a video's first picture, or a layered scene's fallback. Throws Error(kInput).
 StoredPicture open_shown(const ViewItem& item);
 
-// Return as JPEGs the preview, and a small left eye of an item that has stills (of a video's first picture). Throw Error(kInput) if
-// the file cannot be read, and as eye_jpeg() does.
+// Return as JPEGs the preview, and a small left eye of an item that has stills (of a video's first picture). Throw
+// Error(kInput) if the file cannot be read, and as eye_jpeg() does.
 std::string preview_jpeg(const ViewItem& item);
 std::string thumbnail_jpeg(const ViewItem& item);
 

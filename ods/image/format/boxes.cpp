@@ -153,7 +153,7 @@ struct FoundParts {
 
 // Returns whether the bytes at this position cannot be a box: its size is less than its header's or leads beyond the
 // end.
-static bool is_no_box(const FileInput& file, uint64_t at) {
+static bool cannot_be_box(const FileInput& file, uint64_t at) {
   const uint64_t left = file.size() - at;
   const std::string header = file.read(at, std::min<uint64_t>(left, 16));
   const uint64_t size = get_number(header, 0, 4);
@@ -170,7 +170,7 @@ static bool is_trailer(const FileInput& file, uint64_t at, const FoundParts& bef
   if (!before.header || !before.media) return false;
   if (file.size() - at < 8) return !before.fragments;
   const auto type = static_cast<BoxType>(get_number(file.read(at + 4, 4), 0, 4));
-  return is_no_box(file, at) && std::ranges::find(kParts, type) == std::end(kParts);
+  return cannot_be_box(file, at) && std::ranges::find(kParts, type) == std::end(kParts);
 }
 
 std::vector<FileBox> scan_boxes(const FileInput& file) {

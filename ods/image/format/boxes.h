@@ -66,9 +66,9 @@ struct FileBox {
   uint64_t end() const { return offset + size; }
 };
 
-// All top-level boxes in order. After the header and the media of a video or a picture, bytes that are not a box of
-// ISO/IEC 14496-12 (a camera's own trailer) count as one box of type 0 without a header. Throws MalformedFile if a box is longer than
-// the file or there are more than a million; Error(kInput).
+// Returns all top-level boxes in order. After the header and the media of a video or a picture, bytes that are not a
+// box of ISO/IEC 14496-12 (a camera's own trailer) count as one box of type 0 without a header. Throws MalformedFile if
+// a box is longer than the file or there are more than a million; Error(kInput).
 std::vector<FileBox> scan_boxes(const FileInput& file);
 
 // Reads a box into memory. `opened` is the chain of types to open, from the box down; the contents of these are kept in

@@ -149,7 +149,8 @@ bool is_told_by_shape(const SphericalMetadata& known, const VideoTrack& track, c
 
 // --- contradictions --------------------------------------------------------------------------------------------------
 
-// Squeezed eyes are square, or have the width that headsets' decoders prefer. Rows and columns have the shape of halves.
+// Squeezed eyes are square, or have the width that headsets' decoders prefer. Interleaved eyes have the shape of
+// halves.
 std::string shape_fault(const SphericalMetadata& metadata, const VideoTrack& track) {
   const Extent size = track.size;
   if (metadata.projection != VideoProjection::kEquirect || metadata.is_partial() || size.height == 0) return {};
