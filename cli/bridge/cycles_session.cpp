@@ -81,6 +81,8 @@ nlohmann::ordered_json order_of(const CyclesShot& shot, const std::string& path)
       {"threads", shot.threads},
       {"position", nullptr},
       {"merge", nullptr},
+      {"light", nullptr},
+      {"background", nullptr},
   };
   if (shot.position) order["position"] = {shot.position->x, shot.position->y, shot.position->z};
   if (camera.top.mode != ods::kMergeNone) order["merge"] = {camera.top.start, camera.top.end};
@@ -191,7 +193,10 @@ CyclesPose CyclesSession::order(const CyclesShot& shot, const std::string& path,
     const std::lock_guard lock(mutex_);
     share_ = 0.0;
   }
-  ods::write_file(fmt::format("{}/order.{}.json", folder_.path(), number), ods::json_document(order_of(shot, path)));
+  nlohmann::ordered_json wanted = order_of(shot, path);
+  if (!light_.empty()) wanted["light"] = light_;
+  if (!background_.empty()) wanted["background"] = background_;
+  ods::write_file(fmt::format("{}/order.{}.json", folder_.path(), number), ods::json_document(wanted));
   wait([&] { return rendered_ >= number; }, report, 0.0f);
   const json pose = json::parse(pose_, nullptr, false);
   if (!pose.is_object())

@@ -71,6 +71,13 @@ class CyclesSession {
   // The graphics card that renders; empty: the processor. Known after the first shot.
   std::string device();
 
+  // A file in the session's own folder, which is removed with it.
+  std::string path(const std::string& name) const { return folder_.path() + "/" + name; }
+
+  // Replaces the file's world in all shots from now on by lat-long pictures with -Z of our world in the middle: the light
+  // around the scene, and what only the camera sees behind it. An empty path leaves the file's.
+  void surround(const std::string& light, const std::string& background) { light_ = light, background_ = background; }
+
   // Returns the place of a shot without rendering it. Throws as render() does.
   CyclesPose pose(const CyclesShot& shot);
 
@@ -87,6 +94,7 @@ class CyclesSession {
   std::string file_;
   ods::PrivateFolder folder_, scripts_;
   CyclesScene scene_;
+  std::string light_, background_;  // surround()
   int orders_ = 0;
 
   std::mutex mutex_;  // for what the reader changes

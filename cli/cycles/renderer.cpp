@@ -25,6 +25,8 @@ constexpr std::string_view kHonoured[] = {
     "--merge-top", "--merge-bottom", "--merge-map", "--merge-map-inverted", "--head-tilt-map", "--convergence",
     "--eye-to-neck", "--axis", "--lens", "--left-handed", "--projection", "--fov", "--range", "--face", "--sensor",
     "--lens-direction", "--lens-polynomial",
+    // the light
+    "--env", "--env-turn", "--env-strength", "--background",
     // time
     "--time", "--frames", "--only", "--fps", "--duration", "--shutter", "--grain", "--skip-existing",
     // quality
@@ -40,8 +42,6 @@ struct Remedy {
 };
 constexpr Remedy kRemedies[] = {
     {"--quality", "the file sets it; --width, --samples and --noise change it"},
-    {"--env", "the file's world lights it; change the world in Blender, or use --renderer ods"},
-    {"--background", "the file's world is behind it; change the world in Blender, or use --renderer ods"},
     {"--lamp", "add a light in Blender, or use --renderer ods"},
     {"--light-unit", "Blender's lights are in watts"},
     {"--unlit", "--renderer ods shows colours without light"},

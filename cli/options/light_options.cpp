@@ -104,15 +104,6 @@ void read_lamp(const std::string& word, ods::LightChoices& choices) {
   choices.lamp_position = vec3(numbers[0], numbers[1], numbers[2]);
 }
 
-// Reads the value of --background. Returns nullopt if the camera sees the environment.
-std::optional<ods::Environment> read_background(const std::string& word, const std::string& confined_to) {
-  if (word.empty() || word == "env") return std::nullopt;
-  const Named named = parse_environment("--background", word);
-  if (named.surround == Surround::kStudio) return ods::make_studio_walls();
-  if (named.surround == Surround::kSky) return ods::make_sky(named.sky);
-  return given_environment("--background", named, confined_to);
-}
-
 }  // namespace
 
 void add_light_options(Options& options, LightOptions& light) {
@@ -164,6 +155,14 @@ ods::LightChoices read_choices(const LightOptions& light, bool transparent, cons
   choices.sky = named.sky;
   if (named.surround == Surround::kGiven) choices.given = given_environment("--env", named, confined_to);
   return choices;
+}
+
+std::optional<ods::Environment> read_background(const std::string& word, const std::string& confined_to) {
+  if (word.empty() || word == "env") return std::nullopt;
+  const Named named = parse_environment("--background", word);
+  if (named.surround == Surround::kStudio) return ods::make_studio_walls();
+  if (named.surround == Surround::kSky) return ods::make_sky(named.sky);
+  return given_environment("--background", named, confined_to);
 }
 
 void light_scene(ods::Scene& scene, const LightOptions& light, ods::LightChoices choices, bool is_ours,

@@ -39,6 +39,9 @@ std::string sky_word(const ods::SkyOptions& sky);
 // Throws UsageError, and Error(kInput) for files.
 ods::LightChoices read_choices(const LightOptions& light, bool transparent, const std::string& confined_to);
 
+// Reads --background. Returns nullopt if the camera sees the light from all around. Throws as read_choices().
+std::optional<ods::Environment> read_background(const std::string& word, const std::string& confined_to);
+
 struct PlannedLight {
   ods::Survey survey;
   ods::LightPlan plan;

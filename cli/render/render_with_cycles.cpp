@@ -11,6 +11,7 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/cycles/cycles_picture.h"
+#include "cli/cycles/surround.h"
 #include "cli/options/disk_room.h"
 #include "cli/options/picture_options.h"
 #include "cli/options/waiting.h"
@@ -22,6 +23,7 @@
 #include "ods/sequence/shared_frames.h"
 #include "ods/sequence/video_journal.h"
 #include "ods/stage/exposure.h"
+#include "ods/stage/light/supply.h"
 
 namespace {
 
@@ -125,6 +127,43 @@ std::vector<std::string> render_picture(const RenderJob& job, const ods::Sequenc
   return saved.files;
 }
 
+// The light that --env and --background give, read before Blender starts.
+struct GivenLight {
+  ods::LightChoices choices;
+  std::optional<ods::Environment> background;
+};
+
+GivenLight read_light(const RenderJob& job) {
+  const LightOptions& light = job.scene.light;
+  if (light.environment.empty() && (light.turn != 0.0f || light.strength != 1.0f)) {
+    throw UsageError(
+        "--env-turn and --env-strength need --env with --renderer cycles: the file's own world is changed in Blender");
+  }
+  return {read_choices(light, job.render.transparent, ""), read_background(light.background, "")};
+}
+
+// Puts the light around the scene that Blender has opened. The studio stands before the camera.
+void surround_scene(const RenderJob& job, GivenLight given) {
+  const LightOptions& light = job.scene.light;
+  const bool has_light = !light.environment.empty();
+  if (given.choices.surround == ods::Surround::kStudio) {
+    CyclesShot here;
+    here.frame = job.cycles->scene().now;
+    here.position = job.camera.position, here.yaw = job.camera.yaw;
+    given.choices.yaw = job.cycles->pose(here).yaw;
+  }
+  ods::Scene around;
+  ods::LightPlan plan;
+  plan.sky = given.choices.sky;
+  if (has_light) plan.surround = given.choices.surround;
+  ods::apply_light(around, {}, plan, given.choices);
+  if (!light.background.empty()) around.background = given.background;
+  std::string paths[2];
+  if (has_light) write_surround(around.environment, paths[0] = job.cycles->path("light.exr"));
+  if (around.background) write_surround(*around.background, paths[1] = job.cycles->path("background.exr"));
+  job.cycles->surround(paths[0], paths[1]);
+}
+
 }  // namespace
 
 void open_in_cycles(RenderJob& job) {
@@ -139,6 +178,7 @@ void open_in_cycles(RenderJob& job) {
     throw ods::Error(ods::ErrorKind::kInput,
                      "--renderer cycles needs Blender: install it, or name it with --blender PATH");
   }
+  const GivenLight light = read_light(job);
   job.cycles = std::make_shared<CyclesSession>(blender, job.scene.name, job.camera.view_point);
   const CyclesScene& scene = job.cycles->scene();
   job.scene.foreign = scene.foreign;
@@ -147,6 +187,7 @@ void open_in_cycles(RenderJob& job) {
     throw ods::Error(ods::ErrorKind::kInput,
                      fmt::format("'{}' has no camera: --position X,Y,Z places one", job.scene.name));
   }
+  surround_scene(job, light);
   job.render.samples = job.quality.samples.value_or(std::max(1, scene.samples));
   job.render.noise = job.quality.noise.value_or(0.0f);
   job.exposure = job.exposure.value_or(scene.exposure);

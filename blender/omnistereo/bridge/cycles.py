@@ -133,6 +133,59 @@ def _prepare(scene):
     return ours
 
 
+def _picture_around(tree, path):
+    """The shader of a lat-long picture with -Z of our world in its middle, where Blender has its own +X."""
+    picture = tree.nodes.new("ShaderNodeTexEnvironment")
+    picture.image = bpy.data.images.load(path)
+    picture.image.colorspace_settings.name = "Non-Color"
+    place, mapping = tree.nodes.new("ShaderNodeTexCoord"), tree.nodes.new("ShaderNodeMapping")
+    mapping.vector_type = "POINT"
+    mapping.inputs["Rotation"].default_value = (0.0, 0.0, -math.pi / 2)
+    shader = tree.nodes.new("ShaderNodeBackground")
+    tree.links.new(place.outputs["Generated"], mapping.inputs["Vector"])
+    tree.links.new(mapping.outputs["Vector"], picture.inputs["Vector"])
+    tree.links.new(picture.outputs["Color"], shader.inputs["Color"])
+    return shader.outputs["Background"]
+
+
+def _shader_of(world):
+    """The shader of a world, to which another can be added."""
+    tree = world.node_tree
+    if world.use_nodes:
+        output = tree.get_output_node("CYCLES")
+        links = output.inputs["Surface"].links if output else ()
+        if links:
+            return links[0].from_socket
+    color = (0.0, 0.0, 0.0) if world.use_nodes else world.color
+    world.use_nodes = True
+    shader = world.node_tree.nodes.new("ShaderNodeBackground")
+    shader.inputs["Color"].default_value = (*color, 1.0)
+    return shader.outputs["Background"]
+
+
+def _surround(scene, light, background):
+    """Replaces the world by pictures: the light around the scene, and what only the camera sees behind it."""
+    if not light and not background:
+        return
+    kept = scene.world.copy() if scene.world and not light else None
+    world = scene.world = kept or bpy.data.worlds.new("ods")
+    if light:
+        world.use_nodes = True
+        world.node_tree.nodes.clear()
+    shader = _picture_around(world.node_tree, light) if light else _shader_of(world)
+    tree = world.node_tree
+    if background:
+        rays, mix = tree.nodes.new("ShaderNodeLightPath"), tree.nodes.new("ShaderNodeMixShader")
+        tree.links.new(rays.outputs["Is Camera Ray"], mix.inputs[0])
+        tree.links.new(shader, mix.inputs[1])
+        tree.links.new(_picture_around(tree, background), mix.inputs[2])
+        shader = mix.outputs[0]
+        put(getattr(world, "cycles_visibility", world), "camera", True)
+        put(world, "visible_camera", True)
+    output = tree.get_output_node("CYCLES") or tree.nodes.new("ShaderNodeOutputWorld")
+    tree.links.new(shader, output.inputs["Surface"])
+
+
 def _describe(scene, seers):
     render, cycles, view = scene.render, scene.cycles, scene.view_settings
     seer = seers.at(scene.frame_current)
@@ -166,7 +219,7 @@ class Renderer:
         self.adapts, self.limit = cycles.use_adaptive_sampling, getattr(cycles, "time_limit", 0.0)
         self.clip_end = max([10000.0 / self.unit] + [each.clip_end for each in bpy.data.cameras])
         self.ours = _prepare(scene)
-        self.frame = self.device = None
+        self.frame = self.device = self.around = None
 
     def _go_to(self, frame):
         if frame != self.frame:
@@ -268,6 +321,9 @@ class Renderer:
             self.device = _choose_device(self.scene, order["device"])
             if self.device:
                 say("device", self.device)
+        if self.around != (order["light"], order["background"]):
+            self.around = (order["light"], order["background"])
+            _surround(self.scene, *self.around)
         render = self.scene.render
         render.resolution_x, render.resolution_y = order["size"]
         render.filepath = order["path"]

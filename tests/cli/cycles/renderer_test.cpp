@@ -10,9 +10,7 @@ using RendererOptions = Cli;
 
 TEST_F(RendererOptions, ThatCyclesCannotHonourAreRefused) {
   const char* const kOptions[] = {"--quality draft",
-                                  "--env 1",
                                   "--lamp none",
-                                  "--background 1",
                                   "--unlit",
                                   "--bake 512",
                                   "--indirect path",

@@ -13,6 +13,7 @@
 
 #include "ods/image/image_file.h"
 #include "tests/support/cli_runner.h"
+#include "tests/support/exr_files.h"
 #include "tests/support/programs.h"
 
 namespace ods::render_with_cycles_test {
@@ -149,6 +150,55 @@ TEST_F(RenderWithCycles, ShowsThingsWhereOurRendererDoes) {
   }
 }
 
+// Writes a lat-long picture without any symmetry.
+void write_light(const std::string& path) {
+  ExrForm form;
+  form.width = 64, form.height = 32;
+  std::vector<float> values;
+  for (int i = 0; i < form.width * form.height; i++) {
+    const auto azimuth = static_cast<float>(i % form.width) / 64.0f,
+               height = static_cast<float>(i / form.width) / 32.0f;
+    values.insert(values.end(), {0.2f + 0.8f * azimuth, 0.2f + 0.6f * height, azimuth < 0.25f ? 1.0f : 0.1f});
+  }
+  write_exr_of(path, form, values);
+}
+
+// The mean difference of all values of two pictures, and the mean of the first.
+std::pair<double, double> mean_difference(const Image& a, const Image& b) {
+  double difference = 0.0, sum = 0.0;
+  for (size_t i = 0; i < a.pixels.size(); i++) {
+    difference += std::abs(double{a.pixels[i]} - double{b.pixels[i]}), sum += double{a.pixels[i]};
+  }
+  const auto count = static_cast<double>(a.pixels.size());
+  return {difference / count, sum / count};
+}
+
+TEST_F(RenderWithCycles, TheGivenLightReplacesTheWorld) {
+  const std::string scene = make(R"(
+bpy.ops.mesh.primitive_cube_add(size=1.5, location=(0.4, -2, 1.2))
+m = bpy.data.materials.new('white'); m.use_nodes = True
+b = m.node_tree.nodes['Principled BSDF']
+b.inputs['Base Color'].default_value = (0.8, 0.8, 0.8, 1)
+b.inputs['Roughness'].default_value = 1
+if 'Specular' in b.inputs: b.inputs['Specular'].default_value = 0
+bpy.context.object.data.materials.append(m)
+)");
+  const std::string light = folder_.path("light.exr");
+  write_light(light);
+  const Words kLights[] = {{"--env", light},
+                           {"--env", light, "--env-turn", "40", "--env-strength", "0.5"},
+                           {"--env", "0.5", "--background", light},
+                           {"--background", "0.2,0.4,0.6"},
+                           {"--env", "studio"}};
+  for (Words words : kLights) {
+    const std::string what = words.back();
+    words.insert(words.end(), {"--width", "128"});
+    const auto [difference, mean] = mean_difference(render(scene, "ods", words), render(scene, "cycles", words));
+    EXPECT_GT(mean, 0.1) << what;
+    EXPECT_LT(difference, 0.03 * mean) << what;
+  }
+}
+
 TEST_F(RenderWithCycles, UnitScaleAndDepthAreMetres) {
   const std::string scene = make("S.unit_settings.system, S.unit_settings.scale_length = 'METRIC', 0.5\n");
   const Words kView = {"--ipd", "0.2", "--eyes", "left"};
@@ -188,6 +238,8 @@ TEST_F(RenderWithCycles, WhatItCannotDoIsOneLine) {
       {{"--position", "0,1,0", "--merge", "auto"}, 2, "--merge auto"},
       {{"--camera", "Bathroom"}, 3, "no camera 'Bathroom'"},
       {{"--scene", "Kitchen"}, 3, "no scene 'Kitchen'"},
+      {{"--position", "0,1,0", "--env", "night.hdr"}, 3, "no such file as 'night.hdr'"},
+      {{"--position", "0,1,0", "--env-turn", "20"}, 2, "--env-turn and --env-strength need --env"},
       {{"--position", "0,1,0", "--device", "gpu"}, 3, "--device gpu"},
   };
   for (const auto& [words, code, text] : kCases) {
