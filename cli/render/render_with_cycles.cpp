@@ -159,6 +159,9 @@ void surround_scene(const RenderJob& job, GivenLight given) {
   ods::apply_light(around, {}, plan, given.choices);
   if (!light.background.empty()) around.background = given.background;
   std::string paths[2];
+  if (plan.surround == ods::Surround::kStudio || plan.surround == ods::Surround::kSky) {
+    note("no ground is added under objects: only --renderer ods does that");
+  }
   if (has_light) write_surround(around.environment, paths[0] = job.cycles->path("light.exr"));
   if (around.background) write_surround(*around.background, paths[1] = job.cycles->path("background.exr"));
   job.cycles->surround(paths[0], paths[1]);
