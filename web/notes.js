@@ -5,13 +5,11 @@
 // shown. A spot with a text opens a card, a way of a tour leads on. All is text, never HTML. The spots come from the
 // guide (tour.js).
 import { make } from './elements.js';
-import { clamp, degrees } from './geometry.js';
+import { clamp } from './geometry.js';
 import { modeOf } from './modes.js';
 import { partsOf, placeOf } from './places.js';
 import { t } from './translate.js';
-import { seenBy } from './tour-ways.js';
-
-const RING = 0.35; // metres: radius of the ring around the foot of a sign
+import { RING, seenBy } from './tour-ways.js';
 
 // The parts of the view, each with the eye for which it is: 1 left, -1 right. Where both share it, there are two parts.
 function seenParts(viewer) {

@@ -10,6 +10,7 @@ const REACH = [1.5, 4]; // metres to a sign, along the floor: near enough to be 
 const USUAL = 2.5; // metres, where there are no places
 const SIGN = 0.9; // metres above the floor
 const HEIGHT = 1.6; // metres of a camera above the floor
+export const RING = 0.35; // metres: radius of the ring around the foot of a sign
 
 // Returns a point at a distance along a heading, at a height.
 const along = (heading, way, y) => [way * Math.sin(radians(heading)), y, -way * Math.cos(radians(heading))];

@@ -4,9 +4,8 @@
 // The spots of a picture in the headset: signs and rings in the room, which each eye sees as it sees the picture there
 // (seenBy()), at every position of the head. Pointers and the gaze choose them (headset-panel.js).
 import { meet, plus, scaled, turned } from './headset-room.js';
-import { pointAt, seenBy } from './tour-ways.js';
+import { pointAt, RING, seenBy } from './tour-ways.js';
 
-const RING = 0.35; // metres: radius
 const TEXT = 46; // pixels: height of a line
 const HIGH = 84; // pixels
 const PIXEL = 0.00062; // metres at a distance of one metre: letters are as high as the menu's

@@ -3,7 +3,7 @@
 //
 // The guide through a picture's hotspots, and through a tour if view.json has one (docs/view.md): the spots of the open
 // picture, what they tell, and where they lead. It is viewer.guide, for the desk (notes.js, tour-plan.js) and the headset
-// (tour-worn.js). Events: `spots` (another picture has others), `tell` (what is told).
+// (tour-worn.js). Events: `spots` (another picture has others), `tell` (a card opened or closed).
 import { wrapDegrees } from './geometry.js';
 import { showNotes } from './notes.js';
 import { paintCompass, showPlan } from './tour-plan.js';

@@ -158,13 +158,14 @@ void surround_scene(const RenderJob& job, GivenLight given) {
   if (has_light) plan.surround = given.choices.surround;
   ods::apply_light(around, {}, plan, given.choices);
   if (!light.background.empty()) around.background = given.background;
-  std::string paths[2];
   if (plan.surround == ods::Surround::kStudio || plan.surround == ods::Surround::kSky) {
     note("no ground is added under objects: only --renderer ods does that");
   }
-  if (has_light) write_surround(around.environment, paths[0] = job.cycles->path("light.exr"));
-  if (around.background) write_surround(*around.background, paths[1] = job.cycles->path("background.exr"));
-  job.cycles->surround(paths[0], paths[1]);
+  const std::string lit = has_light ? job.cycles->path("light.exr") : "";
+  const std::string behind = around.background ? job.cycles->path("background.exr") : "";
+  if (has_light) write_surround(around.environment, lit);
+  if (around.background) write_surround(*around.background, behind);
+  job.cycles->surround(lit, behind);
 }
 
 }  // namespace

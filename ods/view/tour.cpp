@@ -160,15 +160,18 @@ TourPlan read_plan(JsonReader& reader, const std::string& file) {
   return plan;
 }
 
+// Throws the error of a whole tour, as JsonReader::fail() does that of a key.
+[[noreturn]] void refuse(const std::string& file, const std::string& fault) {
+  throw Error(ErrorKind::kInput, fmt::format("'{}' is not a valid {}: {}", file, kTourNoun, fault));
+}
+
 void check_names(const Tour& tour, const std::string& file) {
   for (auto stop = tour.panoramas.begin(); stop != tour.panoramas.end(); ++stop) {
     if (std::find_if(tour.panoramas.begin(), stop, [&](const TourStop& other) { return other.name == stop->name; }) ==
         stop) {
       continue;
     }
-    throw Error(ErrorKind::kInput,
-                fmt::format("'{}' is not a valid {}: two panoramas are called '{}': give one of them another \"name\"",
-                            file, kTourNoun, stop->name));
+    refuse(file, fmt::format("two panoramas are called '{}': give one of them another \"name\"", stop->name));
   }
 }
 
@@ -180,18 +183,15 @@ void check_places(const Tour& tour, const std::string& file) {
     for (const TourLink& link : stop.links.value_or(std::vector<TourLink>())) {
       if (!link.yaw) needs[i] = needs[link.to] = true;
     }
-    if (stop.on_plan && !tour.plan) {
-      throw Error(ErrorKind::kInput,
-                  fmt::format("'{}' is not a valid {}: panoramas.{}.on_plan needs a plan", file, kTourNoun, i));
-    }
+    if (stop.on_plan && !tour.plan) refuse(file, fmt::format("panoramas.{}.on_plan needs a plan", i));
   }
   for (size_t i = 0; i < needs.size(); i++) {
     const TourStop& stop = tour.panoramas[i];
     if (!needs[i] || stop.place || stop.on_plan) continue;
-    throw Error(ErrorKind::kInput,
-                fmt::format("'{}' is not a valid {}: panoramas.{} ('{}') has no place: add \"place\": [x, y, z] in "
-                            "metres, \"on_plan\": [x, y] in pixels or its .camera.json, or give its links a yaw",
-                            file, kTourNoun, i, stop.name));
+    refuse(file,
+           fmt::format("panoramas.{} ('{}') has no place: add \"place\": [x, y, z] in metres, \"on_plan\": [x, y] "
+                       "in pixels or its .camera.json, or give its links a yaw",
+                       i, stop.name));
   }
 }
 

@@ -32,7 +32,7 @@ class TrailingBytes : public Outside {
     EXPECT_EQ(right[2], "0") << ending;
     const std::string converted = folder.read(output);
     std::vector<std::string> tails = {"8db42d694ccc418790edff439fe026bf"};
-    // What looks like the header of a box, of large and small sizes, and zeros.
+    // Tails that look like headers of boxes with large and small sizes, a short one, and zeros.
     for (const std::string& tail :
          {std::string("\0\1\2\3\4\5\6\7rest", 12), std::string("\xff\xff\xff\xff....", 8),
           std::string("\0\0\0\1abcdefghijkl", 16), std::string("short"), std::string(400, '\0')}) {

@@ -25,7 +25,7 @@ class TourFile : public ::testing::Test {
     return read_tour(folder_.path("tour.json"));
   }
 
-  // The error in this tour; empty if there is none.
+  // Returns the error of a tour; empty if it has none.
   std::string fault(const std::string& json) const {
     try {
       read(json);

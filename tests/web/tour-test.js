@@ -241,7 +241,7 @@ async function testRay(worn) {
   await send(worn, 'sign.png');
   const room = headset.turn / RADIANS + 0; // of the hall, whose heading is 0
   await press(worn);
-  await until(() => viewer.item === 1 && viewer.guide.item === 1, 'goes on by a press');
+  await until(() => viewer.item === 1 && viewer.guide.item === 1, 'a press leads on');
   await frames(worn);
   expect(near(headset.turn / RADIANS + 90, room, 1e-6), 'the room turns about the wearer');
   expect(headset.panel.subtitles.text === 'Kitchen', `the kitchen says ${headset.panel.subtitles.text}`);
@@ -264,13 +264,13 @@ async function testGaze(worn) {
   gaze(1);
   await frames(worn);
   expect(headset.panel.dwell.id === `spot-${spotTo(1)}` && viewer.item === 0, 'a look acts at once, or not at all');
-  await until(() => viewer.item === 1 && viewer.guide.item === 1, 'goes on by a long look');
+  await until(() => viewer.item === 1 && viewer.guide.item === 1, 'a long look leads on');
   for (const end = performance.now() + 2500; performance.now() < end;) await frames(worn, 1);
   expect(viewer.item === 1 && headset.panel.pointers[0].control?.id === `spot-${spotTo(2)}`, 'one look leads on twice');
   look(device.quaternion, 0, 60);
   await frames(worn);
   gaze(2);
-  await until(() => viewer.item === 2 && viewer.guide.item === 2, 'goes on by another look');
+  await until(() => viewer.item === 2 && viewer.guide.item === 2, 'another look leads on');
   look(device.quaternion, 0, 60);
   await frames(worn);
   for (const hand of Object.values(device.controllers)) hand.connected = true;
