@@ -170,7 +170,8 @@ uint64_t other_track(const std::string& path, uint64_t track) {
   const VideoFile video = read_video_file(path);
   const VideoTrack& one = choose_track(video, static_cast<int>(track), path);
   for (const VideoTrack& other : video.tracks) {
-    if (other.id != track && are_alike(one, other)) return other.id;
+    const bool is_partner = one.eye ? other.eye == 1 - *one.eye : other.id != track;
+    if (is_partner && are_alike(one, other)) return other.id;
   }
   throw Error(ErrorKind::kInput, fmt::format("cannot read '{}': it has no other track of the size of {}", path, track));
 }
@@ -209,11 +210,15 @@ static ChosenPictures joined_eyes(const VideoTrack& left, const VideoTrack& righ
   return chosen;
 }
 
-// The two tracks of the largest pictures; empty if there are more, or only one.
-static std::vector<const VideoTrack*> largest_pair(const VideoFile& video) {
+// The two tracks that the container combines to a stereo pair, or else those of the largest pictures; empty if there
+// are more, or only one.
+static std::vector<const VideoTrack*> pair_in(const VideoFile& video) {
   const auto pixels = [](const VideoTrack& track) { return int64_t{track.size.width} * track.size.height; };
+  const bool has_planes =
+      std::ranges::any_of(video.tracks, [](const VideoTrack& track) { return track.eye.has_value(); });
   std::vector<const VideoTrack*> tracks;
   for (const VideoTrack& track : video.tracks) {
+    if (has_planes && !track.eye) continue;
     if (!tracks.empty() && pixels(track) < pixels(*tracks[0])) continue;
     if (!tracks.empty() && pixels(track) > pixels(*tracks[0])) tracks.clear();
     tracks.push_back(&track);
@@ -222,7 +227,7 @@ static std::vector<const VideoTrack*> largest_pair(const VideoFile& video) {
 }
 
 ChosenPictures choose_pictures(const VideoFile& video, std::optional<Layout> layout, const std::string& path) {
-  const std::vector<const VideoTrack*> pair = largest_pair(video);
+  const std::vector<const VideoTrack*> pair = pair_in(video);
   if (pair.empty()) return {choose_track(video, {}, path)};
   const VideoTrack &one = *pair[0], &other = *pair[1];
   if (const std::optional<FaceRows> rows = face_rows_of(one.size)) {
@@ -238,7 +243,8 @@ ChosenPictures choose_pictures(const VideoFile& video, std::optional<Layout> lay
     return chosen;
   }
   if (layout == Layout::kSeparate) return {one};
-  const std::optional<int> first = eye_of_words(one.name), second = eye_of_words(other.name);
+  const auto eye_of = [](const VideoTrack& track) { return track.eye ? track.eye : eye_of_words(track.name); };
+  const std::optional<int> first = eye_of(one), second = eye_of(other);
   const bool is_told = first && second && *first != *second;
   if (layout && layout != Layout::kSideBySide && layout != Layout::kCrossEyed) return {choose_track(video, {}, path)};
   if (is_told) {

@@ -60,9 +60,9 @@ struct ChosenPictures {
   std::optional<std::string> note{};              // for users: what was joined, and by which words
 };
 
-// `layout` is the caller's. Two tracks of eyes are joined if their names tell the eyes, or `layout` is side-by-side
-// (the first one is the left eye) or cross-eyed; two lenses (.insv) are always joined, without a layout. Otherwise
-// throws Error like choose_track().
+// `layout` is the caller's. Two tracks of eyes are joined if the container or their names tell the eyes, or `layout` is
+// side-by-side (the first one is the left eye) or cross-eyed; two lenses (.insv) are always joined, without a layout.
+// Otherwise throws Error like choose_track().
 ChosenPictures choose_pictures(const VideoFile& video, std::optional<Layout> layout, const std::string& path);
 
 }  // namespace ods

@@ -150,6 +150,17 @@ TEST(ChoosePictures, NamesOfTracksTellTheEyes) {
   }
 }
 
+TEST(ChoosePictures, TheContainerTellsTheEyesBeforeNamesAndSizes) {
+  VideoFile video = two_tracks("left", "right");
+  video.tracks[0].eye = kRight, video.tracks[1].eye = kLeft;
+  VideoTrack& larger = video.tracks.emplace_back(video.tracks[0]);
+  larger.id = 3, larger.eye.reset(), larger.size = {1920, 1080};
+  const ChosenPictures chosen = choose_pictures(video, {}, "eyes.mkv");
+  EXPECT_EQ(chosen.views, Views::kTwoTracks);
+  EXPECT_EQ(chosen.track.id, 2u);
+  EXPECT_EQ(chosen.other, 1u);
+}
+
 TEST(ChoosePictures, AsksWhichTrackIsWhichEye) {
   for (const auto& [first, second] :
        {std::pair{"", ""}, {"left", "left"}, {"left and right", "right"}, {"VideoHandler", "VideoHandler"}}) {

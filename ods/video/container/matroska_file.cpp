@@ -43,7 +43,13 @@ static void open_all(Element& element, const std::vector<uint32_t>& path, size_t
 
 static void open_part(Element& part) {
   if (part.id == kSeekHead) open_all(part, {kSeek});
-  if (part.id == kTracks) open_all(part, {kTrackEntry, kVideo});
+  if (part.id == kTracks) {
+    open_all(part, {kTrackEntry, kVideo});
+    for (Element& entry : part.children) {
+      Element* operation = entry.id == kTrackEntry ? find_child(entry, kTrackOperation) : nullptr;
+      if (operation != nullptr) open_all(*operation, {kTrackCombinePlanes, kTrackPlane});
+    }
+  }
   if (part.id == kCues) open_all(part, {kCuePoint, kCueTrackPositions});
   if (part.id == kTags) {
     open_all(part, {kTag, kSimpleTag});
@@ -121,17 +127,49 @@ static VideoTrack read_track(const Matroska& video, const Element& entry) {
   return track;
 }
 
+// Calls `use(entry)` for the entries of all tracks of this type.
+template <typename Use>
+static void for_each_track(const Matroska& video, uint64_t type, const Use& use) {
+  for (const auto& [index, part] : video.opened) {
+    for (const Element& entry : part.children) {
+      if (is_track_of_type(part, entry, type)) use(entry);
+    }
+  }
+}
+
+// A track that combines others has no pictures of its own.
+static bool is_combined(const Element& entry) {
+  return find_child(entry, kTrackOperation) != nullptr;
+}
+
+// The eye of a track that is a plane of a combined one; TrackPlaneType 0 is the left eye, 1 the right one.
+static std::optional<int> eye_in_planes(const Matroska& video, const Element& track) {
+  std::optional<int> eye;
+  for_each_track(video, kTypeVideo, [&](const Element& entry) {
+    const Element* operation = find_child(entry, kTrackOperation);
+    const Element* planes = operation == nullptr ? nullptr : find_child(*operation, kTrackCombinePlanes);
+    if (planes == nullptr) return;
+    for (const Element& plane : planes->children) {
+      if (plane.id != kTrackPlane || child_number(plane, kTrackPlaneUid) != child_number(track, kTrackUid)) continue;
+      const uint64_t type = child_number(plane, kTrackPlaneType);
+      if (type <= 1) eye = type == 0 ? kLeft : kRight;
+    }
+  });
+  return eye;
+}
+
 VideoFile read_matroska(const FileInput& file) {
   const Matroska video = open_matroska(file);
   VideoFile info;
   info.container = child_text(video.head, kDocType) == "webm" ? Container::kWebm : Container::kMatroska;
-  for (const auto& [index, part] : video.opened) {
-    for (const Element& entry : part.children) {
-      if (is_track_of_type(part, entry, kTypeVideo)) info.tracks.push_back(read_track(video, entry));
-      if (!is_track_of_type(part, entry, kTypeAudio)) continue;
-      info.sound.push_back({child_number(entry, kTrackNumber), child_text(entry, kCodecId), 0, {}});
-    }
-  }
+  for_each_track(video, kTypeVideo, [&](const Element& entry) {
+    if (is_combined(entry)) return;
+    VideoTrack& track = info.tracks.emplace_back(read_track(video, entry));
+    track.eye = eye_in_planes(video, entry);
+  });
+  for_each_track(video, kTypeAudio, [&](const Element& entry) {
+    info.sound.push_back({child_number(entry, kTrackNumber), child_text(entry, kCodecId), 0, {}});
+  });
   return info;
 }
 

@@ -38,6 +38,7 @@ struct VideoTrack {
   std::string name;                       // as its author or a program named it
   std::string codec;                      // avc1, hvc1, V_VP9: as the container names it
   Extent size;                            // size of a frame
+  std::optional<int> eye;                 // the eye that it shows, if the container combines tracks to a stereo pair
   double pixel_aspect = 1.0;              // width over height of a pixel
   double fps = 0.0;                       // 0 if unknown
   std::optional<SphericalMetadata> v1;    // Spherical Video V1

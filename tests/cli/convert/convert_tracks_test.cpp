@@ -6,10 +6,13 @@
 
 #include <cmath>
 
+#include "ods/base/error.h"
 #include "ods/picture/load_eyes.h"
 #include "ods/picture/save.h"
+#include "ods/video/container/ebml.h"
 #include "ods/video/video_input.h"
 #include "tests/support/cli_runner.h"
+#include "tests/support/made_videos.h"
 #include "tests/support/programs.h"
 #include "tests/support/worlds.h"
 
@@ -75,6 +78,41 @@ class TwoTracks : public Cli {
                     word, first, second, name));
   }
 
+  // Adds a track that combines the first two to a pair, and drops the index, whose positions no longer apply.
+  void add_combined_track(const std::string& name, uint64_t left, uint64_t right) const {
+    const FileInput file(folder.path(name));
+    const FileElement head = scan_element(file, 0, file.size());
+    const FileElement segment = scan_element(file, head.end(), file.size());
+    std::string body;
+    for (uint64_t at = segment.body(); at < segment.end();) {
+      const FileElement part = scan_element(file, at, segment.end());
+      at = part.end();
+      constexpr uint32_t kSeekHead = 0x114d9b74, kCues = 0x1c53bb6b, kTracks = 0x1654ae6b;
+      if (part.id == kSeekHead || part.id == kCues) continue;
+      body += part.id == kTracks ? with_combined_track(read_element(file, part), left, right)
+                                 : file.read(part.offset, part.size);
+    }
+    folder.write(name, file.read(0, head.end()) + made::element(0x18538067, body, 8));
+  }
+
+  static std::string with_combined_track(Element tracks, uint64_t left, uint64_t right) {
+    open_element(tracks);
+    std::erase_if(tracks.children, [](const Element& child) { return child.id == 0xbf; });  // CRC-32
+    std::string body, planes;
+    for (Element entry : tracks.children) {
+      write_element(entry, body);
+      open_element(entry);
+      const uint64_t number = number_of(*find_child(entry, 0xd7)), uid = number_of(*find_child(entry, 0x73c5));
+      if (number != left && number != right) continue;
+      planes += made::element(0xe4, made::element(0xe5, made::number(uid, 8)) +
+                                        made::element(0xe6, made::number(number == left ? 0 : 1, 1)));
+    }
+    body += made::element(0xae, made::element(0xd7, made::number(3, 1)) + made::element(0x73c5, made::number(3, 1)) +
+                                    made::element(0x83, made::number(1, 1)) +
+                                    made::element(0xe2, made::element(0xe3, planes)));
+    return made::element(0x1654ae6b, body, 8);
+  }
+
   // The faces of v360, with what the halves of the outer ones show twice.
   void make_max() const {
     write("world.png", world("lat-long", kMono, {2048, 1024}));
@@ -126,6 +164,18 @@ TEST_F(TwoTracks, NamedByTheEyesAreAPair) {
       EXPECT_GT(right, match(own, world("lat-long", is_swapped ? eye : 1 - eye, {512, 256})) + 6.0) << name;
     }
   }
+}
+
+TEST_F(TwoTracks, CombinedByTheContainerAreAPair) {
+  make_eyes("planes.mkv", "", "");
+  add_combined_track("planes.mkv", 2, 1);
+  const std::string input = folder.path("planes.mkv"), made = folder.path("made_360_LR.mp4");
+  ASSERT_EQ(run("probe " + input), 0) << err;
+  EXPECT_NE(out.find("its eyes are two tracks: 2 and 1"), std::string::npos) << out;
+  ASSERT_EQ(run("convert " + input + " -o " + made + " --projection lat-long --crf 12 -q"), 0) << err;
+  const std::vector<Image> eyes = grey_eyes(first_picture("made_360_LR.mp4"));
+  ASSERT_EQ(eyes.size(), 2u);
+  EXPECT_GT(match(eyes[kRight], world("lat-long", kLeft, {512, 256})), 35.0);
 }
 
 TEST_F(TwoTracks, OfAnInsta360AreItsLenses) {

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "ods/base/error.h"
+#include "ods/kernel/camera/camera.h"
 #include "tests/support/made_videos.h"
 #include "tests/support/temporary_folder.h"
 
@@ -219,6 +220,31 @@ TEST_F(MatroskaVideo, TagsTheEntryThatIsReadAsTheTrack) {
   EXPECT_NE(tagged.find(subtitles), std::string::npos) << "changed what is not the video";
   video[made::pieces(video, {kSegment, kTracks, 0xae, 0xe0}).at(0).at] = '\xec';  // the video has no Video any more
   EXPECT_NE(error_of(video).find("no description of its pictures"), std::string::npos);
+}
+
+// TrackOperation, RFC 9559, section 5.1.4.1.30.
+TEST_F(MatroskaVideo, ACombinedTrackTellsTheEyesOfItsPlanes) {
+  constexpr uint64_t kFirstUid = 7;
+  const auto track = [](uint64_t number, uint64_t uid, const std::string& more) {
+    return made::element(0xae, made::element(0xd7, made::number(number, 1)) +
+                                   made::element(0x73c5, made::number(uid, 1)) +
+                                   made::element(0x83, made::number(1, 1)) + more);
+  };
+  const auto plane = [](uint64_t uid, uint64_t type) {
+    return made::element(0xe4, made::element(0xe5, made::number(uid, 1)) + made::element(0xe6, made::number(type, 1)));
+  };
+  const std::string planes = plane(kFirstUid, 1) + plane(8, 0) + plane(9, 2);
+  const std::string video = append_part(
+      made::matroska({}), made::element(kTracks, track(2, 8, "") + track(3, 9, "") + track(4, 10, "") +
+                                                     track(5, 11, made::element(0xe2, made::element(0xe3, planes)))));
+  folder.write("planes.mkv", video);
+  const VideoFile file = read_video_file(folder.path("planes.mkv"));
+  ASSERT_EQ(file.tracks.size(), 4u) << "the combined track has no pictures";
+  const std::optional<int> eyes[] = {kRight, kLeft, std::nullopt, std::nullopt};
+  for (size_t i = 0; i < 4; i++) {
+    EXPECT_EQ(file.tracks[i].id, i + 1);
+    EXPECT_EQ(file.tracks[i].eye, eyes[i]) << i;
+  }
 }
 
 TEST_F(MatroskaVideo, CheckSumsAreMadeTrue) {
