@@ -13,8 +13,7 @@
 #include <functional>
 
 #include "ods/camera/odd_halves.h"
-#include "ods/identify/eye_match.h"
-#include "ods/identify/marks.h"
+#include "ods/identify/cuts.h"
 #include "ods/identify/others.h"
 #include "ods/identify/pairs.h"
 #include "ods/identify/thumbnail.h"
@@ -23,141 +22,15 @@ namespace ods {
 
 namespace {
 
-constexpr double kSure = 0.9, kLikely = 0.5;
+constexpr double kSure = 0.9, kLikely = 0.5, kDoubtful = 0.2;
 constexpr int kMinSide = 128;         // pixels of the file
 constexpr double kMinDetail = 0.001;  // mean difference of adjacent pixels
-
-// One way to cut the file, and the evidence in the resulting eyes. Squeezed layouts cut it as full ones do.
-struct Cut {
-  EyePacking how = EyePacking::kAlone;
-  double two_eyes = 0.0;  // as EyeMatch::mark(); for one eye, that no other cut shows two
-  std::string reason;
-  std::vector<Image> eyes;   // linear
-  Image shown;               // the first eye, as a display shows it
-  Marks marks;               // marks of the first eye
-  bool has_bars = false;     // black bars around the file
-  bool is_still = false;     // as EyeMatch::is_still
-  double broken = 0.0;       // as breaks_in_middle()
-  double other_faces = 0.0;  // evidence that it has the faces of a cube in an order that we do not support
-  PointPairs pairs;          // pairs between both eyes
-};
 
 struct Candidate {
   Reading reading;
   double odds = 0.0;  // logarithm of the odds
   std::string reason;
 };
-
-// --- the eyes --------------------------------------------------------------------------------------------------------
-
-Cut one_eye(const Thumbnail& thumbnail) {
-  Cut cut;
-  cut.eyes = {thumbnail.light};
-  return cut;
-}
-
-Cut two_halves(const Thumbnail& thumbnail, EyePacking how) {
-  Cut cut;
-  cut.how = how;
-  const Layout layout = *layout_with({how});
-  cut.eyes = unpack(layout, without_middle(layout, thumbnail.light));
-  const EyeMatch match = match_eyes(cut.eyes);
-  cut.two_eyes = match.mark(), cut.is_still = match.is_still;
-  const char* halves = how == EyePacking::kStacked ? "its upper and lower half" : "its left and right half";
-  cut.reason = fmt::format("{} match at {:.0f} % of {} places", halves, 100.0 * match.share, match.places);
-  return cut;
-}
-
-// Returns whether both eyes are the same picture: they differ less than its adjacent pixels do.
-bool are_equal(const std::vector<Image>& eyes) {
-  const Image first = shown(eyes[0]), second = shown(eyes[1]);
-  double between = 0.0, beside = 0.0;
-  for (int y = 0; y < first.height; y++) {
-    for (int x = 0; x + 1 < first.width; x++) {
-      between += static_cast<double>(std::abs(*first.at(x, y) - *second.at(x, y)));
-      beside += static_cast<double>(std::abs(*first.at(x, y) - *first.at(x + 1, y)));
-    }
-  }
-  return between < 0.2 * beside;
-}
-
-// Returns whether the halves of a sphere match only because it repeats itself every half turn: the one continues
-// in the other, nothing moves, and few other details of it are found in the other half.
-bool repeats(const Cut& cut, Extent file) {
-  constexpr double kFew = 0.35;
-  const bool is_sphere = std::abs(file.width - 2 * file.height) <= 2;
-  if (cut.how != EyePacking::kBeside || cut.two_eyes <= 0.0 || !cut.is_still || !is_sphere || cut.broken >= 0.0)
-    return false;
-  if (are_equal(cut.eyes)) return true;
-  const PointPairs pairs = find_pairs(shown(cut.eyes[0]), shown(cut.eyes[1]));
-  return static_cast<double>(pairs.found.size()) < kFew * pairs.places;
-}
-
-double between(double value, double no, double yes) {
-  return std::clamp(2.0 * (value - no) / (yes - no) - 1.0, -1.0, 1.0);
-}
-
-// Evidence that rows or columns alternate between the eyes: then adjacent ones differ more than every other one, and
-// more than in the perpendicular direction. Noise differs equally everywhere.
-double alternate(double along, double across, double differs) {
-  if (along <= 0.0 || across <= 0.0) return -1.0;
-  const double seen = between(differs, 0.002, 0.006);  // programs dither gradients in such patterns
-  return std::min({between(along, 0.85, 1.0), between(along / across, 1.1, 1.5), seen});
-}
-
-// Evidence of a checkerboard: its diagonals differ more than adjacent pixels in a row or a column. In other pictures
-// they differ less, and with noise equally.
-double alternate_both_ways(const Thumbnail& thumbnail) {
-  const auto [less, more] = std::minmax(thumbnail.other_rows, thumbnail.other_columns);
-  if (less <= 0.0) return -1.0;
-  const double crossed = thumbnail.crossed;
-  const double as_much_as_both = std::max(between(crossed / more, 0.8, 0.95), between(crossed, 1.2, 1.6));
-  const double seen = between(thumbnail.diagonal, 0.004, 0.012);  // as in alternate()
-  return std::min({between(crossed, 0.65, 0.95), as_much_as_both, between(crossed / less, 1.05, 1.3), seen});
-}
-
-Cut interleaved(const StoredPicture& whole, const Thumbnail& thumbnail, EyePacking how) {
-  Cut cut;
-  cut.how = how;
-  const double rows = thumbnail.other_rows, columns = thumbnail.other_columns, both = alternate_both_ways(thumbnail);
-  cut.two_eyes = how == EyePacking::kRows      ? alternate(rows, columns, thumbnail.below)
-                 : how == EyePacking::kColumns ? alternate(columns, rows, thumbnail.beside)
-                                               : both;
-  if (how != EyePacking::kCheckerboard && both > 0.0) cut.two_eyes = -1.0;
-  cut.reason = "every other pixel is more alike than neighbours";
-  cut.eyes = cut.two_eyes > 0.0 ? interleaved_eyes(whole, *layout_with({how})) : std::vector<Image>{thumbnail.light};
-  return cut;
-}
-
-std::vector<Cut> all_cuts(const StoredPicture& whole, const Thumbnail& thumbnail) {
-  std::vector<Cut> cuts{one_eye(thumbnail)};
-  for (const EyePacking how : {EyePacking::kStacked, EyePacking::kBeside}) {
-    const Extent small{thumbnail.light.width, thumbnail.light.height};
-    const Layout layout = *layout_with({how});
-    if (unpacked_size(layout, without_middle(layout, thumbnail.file)) &&
-        unpacked_size(layout, without_middle(layout, small)))
-      cuts.push_back(two_halves(thumbnail, how));
-  }
-  for (const EyePacking how : {EyePacking::kRows, EyePacking::kColumns, EyePacking::kCheckerboard}) {
-    if (unpacked_size(*layout_with({how}), thumbnail.file)) cuts.push_back(interleaved(whole, thumbnail, how));
-  }
-  const double broken = breaks_in_middle(shown(cuts[0].eyes[0]));
-  double maximum = 0.0;
-  for (Cut& cut : cuts) {
-    cut.broken = broken, cut.two_eyes = repeats(cut, thumbnail.file) ? -1.0 : cut.two_eyes;
-    maximum = std::max(maximum, cut.two_eyes);
-  }
-  cuts[0].two_eyes = -maximum;
-  cuts[0].reason = "no two parts of it match";
-  for (Cut& cut : cuts) {
-    cut.shown = shown(cut.eyes[0]);
-    const Image other = cut.eyes.size() == 2 ? shown(cut.eyes[1]) : Image();
-    const bool is_pair = cut.two_eyes > 0.0 && cut.eyes.size() == 2;
-    cut.marks = marks_of(cut.shown, is_pair ? &other : nullptr);
-    if (is_pair) cut.pairs = find_pairs(cut.shown, other);
-  }
-  return cuts;
-}
 
 // --- the projection --------------------------------------------------------------------------------------------------
 
@@ -352,11 +225,13 @@ double order_odds(const Parallax& parallax, bool right_first) {
   return -std::log1p(std::exp(right_first ? left : -left));
 }
 
-// In the right projection, parallax is horizontal.
+// In the right projection, parallax is horizontal. If it is in none of them, as for cameras that are not level, the
+// least wrong one is no better than the others.
 void judge_parallax(const std::vector<Cut>& cuts, std::vector<Candidate>& candidates) {
+  constexpr double kNone = -3.0, kExplained = -1.5;  // as Parallax::level
   for (const Cut& cut : cuts) {
     std::vector<std::pair<Candidate*, double>> judged;
-    double best = -1e9;
+    double best = -1e9, explained = 0.0;
     for (Candidate& each : candidates) {
       const EyeArrangement eyes = each.reading.layout ? arrangement_of(*each.reading.layout) : EyeArrangement();
       if (eyes.how != cut.how || eyes.how == EyePacking::kAlone) continue;
@@ -364,8 +239,10 @@ void judge_parallax(const std::vector<Cut>& cuts, std::vector<Candidate>& candid
       if (eyes.is_halves()) each.odds += order_odds(parallax, eyes.right_first);
       judged.emplace_back(&each, parallax.level * std::min(parallax.count, kManyPairs));
       best = std::max(best, judged.back().second);
+      explained = std::max(explained, std::clamp((parallax.level - kNone) / (kExplained - kNone), 0.0, 1.0));
     }
-    for (const auto& [candidate, level] : judged) candidate->odds += std::max(kLevel * (level - best), -kMaxLevel);
+    for (const auto& [candidate, level] : judged)
+      candidate->odds += explained * std::max(kLevel * (level - best), -kMaxLevel);
   }
 }
 
@@ -408,6 +285,16 @@ std::string reading_text(const Reading& reading) {
                      projection_name(reading.projection));
 }
 
+// Two equal halves are no evidence of a stereo picture's projection: nothing in them has parallax.
+static void doubt_copies(const std::vector<Cut>& cuts, std::vector<Candidate>& candidates) {
+  constexpr double kAtMost = 0.85;
+  for (Candidate& each : candidates) {
+    const EyeArrangement eyes = each.reading.layout ? arrangement_of(*each.reading.layout) : EyeArrangement();
+    if (std::ranges::any_of(cuts, [&](const Cut& cut) { return cut.is_copy && cut.how == eyes.how; }))
+      each.reading.certainty *= kAtMost;
+  }
+}
+
 // A drawing on a transparent ground looks like a circle with empty corners, a ball like a mirror ball; the margins of a
 // page look like poles.
 static void doubt_drawings(const StoredPicture& whole, std::vector<Candidate>& candidates) {
@@ -437,8 +324,9 @@ static Identity identify_all(const StoredPicture& whole, const FormatHint& known
   judge_parallax(cuts, candidates);
   const double anaglyph = anaglyph_mark(whole, {thumbnail.light.width, thumbnail.light.height});
   const double front_and_back = known.layout ? 0.0 : front_and_back_mark(cuts);
-  identity.is_anaglyph = anaglyph > kLikely, identity.is_front_and_back = front_and_back > kLikely;
+  identity.is_anaglyph = anaglyph > kDoubtful, identity.is_front_and_back = front_and_back > kLikely;
   share_certainty(cuts, std::max(anaglyph, front_and_back), candidates);
+  doubt_copies(cuts, candidates);
   doubt_drawings(whole, candidates);
   identity.reason = candidates[0].reason;
   identity.has_other_faces = std::any_of(

@@ -17,30 +17,51 @@ namespace ods {
 
 // --- anaglyphs -------------------------------------------------------------------------------------------------------
 
-// Fraction of the places of one part that are shifted sideways in the other, all by the same height: cameras need not
-// be level.
-static double aside(const Image& one, const Image& other) {
-  constexpr size_t kMin = 16;                                 // places
-  constexpr float kAside = 0.9f, kLevel = 0.6f, kFar = 2.5f;  // pixels; colour fringes of lenses are narrower
+namespace {
+
+// The places of one colour that are shifted in another, as fractions of those found in both.
+struct Shifted {
+  double aside = 0.0;   // all by the same height: cameras need not be level
+  double excess = 0.0;  // clearly sideways, more than clearly up or down; 0 if these are only a few places
+};
+
+Shifted shifted(const Image& one, const Image& other) {
+  constexpr size_t kMin = 16;                                      // places
+  constexpr float kAside = 0.9f, kSameHeight = 0.6f, kFar = 2.5f;  // pixels; colour fringes of lenses are narrower
+  constexpr float kClear = 1.5f;
+  constexpr int kFew = 3;
   const PointPairs pairs = find_pairs(one, other);
-  if (pairs.found.size() < kMin) return 0.0;
+  if (pairs.found.size() < kMin) return {};
   std::vector<float> heights;
   for (const PointPair& pair : pairs.found) heights.push_back(pair.right.y - pair.left.y);
   const float height = median(std::move(heights));
-  const auto moved = std::count_if(pairs.found.begin(), pairs.found.end(), [&](const PointPair& pair) {
-    const vec2 way = pair.right - pair.left;
-    const bool is_level = std::abs(way.x) > kAside && std::abs(way.y) < kLevel;
-    return is_level || (length(way) > kFar && std::abs(way.y - height) < kFar);
-  });
-  return static_cast<double>(moved) / static_cast<double>(pairs.found.size());
+  int aside = 0, excess = 0;
+  for (const PointPair& pair : pairs.found) {
+    const vec2 way = pair.right - pair.left, size = abs(way);
+    aside +=
+        (size.x > kAside && size.y < kSameHeight) || (length(way) > kFar && std::abs(way.y - height) < kFar) ? 1 : 0;
+    if (size.x > kClear && size.y < kSameHeight) excess++;
+    if (size.y > kClear && size.x < kSameHeight) excess -= 2;
+  }
+  const auto found = static_cast<double>(pairs.found.size());
+  return {aside / found, excess < kFew ? 0.0 : excess / found};
 }
+
+}  // namespace
 
 double anaglyph_mark(const StoredPicture& whole, Extent size) {
   constexpr double kNone = 0.12, kAll = 0.4;
+  // A small picture of distant things has parallax at a few places. These are a reason for doubt, not for more.
+  constexpr double kNoExcess = 0.009, kAllExcess = 0.011, kDoubt = 0.27;
   const std::vector<Image> colors = color_parts(whole, size);
   const Image red = shown(colors[0]), green = shown(colors[1]), blue = shown(colors[2]);
-  const double maximum = std::max({aside(red, blue), aside(red, green), aside(green, blue)});
-  return std::clamp((maximum - kNone) / (kAll - kNone), 0.0, 1.0);
+  double aside = 0.0, excess = 0.0;
+  for (const auto& [one, other] : {std::pair{&red, &blue}, {&red, &green}, {&green, &blue}}) {
+    const Shifted places = shifted(*one, *other);
+    aside = std::max(aside, places.aside), excess = std::max(excess, places.excess);
+  }
+  return std::max(std::clamp((aside - kNone) / (kAll - kNone), 0.0, 1.0),
+                  kDoubt * std::clamp((excess - kNoExcess) / (kAllExcess - kNoExcess), 0.0, 1.0));
 }
 
 // --- cubes whose Y is up ---------------------------------------------------------------------------------------------

@@ -135,8 +135,11 @@ NameWords read_name(const std::string& path) {
     const auto is_known = [&](const std::string& word) {
       return layout_token(word).has_value() || projection_token(word, false) != nullptr;
     };
-    // Names such as top-bottom have hyphens of their own.
-    if (has_hyphen && (at == std::string::npos || !is_known(small_letters(name.substr(at + 1))))) at = hyphen;
+    // Names such as top-bottom have hyphens of their own: the longest name wins.
+    if (has_hyphen && (at == std::string::npos || !is_known(small_letters(name.substr(at + 1))))) {
+      at = name.find('-', at == std::string::npos ? 0 : at + 1);
+      while (at != hyphen && !is_known(small_letters(name.substr(at + 1)))) at = name.find('-', at + 1);
+    }
     if (at == std::string::npos || !read_word(name.substr(at), words)) return words;
     name.resize(at);
   }

@@ -47,6 +47,8 @@ TEST(NameWords, AreThoseOfPlayers) {
            {"a_180_LR_final.mp4", kBeside, "vr180"},
            {"a_180x.mp4", std::nullopt, ""},
            {"a_top-bottom.mp4", kStacked, ""},
+           {"calf-left-right.jpg", kBeside, ""},
+           {"a-top-bottom_360.jpg", kStacked, "lat-long"},
            {"a_cube-3x2.png", std::nullopt, "cube-3x2"},
            {"shot_LR.180.png", kBeside, ""},  // a frame
            {"a-dome.jpg", std::nullopt, ""},  // a building
