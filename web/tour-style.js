@@ -18,7 +18,7 @@ export const STYLE = `
 #aside, #aside div, #aside button { display: flex; gap: 8px; min-width: 0; }
 #aside div { flex-wrap: wrap; }
 #aside div + div { justify-content: end; }
-#aside button { align-items: center; max-width: 200px; border-radius: 22px; font-weight: 600; pointer-events: auto; }
+#aside button { align-items: center; max-width: min(280px, 44cqw); border-radius: 22px; font-weight: 600; pointer-events: auto; }
 .way > span, #aside span { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
 #aside div:first-child button::before { content: "←"; }
 #aside div + div button::after { content: "→"; }
