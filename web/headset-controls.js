@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The controls of the headset's panel, and their drawing. A control has its box in pixels, a text or an icon, and
-// either run() or, for a slider, its position 0..1 and drag(part, isLast); it may paint(context, box, isHovered, ink) a
-// picture of its own.
+// either run() or, for a slider, its position 0..1 and drag(part, isLast). It may paint(context, box, isHovered, ink) a
+// picture of its own, `high` pixels high, which depends on `key`; and inside(box) gives controls that are in it.
 import { clamp } from './geometry.js';
+import { guideRows, isMapped, pointedAt } from './headset-guide.js';
 import { WORN } from './modes.js';
+import { t } from './translate.js';
 
 export const WIDE = 1024; // pixels
 export const TEXT = 46; // pixels: line height
@@ -34,12 +36,12 @@ function lay(rows) {
     const width = WIDE - 2 * PAD - GAP * (row.length - 1);
     let x = PAD;
     const cells = row.map((cell) => {
-      const control = { ...cell, box: [x, y, (width * (cell.share ?? 1)) / whole, HIGH] };
+      const control = { ...cell, box: [x, y, (width * (cell.share ?? 1)) / whole, cell.high ?? HIGH] };
       x += control.box[2] + GAP;
-      return control;
+      return [control, ...(cell.inside?.(control.box) ?? [])];
     });
-    y += HIGH + GAP;
-    return cells;
+    y += (row[0].high ?? HIGH) + GAP;
+    return cells.flat();
   });
   return { high: y - GAP + PAD, controls };
 }
@@ -71,8 +73,8 @@ function videoRows({ picture, about, subtitles }) {
   const at = picture.frame();
   const hasSubtitles = subtitles && about.video?.subtitles;
   return [[
-    { id: 'sound', text: video.muted ? 'Sound off' : 'Sound on', on: !video.muted, run: () => (video.muted = !video.muted) },
-    ...(hasSubtitles ? [{ id: 'subtitles', text: subtitles.isOn ? 'Subtitles on' : 'Subtitles off', on: subtitles.isOn, run: () => subtitles.toggle() }] : []),
+    { id: 'sound', text: t(video.muted ? 'Sound off' : 'Sound on'), on: !video.muted, run: () => (video.muted = !video.muted) },
+    ...(hasSubtitles ? [{ id: 'subtitles', text: t(subtitles.isOn ? 'Subtitles on' : 'Subtitles off'), on: subtitles.isOn, run: () => subtitles.toggle() }] : []),
   ], [
     { id: 'play', icon: video.paused ? 'play' : 'pause', run: () => picture.toggle() },
     { id: 'seek', part: stepped(at / Math.max(frames - 1, 1)), share: 6, drag: (part, isLast) => (isLast || !video.seeking) && picture.seek((part * (frames - 1) + 0.5) / fps) },
@@ -86,7 +88,7 @@ function exposureRow({ viewer }) {
   const now = steering ? steering.exposure : (viewer.choice.exposure ?? viewer.about.exposure ?? 0);
   const by = (stops) => () => (steering ? steering.expose(stops) : viewer.expose(stops));
   return [[
-    { text: 'Exposure', share: 3 }, { id: 'darker', icon: 'less', run: by(-0.5), repeats: true }, { text: signed(now), share: 1.5 },
+    { text: t('Exposure'), share: 3 }, { id: 'darker', icon: 'less', run: by(-0.5), repeats: true }, { text: signed(now), share: 1.5 },
     { id: 'brighter', icon: 'more', run: by(0.5), repeats: true },
   ]];
 }
@@ -108,25 +110,25 @@ export function controlsOf(headset, panel) {
   const worn = Math.max(WORN.findIndex(({ name }) => name === state.worn), 0);
   const many = entries.length > 1;
   return lay([
-    [{ text: panel.message || (viewer.about?.title ?? viewer.about?.name) || '', share: 9, isName: true }, { id: 'close', icon: 'close', run: () => panel.close() }],
-    ...listRows(panel, entries),
-    ...(viewer.guide?.rows(panel) ?? []),
+    [{ text: panel.message || pointedAt(panel, viewer.guide) || (viewer.about?.title ?? viewer.about?.name) || '', share: 9, isName: true }, { id: 'close', icon: 'close', run: () => panel.close() }],
+    ...(isMapped(viewer.guide) ? [] : listRows(panel, entries)),
+    ...guideRows(panel, viewer),
     ...videoRows(viewer),
     [
       ...(many ? [{ id: 'previous', icon: 'previous', run: () => viewer.go(-1) }, { id: 'next', icon: 'next', run: () => viewer.go(1) }] : []),
-      { id: 'mode', text: WORN[worn].label, on: worn > 0, share: 3, run: () => viewer.set({ worn: WORN[(worn + 1) % WORN.length].name }) },
-      { id: 'swap', text: 'Swap eyes', on: state.swap, share: 3, run: () => viewer.set({ swap: !state.swap }) },
+      { id: 'mode', text: t(WORN[worn].label), on: worn > 0, share: 3, run: () => viewer.set({ worn: WORN[(worn + 1) % WORN.length].name }) },
+      { id: 'swap', text: t('Swap eyes'), on: state.swap, share: 3, run: () => viewer.set({ swap: !state.swap }) },
     ],
     ...exposureRow(headset),
     ...mergeRows(headset),
     [
-      { id: 'turn-left', text: 'Turn left', share: 3, run: () => headset.turnBy(-TURN), repeats: true },
-      { id: 'recentre', text: 'Recentre', share: 3, run: () => headset.recentre() },
-      { id: 'turn-right', text: 'Turn right', share: 3, run: () => headset.turnBy(TURN), repeats: true },
+      { id: 'turn-left', text: t('Turn left'), share: 3, run: () => headset.turnBy(-TURN), repeats: true },
+      { id: 'recentre', text: t('Recentre'), share: 3, run: () => headset.recentre() },
+      { id: 'turn-right', text: t('Turn right'), share: 3, run: () => headset.turnBy(TURN), repeats: true },
     ],
     [
       ...(viewer.scene ? [{ id: 'sides', text: `Settings ${viewer.steering.side}`, share: 3, run: () => viewer.steering.select() }] : []),
-      { id: 'leave', text: 'Leave', share: 3, run: () => headset.session.end() },
+      { id: 'leave', text: t('Leave'), share: 3, run: () => headset.session.end() },
     ],
   ]);
 }
@@ -138,12 +140,12 @@ function fitted(context, text, width) {
   return `${text.slice(0, length)}…`;
 }
 
-function paintOne(context, { box, text, icon, image, part, on, run, isName, paint }, isHovered) {
+function paintOne(context, { box, round = 16, text, icon, image, part, on, run, isName, paint }, isHovered) {
   const [x, y, width, height] = box;
   const fill = (style, ...box) => {
     context.fillStyle = style;
     context.beginPath();
-    context.roundRect(...box, 16);
+    context.roundRect(...box, round);
     context.fill();
   };
   if (part !== undefined) {
@@ -173,7 +175,8 @@ function paintOne(context, { box, text, icon, image, part, on, run, isName, pain
     context.drawImage(image, (image.width - part[0]) / 2, (image.height - part[1]) / 2, ...part, x + 6, y + 6, wide, high);
   }
   const from = image ? wide + 24 : 20;
-  if (text) context.fillText(fitted(context, text, width - (isName ? from + 20 : 12)), isName ? x + from : x + width / 2 + (icon ? 28 : 0), y + height / 2 + 3);
+  const room = width - (isName ? from + 20 : icon ? 84 : 20);
+  if (text) context.fillText(isName ? fitted(context, text, room) : text, isName ? x + from : x + width / 2 + (icon ? 28 : 0), y + height / 2 + 3, room);
 }
 
 export function paint(canvas, { high, controls }, hovered, width = WIDE) {

@@ -9,6 +9,7 @@ import { TEXT, WIDE, controlsOf, paint } from './headset-controls.js';
 import { HeadsetSubtitles } from './headset-subtitles.js';
 import { Sheets, facing, headingOf, meet, plus, poseOf, sheetAhead, thread, turnBetween } from './headset-room.js';
 import { directionAt } from './places.js';
+import { t } from './translate.js';
 
 export const DISTANCE = 1.2; // metres: a headset focuses at about 1.3, so eyes that converge on the panel see it sharply
 const PIXEL = 0.8 / WIDE; // metres
@@ -32,7 +33,7 @@ export class HeadsetPanel {
     this.subtitles = new HeadsetSubtitles(this.sheets, gl);
     this.canvas = new OffscreenCanvas(WIDE, TEXT);
     [this.face, this.label] = [gl.createTexture(), gl.createTexture()];
-    paint(this.canvas, { high: HANDLE[1], controls: [{ box: [0, 0, ...HANDLE], icon: 'menu', text: 'Menu' }] }, this.hovered, HANDLE[0]);
+    paint(this.canvas, { high: HANDLE[1], controls: [{ box: [0, 0, ...HANDLE], icon: 'menu', text: t('Menu') }] }, this.hovered, HANDLE[0]);
     this.sheets.fill(this.label, this.canvas);
     this.listen(headset.viewer);
   }
@@ -44,7 +45,7 @@ export class HeadsetPanel {
       this.message = detail;
       if (this.head && !this.isOpen) this.open();
     });
-    on(viewer, 'loading', ({ detail }) => (this.message = detail === null ? this.message : `Loading … ${Math.round(100 * detail)} %`));
+    on(viewer, 'loading', ({ detail }) => (this.message = detail === null ? this.message : t('Loading … {} %', Math.round(100 * detail))));
     on(viewer, 'open', () => (this.message = ''));
     on(viewer.element, 'pointermove', ({ offsetX, offsetY }) => this.headset.mark(directionAt(viewer, offsetX, offsetY)));
     on(viewer.element, 'pointerleave', () => this.headset.mark(null));

@@ -76,6 +76,8 @@ async function start() {
   });
   watchAddress(player);
   if (view.live) watchServer(player);
+  viewer.element.classList.add('quiet'); // the focus has no frame until somebody uses keys
+  addEventListener('keydown', () => viewer.element.classList.remove('quiet'), { once: true });
   viewer.element.focus({ preventScroll: true });
   window.omnistereo = player; // for tests, and for the console
   if (view.items.length) await viewer.open(findItem(view.items, wanted), wanted.choice);

@@ -2,14 +2,33 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The caption and the spots of a picture over it at the desk: each spot is a button, in both eyes' pictures if both are
-// shown. A spot with a text opens a card, a way of a tour leads on. All is text, never HTML. The spots come from the
-// guide (tour.js).
+// shown. A spot with a text opens a card, a way of a tour leads on. Ways out of view are named above the bar, on the side
+// to which one turns. All is text, never HTML. The spots come from the guide (tour.js).
 import { make } from './elements.js';
-import { clamp } from './geometry.js';
+import { clamp, wrapDegrees } from './geometry.js';
 import { modeOf } from './modes.js';
 import { partsOf, placeOf } from './places.js';
 import { t } from './translate.js';
 import { RING, seenBy } from './tour-ways.js';
+
+const TURN = 400; // milliseconds
+const ROOMY = 260; // pixels: a lower view has no room for names above the bar
+
+// Turns the view, until the visitor does; at once for those who want less motion.
+function lookAt(viewer, { yaw, pitch }) {
+  if (matchMedia('(prefers-reduced-motion: reduce)').matches) return viewer.set({ yaw, pitch });
+  const [from, begun] = [{ ...viewer.state }, performance.now()];
+  let last = from.yaw;
+  const step = (now) => {
+    if (viewer.state.yaw !== last) return;
+    const part = clamp((now - begun) / TURN, 0, 1);
+    const eased = part * part * (3 - 2 * part);
+    viewer.set({ yaw: from.yaw + eased * wrapDegrees(yaw - from.yaw), pitch: from.pitch + eased * (pitch - from.pitch) });
+    last = viewer.state.yaw;
+    if (part < 1) requestAnimationFrame(step);
+  };
+  requestAnimationFrame(step);
+}
 
 // The parts of the view, each with the eye for which it is: 1 left, -1 right. Where both share it, there are two parts.
 function seenParts(viewer) {
@@ -25,6 +44,8 @@ export function showNotes(viewer, guide) {
   const layer = make('div', { id: 'spots' });
   const card = make('div', { id: 'card', role: 'status', hidden: true });
   viewer.element.after(layer, caption, card);
+  const sides = [0, 1].map(() => make('div', {})); // left, right
+  layer.parentElement.querySelector('#foot').prepend(make('div', { id: 'aside', ariaHidden: 'true' }, ...sides)); // the Tab key reaches the signs themselves
   let entries = []; // { spot, buttons, rings }: one for each part of the view
 
   const makeButton = (spot, k) => {
@@ -37,6 +58,11 @@ export function showNotes(viewer, guide) {
     button.addEventListener('focus', () => button.classList.contains('away') && viewer.set(seenBy(0, spot.at)));
     return button;
   };
+  const makeName = (spot) => {
+    const name = make('button', { type: 'button', tabIndex: -1 }, make('span', { textContent: spot.title }));
+    name.addEventListener('click', () => lookAt(viewer, seenBy(0, spot.at)));
+    return name;
+  };
   const fill = () => {
     const { about } = viewer;
     caption.textContent = about?.caption ?? '';
@@ -45,8 +71,9 @@ export function showNotes(viewer, guide) {
     const hadFocus = layer.contains(activeElement);
     entries = guide.spots.map((spot) => ({
       spot, buttons: [0, 1].map((k) => makeButton(spot, k)),
-      rings: spot.foot ? [0, 1].map(() => make('div', { className: 'ring', hidden: true })) : [],
+      name: spot.to !== undefined && makeName(spot), rings: spot.foot ? [0, 1].map(() => make('div', { className: 'ring', hidden: true })) : [],
     }));
+    sides.forEach((side) => side.replaceChildren());
     layer.replaceChildren(...entries.flatMap(({ rings, buttons }) => [...rings, ...buttons]));
     place();
     if (hadFocus) viewer.element.focus({ preventScroll: true });
@@ -68,11 +95,19 @@ export function showNotes(viewer, guide) {
     Object.assign(ring.style, { left: `${(left[0] + right[0] - width) / 2}px`, top: `${(low[1] + high[1] - height) / 2}px`, width: `${width}px`, height: `${height}px` });
     ring.className = `ring ${part.tint ?? ''}`;
   };
+  // part: of the view, if there is only one.
+  const placeName = (name, { at }, part) => {
+    name.hidden = !part || viewer.element.clientHeight < ROOMY || Boolean(find(at, part));
+    if (name.hidden) return;
+    const side = sides[Number(wrapDegrees(seenBy(0, at).yaw - viewer.state.yaw) >= 0)];
+    if (name.parentElement !== side) side.append(name);
+  };
   const place = () => {
     const parts = viewer.session || !viewer.picture ? [] : seenParts(viewer);
     for (const entry of entries) {
       const { spot, buttons, rings } = entry;
       if (!entry.size?.[0]) entry.size = [buttons[0].offsetWidth, buttons[0].offsetHeight];
+      if (entry.name) placeName(entry.name, spot, parts.length === 1 || parts[0]?.tint ? parts[0] : null);
       rings.forEach((ring, i) => placeRing(ring, spot, parts[i]));
       buttons.forEach((button, i) => {
         const at = parts[i] && find(spot.at, parts[i]);

@@ -42,8 +42,11 @@ function cameraOf({ studio }, { sidecar }) {
   return found < 0 ? '' : String(found);
 }
 
+export const MODE = /merge_\w+\.mode$/;
+
 export function readValue(view, settings, path) {
   if (path === PLACE) return cameraOf(view, settings);
+  if (MODE.test(path) && settings.merge_limit) return 'auto';
   if (path === camera('axis')) return settings.sidecar.axis ? 'own' : 'camera';
   const value = valueAt(settings, path);
   if (value === undefined && path.startsWith(camera('axis.'))) return UP[path.at(-1)];
@@ -51,7 +54,7 @@ export function readValue(view, settings, path) {
   return valueAt(standardOf(view, settings.sidecar.projection), path.replace('sidecar.projection.', ''));
 }
 
-const hasCurve = (which) => (settings) => !['none', 'map'].includes(settings.sidecar[which].mode);
+const hasCurve = (which) => (settings) => !settings.merge_limit && !['none', 'map'].includes(settings.sidecar[which].mode);
 const mergeRows = (which) => [
   { path: camera(`${which}.mode`), label: 'Curve', merges: true },
   { path: camera(`${which}.start`), label: 'Start', unit: '°', step: 0.5, range: [0, 90], when: hasCurve(which), about: 'Elevation up to which the eyes keep their whole distance' },
@@ -62,7 +65,7 @@ const mergeRows = (which) => [
 export function groupsOf(view) {
   const { studio } = view;
   const maps = (name) => name !== 'map' || studio.settings.maps?.merge >= 0;
-  const merges = options(studio.merges.filter(maps));
+  const merges = [['auto', 'As depth allows'], ...options(studio.merges.filter(maps))];
   const merge = (which) => mergeRows(which).map((row) => (row.merges ? { ...row, options: merges } : row));
   const turns = [-180, 180];
   const has = (number) => (settings) => studio.controls[settings.sidecar.projection.name]?.includes(number);
@@ -94,7 +97,7 @@ export function groupsOf(view) {
       ...(studio.variants.length ? [{ path: 'variant', label: 'Variant', options: [['', 'First'], ...studio.variants.map((name) => [name, name])] }] : []),
       ...(studio.duration ? [{ path: 'time', label: 'Time', unit: 's', step: 0.02, range: [0, studio.duration] }] : []),
     ] },
-    { name: 'Comfort: pole merge', id: 'merge', open: true, top: merge('merge_top'), bottom: merge('merge_bottom') },
+    { name: 'Comfort: pole merge', id: 'merge', open: true, top: [...merge('merge_top'), { path: 'merge_limit', label: 'Limit', unit: '′', step: 0.1, range: [1, 600], when: (s) => s.merge_limit, about: 'How far the eyes may have to turn apart, up and down' }], bottom: merge('merge_bottom') },
     { name: 'Eyes', open: true, rows: [
       { path: camera('ipd'), label: 'Eye distance', unit: 'mm', scale: 1000, step: 0.5, range: [0, 1000] },
       { path: camera('convergence.mode'), label: 'Convergence', options: options(studio.convergences) },

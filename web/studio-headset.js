@@ -49,7 +49,7 @@ export class VrSteering {
     const { merge_top: top, merge_bottom: bottom } = session.settings.sidecar;
     const mode = top.mode === 'none' ? 'cosine' : top.mode;
     const merged = (each) => ({ ...each, mode, start: halves(start), end: halves(end) });
-    session.edit({ 'sidecar.merge_top': merged(top), ...(linked && { 'sidecar.merge_bottom': merged(bottom) }) }, gesture, dragging);
+    session.edit({ merge_limit: null, 'sidecar.merge_top': merged(top), ...(linked && { 'sidecar.merge_bottom': merged(bottom) }) }, gesture, dragging);
   }
 
   // Start and end of the merge, for the panel. set(value, isLast).

@@ -5,13 +5,14 @@
 import { make } from './elements.js';
 import { icon } from './icons.js';
 import { MergeCurve } from './merge-curve.js';
-import { groupsOf, limitsOf, readValue } from './studio-fields.js';
+import { MODE, groupsOf, limitsOf, readValue } from './studio-fields.js';
 import { choiceRow, numberRow } from './studio-number.js';
 import { ask } from './studio-session.js';
 
 const REST = 400; // milliseconds without a new picture of the whole sphere
 const LENGTHS = { longitude: 2, latitude: 2, sensor: 2, polynomial: 5, axis: 3 };
 const LIST = /^(?<list>.*\.(?<name>longitude|latitude|sensor|polynomial|axis))\.(?<i>\d)$/; // these may be missing
+const LIMIT = 25.6; // minutes of arc: of --merge auto
 const LINK = /^sidecar\.merge_(top|bottom)\./;
 const numbersOfProjection = ['longitude', 'latitude', 'fov', 'aspect', 'pan', 'tilt', 'sensor', 'polynomial'];
 
@@ -33,8 +34,10 @@ export class Panel {
     session.addEventListener('refused', ({ detail }) => this.refuse(detail.text, detail.paths));
     session.addEventListener('status', ({ detail }) => {
       if (detail.part !== 'base') return;
+      detail.side.merge = detail.merge;
+      this.draw();
       clearTimeout(this.resting);
-      this.resting = setTimeout(() => this.followDepth(), REST);
+      if (!session.settings.merge_limit) this.resting = setTimeout(() => this.followDepth(), REST);
     });
     this.update();
   }
@@ -55,10 +58,7 @@ export class Panel {
     this.box = box;
     const link = make('label', { className: 'check' }, box, ' Same above and below');
     this.useAuto = make('button', { type: 'button', className: 'small', textContent: 'Use the dotted curve', hidden: true, 'data-tip': 'As much eye distance as the depth of the picture allows: --merge auto' });
-    this.useAuto.addEventListener('click', () => this.session.edit({
-      'sidecar.merge_map': { width: 1, height: this.auto.length, values: this.auto }, 'maps.merge': -1,
-      'sidecar.merge_top.mode': 'map', 'sidecar.merge_bottom.mode': 'map',
-    }));
+    this.useAuto.addEventListener('click', () => this.session.edit({ merge_limit: LIMIT }));
     this.titles = ['Above', 'Below'].map((textContent) => make('h3', { textContent }));
     this.below = make('div', {}, this.titles[1], ...bottom.map((row) => this.row({ ...row, name: `Below: ${row.label}` })));
     return [this.curve.element, this.useAuto, link, this.titles[0], ...top.map((row) => this.row(row)), this.below];
@@ -93,7 +93,9 @@ export class Panel {
       this.session.edit(edits(value), gesture, dragging);
       return this.update(); // a choice that changes nothing returns to what is so
     }
+    if (MODE.test(path) && value === 'auto') return this.session.edit({ merge_limit: LIMIT });
     const values = { [path]: write ? write(value) : value };
+    if (MODE.test(path)) values.merge_limit = null;
     const merge = this.linked && LINK.exec(path);
     if (merge) values[path.replace('merge_top', 'merge_bottom')] = value;
     if (projection) {
@@ -120,21 +122,36 @@ export class Panel {
   }
 
   update() {
-    const { settings, sides, active } = this.session;
+    const { settings } = this.session;
     const { merge_top: top, merge_bottom: bottom } = settings.sidecar;
     if (JSON.stringify(top) !== JSON.stringify(bottom)) this.linked = false;
     this.box.checked = this.linked;
-    this.below.hidden = this.linked;
-    this.titles[0].hidden = this.linked;
+    const isAuto = Boolean(settings.merge_limit);
+    this.box.parentElement.hidden = isAuto;
+    this.below.hidden = this.titles[0].hidden = this.linked || isAuto;
+    if (isAuto) this.showAuto([]);
     for (const { spec, control } of this.rows) {
       const hidden = spec.when ? !spec.when(settings) : false;
       control.element.hidden = hidden;
       if (control.element.parentElement.className === 'parts') control.element.parentElement.parentElement.hidden = hidden;
       if (!hidden) control.update(readValue(this.view, settings, spec.path), this.standard(spec));
     }
-    const other = sides[1 - active]?.settings.sidecar;
-    const merges = ({ merge_top, merge_bottom, merge_map }) => ({ top: merge_top, bottom: merge_bottom, map: merge_map?.width === 1 ? merge_map.values : null });
-    this.curve.draw(merges(settings.sidecar), other && merges(other));
+    this.draw();
+  }
+
+  draw() {
+    const { sides, active } = this.session;
+    const merges = ({ settings: { merge_limit: limit, sidecar: { merge_top: top, merge_bottom: bottom } }, merge: map }) => {
+      const of = (merge) => (limit ? { ...merge, mode: 'map' } : merge);
+      return { top: of(top), bottom: of(bottom), map };
+    };
+    this.curve.draw(merges(sides[active]), sides[1 - active] && merges(sides[1 - active]));
+  }
+
+  // shares: of the dotted curve; none: there is none.
+  showAuto(shares) {
+    this.curve.drawAuto(shares);
+    this.useAuto.hidden = !shares.length;
   }
 
   // The curve that the depth of the picture allows, beside the hand-made one. Computing it takes time from the
@@ -143,11 +160,7 @@ export class Panel {
     if (this.isAsking) return;
     this.isAsking = true;
     const comfort = await ask('comfort').catch(() => null);
-    if (comfort) {
-      this.auto = comfort.auto;
-      this.curve.drawAuto(this.auto);
-      this.useAuto.hidden = false;
-    }
+    if (comfort && !this.session.settings.merge_limit) this.showAuto(comfort.auto);
     this.isAsking = false;
   }
 

@@ -4,9 +4,7 @@
 // The compass of a tour, and its plan: an image of the floor with the places of the panoramas, of which the present one
 // has a cone for the view. A click on a place goes there.
 import { make } from './elements.js';
-import { radians } from './geometry.js';
 import { angleAcross } from './panorama.js';
-import { headingOf, pixelOf, placesOf } from './tour-ways.js';
 import { t } from './translate.js';
 
 const ROOMY = [800, 560]; // pixels: a plan would cover a smaller picture, so it waits for a click
@@ -49,13 +47,13 @@ function makePlan(player, guide) {
     toggle.ariaExpanded = String(!box.hidden);
   });
   toggle.ariaExpanded = String(!box.hidden);
-  const dots = placesOf(guide.tour).map((place, i) => {
-    if (!place) return null;
+  const dots = guide.dots.map((at, i) => {
+    if (!at) return null;
     const title = guide.titleOf(i);
     const dot = make('button', { type: 'button', className: 'dot', ariaLabel: t('Go to {}', title) });
     dot.dataset.tip = title;
     dot.addEventListener('click', () => guide.go(i));
-    return Object.assign(dot, { at: pixelOf(plan, place) });
+    return Object.assign(dot, { at });
   });
   map.append(...dots.filter(Boolean));
   const put = (element, [x, y]) => Object.assign(element.style, { left: `${(100 * x) / image.naturalWidth}%`, top: `${(100 * y) / image.naturalHeight}%` });
@@ -93,21 +91,3 @@ export function showPlan(player, guide) {
   guide.addEventListener('spots', update);
   update();
 }
-
-// Returns a function that paints a compass for a heading into a box of the headset's menu.
-export const paintCompass = (heading) => (context, [x, y, width, height], isHovered, ink) => {
-  const radius = height / 2 - 8;
-  context.save();
-  context.translate(x + height / 2 + 4, y + height / 2);
-  Object.assign(context, { lineWidth: 4, strokeStyle: ink, fillStyle: '#ffb648' });
-  context.beginPath();
-  context.arc(0, 0, radius, 0, 2 * Math.PI);
-  context.stroke();
-  context.rotate(radians(-heading));
-  context.beginPath();
-  context.moveTo(0, -radius + 4);
-  context.lineTo(radius * 0.3, 6);
-  context.lineTo(-radius * 0.3, 6);
-  context.fill();
-  context.restore();
-};

@@ -12,8 +12,16 @@ export const STYLE = `
 .spot:is(:hover, :focus-visible, [aria-expanded="true"]) { background: var(--accent); color: var(--solid); }
 .way { width: max-content; max-width: min(240px, 60%); height: 34px; padding: 0 16px; font-size: 15px; }
 .way::before { inset: -6px -2px; border-radius: 14px; }
-.way > span { display: block; overflow: hidden; text-overflow: ellipsis; }
+.way > span { display: block; }
 .away { clip-path: inset(50%); pointer-events: none; left: 50% !important; top: 50% !important; }
+#aside { align-self: stretch; justify-content: space-between; }
+#aside, #aside div, #aside button { display: flex; gap: 8px; min-width: 0; }
+#aside div { flex-wrap: wrap; }
+#aside div + div { justify-content: end; }
+#aside button { align-items: center; max-width: min(280px, 44cqw); border-radius: 22px; font-weight: 600; pointer-events: auto; }
+.way > span, #aside span { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
+#aside div:first-child button::before { content: "←"; }
+#aside div + div button::after { content: "→"; }
 .ring { position: absolute; border: 3px solid #fff; outline: 1px solid rgb(0 0 0 / 60%); outline-offset: -4px; border-radius: 50%; box-shadow: 0 0 0 1px rgb(0 0 0 / 60%); }
 .spot:is(.red, .cyan) { background: none; border-color: transparent; }
 .red > i, .cyan > i { display: block; mix-blend-mode: multiply; }
@@ -29,11 +37,11 @@ export const STYLE = `
 #card { position: absolute; left: 0; top: 0; width: max-content; max-width: min(320px, 100% - 16px); padding: 10px 14px; border-radius: 10px; background: var(--solid); border: 1px solid var(--edge); overflow-wrap: anywhere; }
 #card p { margin: 4px 0 0; white-space: pre-line; }
 #card p:empty { display: none; }
-#player:has(#compare) :is(#caption, #spots, #guide, #plan), .waiting :is(#guide, #plan) { display: none; }
+#player:has(#compare) :is(#caption, #spots, #guide, #plan), .waiting :is(#guide, #plan, #aside) { display: none; }
 #caption { position: absolute; left: 12px; top: var(--below); margin: 0; transition: opacity 0.3s; max-width: min(480px, 100% - 24px); padding: 4px 12px; border-radius: 10px; background: var(--glass); pointer-events: none; white-space: pre-line; }
 #player:has(#guide) #caption { max-width: min(480px, 100% - 132px); }
 #guide { position: absolute; right: max(12px, env(safe-area-inset-right)); top: var(--below); display: flex; flex-direction: column; align-items: end; gap: 8px; }
-#guide button { background: var(--glass); border: 1px solid var(--edge); }
+#guide button, #aside button { background: var(--glass); border: 1px solid var(--edge); }
 #compass { width: 46px; height: 46px; padding: 0; border-radius: 50%; }
 #compass svg { width: 44px; height: 44px; }
 #compass path:first-child { fill: var(--accent); }
@@ -51,6 +59,6 @@ export const STYLE = `
   .way { height: 44px; }
 }
 @media (forced-colors: active) {
-  #card, .spot, .dot::after { border: 1px solid ButtonText; }
+  #card, .spot, #aside button, .dot::after { border: 1px solid ButtonText; }
   .dot[aria-current="true"]::after { background: Highlight; forced-color-adjust: none; }
 }`;

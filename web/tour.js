@@ -3,12 +3,12 @@
 //
 // The guide through a picture's hotspots, and through a tour if view.json has one (docs/view.md): the spots of the open
 // picture, what they tell, and where they lead. It is viewer.guide, for the desk (notes.js, tour-plan.js) and the headset
-// (tour-worn.js). Events: `spots` (another picture has others), `tell` (a card opened or closed).
+// (tour-worn.js, headset-guide.js). Events: `spots` (another picture has others), `tell` (a card opened or closed).
 import { wrapDegrees } from './geometry.js';
 import { showNotes } from './notes.js';
-import { paintCompass, showPlan } from './tour-plan.js';
+import { showPlan } from './tour-plan.js';
 import { STYLE } from './tour-style.js';
-import { headingOf, pointAt, turnTo, waysOf } from './tour-ways.js';
+import { headingOf, pixelOf, placesOf, pointAt, turnTo, waysOf } from './tour-ways.js';
 import { WornSpots } from './tour-worn.js';
 
 const NEXT = 4; // panoramas that are fetched ahead
@@ -20,6 +20,7 @@ class Guide extends EventTarget {
     const { viewer } = player;
     const { tour } = viewer.view;
     Object.assign(this, { viewer, tour, ways: tour && waysOf(tour), spots: [], open: null, item: -1, text: '', read: READ, worn: null });
+    this.dots = tour?.plan && placesOf(tour).map((place) => place && pixelOf(tour.plan, place));
     viewer.addEventListener('open', () => this.opened());
   }
 
@@ -107,15 +108,6 @@ class Guide extends EventTarget {
   tellAgain(panel) {
     panel.close();
     this.show(this.told);
-  }
-
-  // Rows of the headset's menu.
-  rows(panel) {
-    const { heading, viewer } = this;
-    const row = [];
-    if (heading !== null) row.push({ id: 'compass', text: `${Math.round(heading) % 360}°`, share: 2, paint: paintCompass(heading) });
-    if (viewer.about?.caption) row.push({ id: 'text', text: 'Text', share: 3, run: () => this.tellAgain(panel) });
-    return row.length ? [row] : [];
   }
 }
 

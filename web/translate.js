@@ -7,10 +7,10 @@ export const LANGUAGES = { de: () => import('./translations-de.js'), fr: () => i
 
 let translations = {};
 
-// Loads the page's language, before elements with texts are made.
+// Loads the page's language, before elements with texts are made. Where its script is missing, the texts are English.
 export async function useLanguage() {
   const code = document.documentElement.lang.slice(0, 2).toLowerCase();
-  translations = (await LANGUAGES[code]?.())?.TRANSLATIONS ?? {};
+  translations = (await LANGUAGES[code]?.().catch(() => null))?.TRANSLATIONS ?? {};
 }
 
 // Returns the translation of a text, in which each {} is replaced by the next value.

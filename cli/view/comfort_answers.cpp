@@ -55,7 +55,13 @@ ods::Json comfort_json(const ods::LiveSeen& seen) {
   ods::Json json = verdict_json(seen.camera, verdict);
   json["share"] = verdict.share;
   json["nearest"] = ods::json_number(verdict.nearest);
-  for (int row = 0; row < map.height; row++) json["auto"].push_back(*map.at(0, row));
+  json["auto"] = merge_json(map);
+  return json;
+}
+
+ods::Json merge_json(const ods::Image& map) {
+  ods::Json json = ods::Json::array();
+  for (int row = 0; row < map.height; row++) json.push_back(std::round(double{*map.at(0, row)} * 1e3) / 1e3);
   return json;
 }
 

@@ -16,5 +16,8 @@ WebAnswer heat_answer(const ods::LiveSeen& seen, int eye);
 // shares of the eye distance, from the zenith down. Null until there is a picture.
 ods::Json comfort_json(const ods::LiveSeen& seen);
 
+// Returns the shares of the eye distance that a merge by depth leaves, from the zenith down.
+ods::Json merge_json(const ods::Image& map);
+
 // Adds `comfort`, the verdict on the point that a click met, to the answer.
 void add_comfort(ods::Json& pick, const ods::StereoCamera& camera, const ods::LivePick& found, int eye);

@@ -20,6 +20,7 @@
 #include "ods/base/quote.h"
 #include "ods/base/text.h"
 #include "ods/camera/camera_fields.h"
+#include "ods/comfort/strain.h"
 #include "ods/files/atomic_file.h"
 #include "ods/files/read_file.h"
 #include "ods/image/format/file_format.h"
@@ -37,6 +38,7 @@ constexpr std::chrono::milliseconds kPatience{5000};  // for the next frame
 constexpr std::chrono::milliseconds kShortPatience{200};
 constexpr int kMaxWaiting = 16;  // with patience, so that connections are left for the rest of the site
 constexpr int kMaxWidth = 16384;
+constexpr float kLeastLimit = 1.0f, kMostLimit = 600.0f;  // of a merge by depth, as --merge auto has them
 constexpr const char* kEnvironments[] = {"auto", "studio", "sky", "white", "0"};
 constexpr const char* kQualities[] = {"draft", "preview", "final"};
 
@@ -56,6 +58,13 @@ void read_look(JsonReader& reader, ods::LiveView& view) {
 void read_text(JsonReader& reader, const std::string& key, std::string& text) {
   const Json* const json = reader.find(key);
   if (json && json->is_string()) text = *json;
+}
+
+// The limit of a merge by depth: null for none, absent for the present one.
+void read_limit(JsonReader& reader, std::optional<float>& limit) {
+  if (reader.is_null("merge_limit")) return limit.reset();
+  if (!limit && reader.find("merge_limit")) limit.emplace();
+  if (limit) reader.number("merge_limit", *limit, kLeastLimit, kMostLimit);
 }
 
 template <class Read>
@@ -160,6 +169,8 @@ Studio::Settings Studio::suiting(const SceneSource& source, const ods::Scene& sc
   settings.live.camera = settings.sidecar.camera;
   const bool needs_none = ods::find_builtin(source.name) || scene.as_painted;
   settings.live.exposure = needs_none ? 0.0f : rounded(usual_exposure(scene, settings.live.camera), 100.0);
+  const bool has_merge = source.foreign && source.foreign->has_stereo;
+  if (!has_merge) settings.live.merge_limit = static_cast<float>(ods::kFusionLimit);
   if (scene.as_painted) settings.live.tone = ods::ToneCurve::kLinear;
   const std::optional<ods::SkyOptions> sky = described_sky("--env", source.light.environment);
   settings.sky = sky.value_or(ods::SkyOptions());
@@ -203,6 +214,7 @@ Json Studio::settings_json(const Settings& settings) const {
                      {"head_tilt", number_of(sidecar.camera.head_tilt_map)}};
   return {{"sidecar", Json::parse(write_sidecar(sidecar))},
           {"maps", maps},
+          {"merge_limit", settings.live.merge_limit ? Json(*settings.live.merge_limit) : Json()},
           {"exposure", settings.live.exposure},
           {"tone", ods::tone_curve_name(settings.live.tone)},
           {"env", settings.environment},
@@ -264,6 +276,7 @@ Studio::Settings Studio::read_settings(const std::string& text) const {
     read_camera(reader, settings);
     const std::string fault = camera_fault(settings.live.camera);
     if (!fault.empty()) throw UsageError("the camera's " + fault);
+    read_limit(reader, settings.live.merge_limit);
     reader.number("exposure", settings.live.exposure, -ods::kMaxStops, ods::kMaxStops);
     const std::string tone = reader.word("tone");
     if (!tone.empty()) {
@@ -341,6 +354,9 @@ WebAnswer Studio::frame(const WebRequest& request) {
     next = {
         {"part", part_name(frame->next->is_patch)}, {"width", frame->next->width}, {"samples", frame->next->samples}};
   }
+  Json merge;
+  const ods::StereoCamera& camera = frame->camera;
+  if (!frame->is_patch && camera.merge_map) merge = merge_json(*camera.merge_map);
   const std::string head = ods::json_document({{"number", frame->number},
                                                {"revision", frame->revision},
                                                {"part", part_name(frame->is_patch)},
@@ -348,6 +364,7 @@ WebAnswer Studio::frame(const WebRequest& request) {
                                                {"height", frame->eye.height},
                                                {"eyes", 2},
                                                {"camera", camera_json(make_camera(frame->camera))},
+                                               {"merge", merge},
                                                {"samples", frame->samples},
                                                {"seconds", frame->seconds},
                                                {"done", !frame->next},
@@ -381,7 +398,7 @@ WebAnswer Studio::pick(const std::string& body) {
     const ods::vec2 pixel = *pick->places[each] * ods::vec2(settings_.width, height);
     json[std::string(ods::eye_name(each))] = {pixel.x, pixel.y};
   }
-  add_comfort(json, settings_.live.camera, *pick, seen_by);
+  add_comfort(json, live_->whole().camera, *pick, seen_by);
   return json_answer(json);
 }
 
@@ -408,7 +425,7 @@ WebAnswer Studio::render(const std::string& body) {
   check_output_name(name);
   check_name("quality", quality, kQualities);
   const std::string maps = fmt::format("{}/{}", drops_.path(), ++drop_count_);
-  save_maps(settings_.live.camera, maps);
+  save_maps(command_camera(), maps);
   std::vector<std::string> all = words(maps, false);
   all.insert(all.end(), {"--quality", quality});
   process_.start(all, name);

@@ -63,6 +63,7 @@ class Studio {
   Settings read_settings(const std::string& text) const;
   void read_camera(ods::JsonReader& reader, Settings& settings) const;
   ods::Json settings_json(const Settings& settings) const;
+  ods::StereoCamera command_camera() const;
   static Settings suiting(const SceneSource& source, const ods::Scene& scene);
   void open(const SceneSource& source, bool is_new);
   std::string title() const;

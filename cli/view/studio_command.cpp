@@ -7,6 +7,14 @@
 #include "cli/options/camera_options.h"
 #include "cli/view/render_arguments.h"
 #include "cli/view/studio.h"
+#include "ods/comfort/strain.h"
+
+// The camera as options say it: a merge by depth is one of them, and has no map there.
+ods::StereoCamera Studio::command_camera() const {
+  ods::StereoCamera camera = settings_.live.camera;
+  if (settings_.live.merge_limit) camera.top = camera.bottom = ods::kUsualMerge;
+  return camera;
+}
 
 // The command that renders the page's view: with the names of files that the user knows, or with their paths here, and
 // without the quality and the output. maps: as camera_arguments().
@@ -34,7 +42,10 @@ std::vector<std::string> Studio::words(const std::string& maps, bool is_shown) c
   if (!source_.light.lamp.empty()) add("--lamp", source_.light.lamp);
   if (!source_.light.background.empty()) add("--background", source_.light.background);
   if (source_.light.unlit) words.emplace_back("--unlit");
-  for (const std::string& word : camera_arguments(settings_.live.camera, settings_.width, maps)) words.push_back(word);
+  for (const std::string& word : camera_arguments(command_camera(), settings_.width, maps)) words.push_back(word);
+  if (const std::optional<float> limit = settings_.live.merge_limit) {
+    add("--merge", *limit == static_cast<float>(ods::kFusionLimit) ? "auto" : fmt::format("auto,{}", *limit));
+  }
   const ods::Layout layout = settings_.sidecar.layout;
   if (layout != default_layout(settings_.live.camera.projection)) add("--layout", std::string(layout_name(layout)));
   if (duration_ > 0.0) add("--time", fmt::format("{}", settings_.live.time));

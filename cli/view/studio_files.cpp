@@ -118,6 +118,7 @@ WebAnswer Studio::drop_camera(const std::string& name, const std::string& path) 
   }
   settings_.sidecar = sidecar;
   settings_.live.camera = sidecar.camera;
+  settings_.live.merge_limit.reset();
   live_->set(settings_.live, settings_.look);
   return json_answer({{"what", "camera"}, {"settings", settings_json(settings_)}});
 }
@@ -168,10 +169,11 @@ std::string Studio::stem() const {
 
 WebAnswer Studio::save() {
   ods::Sidecar sidecar = settings_.sidecar;
+  sidecar.camera = live_->camera();
   sidecar.eye = {settings_.width, natural_height(sidecar.camera.projection, settings_.width)};
   const ods::PrivateFolder folder(".ods-view-");  // whatever has the name, nothing is written through it
   const std::string made = folder.path() + "/camera";
-  std::vector<std::string> ends = save_maps(sidecar.camera, made);
+  std::vector<std::string> ends = save_maps(command_camera(), made);
   save_sidecar(sidecar, made + ends.emplace_back(".camera.json"));
   const auto is_taken = [&](const std::string& name) {  // a file of another program stays
     return std::ranges::any_of(ends, [&](const std::string& end) {

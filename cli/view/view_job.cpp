@@ -194,6 +194,7 @@ std::vector<ViewItem> open_items(const ViewJob& job) {
     }
   }
   add_objects(job.objects, items);
+  if (items.size() == 1 && !job.texts.title.empty()) items[0].title = job.texts.title;  // instead of its file's name
   if (!job.tour) return items;
   if (items.size() != job.tour->panoramas.size()) {
     throw ods::Error(ods::ErrorKind::kInput,

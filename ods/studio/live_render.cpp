@@ -13,11 +13,13 @@
 
 #include "ods/base/error.h"
 #include "ods/camera/pixel.h"
+#include "ods/comfort/merge_from_depth.h"
 #include "ods/denoise/denoise.h"
 #include "ods/kernel/camera/project.h"
 #include "ods/render/cpu/render.h"
 #include "ods/render/render_target.h"
 #include "ods/scene/motion.h"
+#include "ods/stage/judge_scene.h"
 
 namespace ods {
 
@@ -180,6 +182,8 @@ struct LiveRender::State {
   int last_number = 0;
   std::shared_ptr<const LiveFrame> frames[2];  // the base and the patch
   LiveSeen seen[2];                            // the base and the patch
+  StereoCamera found;                          // camera of the settings of this revision:
+  int found_revision = 0;
   std::string fault;
 
   // Used only by the render thread.
@@ -187,6 +191,7 @@ struct LiveRender::State {
   CpuRenderer renderer;
   double scene_time = 0.0;
   LiveSettings rendered;  // the settings of the canvases
+  StereoCamera merged;    // their camera, with the merge by depth
   std::optional<Canvas> base, patch;
   std::optional<LightCells> cells;  // for both; not set if not filled yet
   size_t next = 0;                  // index of the next step
@@ -216,7 +221,7 @@ void LiveRender::State::fill_cells(const Progress& progress) {
   RenderOptions options = base->options;
   options.indirect = Indirect::kCache;
   options.cache_paths = kCachePaths;
-  cells = renderer.fill_cells({&rendered.camera, 1}, options, progress);
+  cells = renderer.fill_cells({&merged, 1}, options, progress);
 }
 
 // Returns false if it was cancelled; the samples are then unusable.
@@ -239,8 +244,8 @@ bool LiveRender::State::refine(Canvas& canvas, int samples, int mine) {
 }
 
 StereoCamera LiveRender::State::camera_of(const Step& step, const LiveView& here) const {
-  if (!step.is_patch) return rendered.camera;
-  return patch ? patch->camera : patch_camera(rendered.camera, here);
+  if (!step.is_patch) return merged;
+  return patch ? patch->camera : patch_camera(merged, here);
 }
 
 static Extent size_of(const Step& step, const StereoCamera& camera) {
@@ -277,15 +282,22 @@ void LiveRender::State::begin(int mine, const LiveSettings& now) {
   but_for_display.exposure = rendered.exposure, but_for_display.tone = rendered.tone;
   const bool same_light = but_for_display == rendered;
   rendered = now;
+  if (now.time != scene_time) renderer.update(set_time(scene, scene_time = now.time));
   if (!same_light) {
     base.reset(), patch.reset(), cells.reset();
     next = 0;
+    merged = now.camera;
+    if (now.merge_limit) use_merge_map(merged, merge_map_of(shares_seen(renderer, merged, *now.merge_limit)));
+  }
+  {
     const std::lock_guard<std::mutex> lock(mutex);
-    for (auto& frame : frames) frame = nullptr;
+    if (!same_light) std::ranges::fill(frames, nullptr);
+    found = merged;
+    found_revision = mine;
+    changed.notify_all();
   }
   if (base && base->picture) publish(*base, mine, next);
   if (patch && patch->picture) publish(*patch, mine, next);
-  if (now.time != scene_time) renderer.update(set_time(scene, scene_time = now.time));
 }
 
 void LiveRender::State::render_step(int mine) {
@@ -368,6 +380,7 @@ int LiveRender::set(const LiveSettings& settings, const LiveView& view) {
   if (state_->revision == 0 || !(settings == state_->settings)) {
     state_->settings = settings;
     state_->revision++;
+    state_->fault.clear();
     state_->since = Clock::now();
   }
   state_->changed.notify_all();
@@ -404,6 +417,14 @@ std::string LiveRender::fault() const {
 LiveSeen LiveRender::whole() const {
   const std::lock_guard<std::mutex> lock(state_->mutex);
   return state_->seen[0];
+}
+
+StereoCamera LiveRender::camera() const {
+  std::unique_lock<std::mutex> lock(state_->mutex);
+  const auto is_found = [&] { return state_->found_revision == state_->revision; };
+  state_->changed.wait(lock, [&] { return is_found() || state_->ended || !state_->fault.empty(); });
+  if (is_found()) return state_->found;
+  throw Error(ErrorKind::kInput, state_->ended ? "the scene is not rendered any more" : state_->fault);
 }
 
 std::optional<LivePick> LiveRender::pick(int eye, vec3 direction) const {

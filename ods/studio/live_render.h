@@ -25,7 +25,8 @@ struct LiveSettings {
   StereoCamera camera;
   float exposure = 0.0f;  // stops
   ToneCurve tone = ToneCurve::kNeutral;
-  double time = 0.0;  // time of the scene's animation, seconds
+  double time = 0.0;                 // time of the scene's animation, seconds
+  std::optional<float> merge_limit;  // minutes of arc: depth decides on the camera's merges, as --merge auto does
 
   bool operator==(const LiveSettings&) const = default;
 };
@@ -103,6 +104,10 @@ class LiveRender {
 
   // The present state of the whole picture.
   LiveSeen whole() const;
+
+  // The camera of the present settings, with its merge by depth if they have a limit. Waits for the render thread; throws
+  // Error(kInput) if that has ended with an error.
+  StereoCamera camera() const;
 
  private:
   struct State;

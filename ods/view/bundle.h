@@ -15,14 +15,14 @@ enum class PageHost { kFolder, kView, kStudio };
 // The way in which a page loads the script: <script src>, or import.
 enum class ScriptKind { kClassic, kModule };
 
-// entry: a module of the page, main.js. A folder's script has everything but what only layered scenes need; a server's
-// script has the code for the first view. Both load kLaterScripts when they need more; a script of kModule imports
+// entry: a module of the page, main.js. A folder's script has everything but what kLaterScripts have; a server's script
+// has the code for the first view. Both load kLaterScripts when they need more; a script of kModule imports
 // files of the same names with .mjs instead, and exports what its entry exports.
 std::string bundle(const std::string& entry, PageHost host = PageHost::kFolder, ScriptKind kind = ScriptKind::kClassic);
 
 // In a folder, later.js has what only layered scenes need; a server's has all but the code for the first view. The
-// other one has hotspots and tours.
-inline constexpr std::string_view kLaterScripts[] = {"later.js", "later-tour.js"};
+// second one has hotspots and tours, the third one the texts in other languages than English.
+inline constexpr std::string_view kLaterScripts[] = {"later.js", "later-tour.js", "later-words.js"};
 
 // Returns the text of one of kLaterScripts, which the scripts of a host load; empty for any other name.
 std::string bundle_later(std::string_view name, PageHost host, ScriptKind kind = ScriptKind::kClassic);

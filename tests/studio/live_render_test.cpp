@@ -10,6 +10,7 @@
 
 #include "ods/render/cpu/render.h"
 #include "ods/scene/builtin/builtin.h"
+#include "ods/stage/judge_scene.h"
 
 using namespace std::chrono_literals;
 using ods::LiveFrame, ods::LiveRender, ods::LiveSettings, ods::LiveView, ods::vec3;
@@ -99,6 +100,29 @@ TEST_F(LiveRendering, ShowsWhatTheRendererRenders) {
     }
   }
   EXPECT_NEAR(mean_of(*base), sum / static_cast<double>(base->pixels.size()), 1.0);
+}
+
+TEST_F(LiveRendering, MergesByDepth) {
+  LiveRender live(scene, 0);
+  const ods::CpuRenderer renderer(scene);
+  for (const float height : {1.0f, 2.0f}) {
+    settings.camera.position.y = height;
+    settings.merge_limit = 25.6f;
+    live.set(settings, {});
+    const ods::StereoCamera found = live.camera();
+    const ods::Image map = ods::merge_map_of(ods::shares_seen(renderer, settings.camera, 25.6f));
+    ASSERT_TRUE(found.merge_map);
+    EXPECT_EQ(found.top.mode, ods::kMergeMap);
+    EXPECT_EQ(found.bottom.mode, ods::kMergeMap);
+    EXPECT_EQ(found.merge_map->pixels, map.pixels);
+    const Frame frame =
+        wait_for(live, 0, [&](const LiveFrame& each) { return each.camera.position.y == height && !each.is_patch; });
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->camera, found);
+    settings.merge_limit.reset();
+    live.set(settings, {});
+    EXPECT_EQ(live.camera(), settings.camera);
+  }
 }
 
 TEST_F(LiveRendering, AChangeDropsWhatWasRendered) {

@@ -100,6 +100,17 @@ TEST(Bundle, ToursAreApart) {
   EXPECT_EQ(bundle_later("later-other.js", PageHost::kFolder), "");
 }
 
+// Few pages are in another language.
+TEST(Bundle, WordsAreApart) {
+  const std::set<std::string> words = {"translations-de.js", "translations-fr.js"};
+  for (const PageHost host : {PageHost::kFolder, PageHost::kView, PageHost::kStudio}) {
+    EXPECT_EQ(modules_in(bundle_later("later-words.js", host)), words);
+    for (const std::string& script : {bundle("main.js", host), bundle_later("later.js", host)}) {
+      for (const std::string& name : words) EXPECT_FALSE(modules_in(script).contains(name)) << name;
+    }
+  }
+}
+
 // Few pages have layered scenes.
 TEST(Bundle, AFolderHasTheCodeOfLayeredScenesApart) {
   const std::string script = bundle_later("later.js", PageHost::kFolder);

@@ -184,13 +184,13 @@ async function testStrict() {
 async function testTranslations() {
   const { LANGUAGES } = await import('./src/translate.js');
   const { ACTIONS } = await import('./src/actions.js');
-  const { MODES } = await import('./src/modes.js');
+  const { MODES, WORN } = await import('./src/modes.js');
   const texts = new Set(['A panorama']);
   const { MOVES } = await import('./src/layered.js');
   const { OBJECT_KEYS } = await import('./src/objects.js');
   for (const { label, group } of [...ACTIONS, ...MOVES, ...OBJECT_KEYS]) if (label) texts.add(label).add(group);
-  for (const { label, visitors } of MODES) texts.add(label).add(visitors ?? label);
-  for (const file of ['actions', 'compare', 'controls', 'markup', 'notes', 'player', 'stereo-360', 'tour-plan']) {
+  for (const { label, visitors } of [...MODES, ...WORN]) texts.add(label).add(visitors ?? label);
+  for (const file of ['actions', 'compare', 'controls', 'headset-controls', 'headset-guide', 'headset-panel', 'markup', 'notes', 'player', 'stereo-360', 'tour-plan']) {
     const source = await (await fetch(`src/${file}.js`)).text();
     for (const [, one, other] of source.matchAll(/\bt\((?:[^()'`]*\? )?'([^']*)'(?: : '([^']*)')?/g)) texts.add(one).add(other ?? one);
   }

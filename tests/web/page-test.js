@@ -513,12 +513,20 @@ async function testAutoCurve({ session, panel }) {
   await panel.followDepth();
   expect(panel.useAuto.checkVisibility(), 'the dotted curve cannot be used');
   panel.useAuto.click();
-  const { merge_top: top, merge_bottom: bottom, merge_map: map } = session.settings.sidecar;
-  expect(top.mode === 'map' && bottom.mode === 'map' && map.values.length === 180, 'the dotted curve is not used');
+  const [row] = panel.rows.filter(({ spec }) => spec.path === 'sidecar.merge_top.mode').map(({ control }) => control.element.querySelector('select'));
+  expect(session.settings.merge_limit === 25.6 && row.value === 'auto', 'the dotted curve is not used');
+  expect(!panel.useAuto.checkVisibility() && !panel.box.checkVisibility() && !panel.below.checkVisibility(), 'controls that have no effect');
+  session.say('status', { part: 'base', side: session.side, merge: Array(180).fill(0.5) });
   const levels = new Set(document.querySelector('.curve-line').getAttribute('points').split(' ').map((point) => point.split(',')[1]));
-  expect(levels.size === 1, 'the curve is not what the map has');
-  session.step(-1);
-  expect(session.settings.sidecar.merge_top.mode !== 'map' && document.querySelector('.curve-line').getAttribute('points') === shares, 'it is not undone');
+  expect(levels.size === 1, 'the curve is not what the picture has');
+  row.value = 'cosine';
+  row.dispatchEvent(new Event('change'));
+  expect(session.settings.merge_limit === null, 'another curve is not used');
+  row.value = 'auto';
+  row.dispatchEvent(new Event('change'));
+  expect(session.settings.merge_limit === 25.6, 'the depth is not used');
+  for (let i = 0; i < 3; i++) session.step(-1);
+  expect(!session.settings.merge_limit && document.querySelector('.curve-line').getAttribute('points') === shares, 'it is not undone');
 }
 
 async function testStudioPhone() {

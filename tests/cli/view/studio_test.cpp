@@ -15,6 +15,7 @@
 #include "ods/camera/stereo_camera.h"
 #include "ods/image/image_file.h"
 #include "ods/image/tone.h"
+#include "tests/support/places.h"
 #include "tests/support/studio_server.h"
 
 using namespace std::chrono_literals;
@@ -75,6 +76,7 @@ TEST_F(StudioCommand, DescribesItsControls) {
 // Thirty changes in quick succession; then the picture equals the output of the command that the page shows.
 TEST_F(StudioCommand, ShowsWhatItsCommandRenders) {
   Json settings = Json::parse(body_of(get("view.json")))["studio"]["settings"];
+  settings["merge_limit"] = nullptr;
   Json answer;
   for (int i = 0; i < 30; i++) {
     settings["sidecar"]["yaw"] = 3 * i;
@@ -109,6 +111,7 @@ class StudioOfAxis : public StudioCommand {
 // Options name files, and the page's camera has its maps with it.
 TEST_F(StudioOfAxis, HasACommandForEveryMergeAndLayout) {
   Json settings = shown()["settings"];
+  settings["merge_limit"] = nullptr;
   settings["width"] = 64;
   const Json map = {{"width", 4}, {"height", 2}, {"values", {0, 0.25, 0.5, 0.75, 1, 0.3, 0.6, 0.9}}};
   settings["sidecar"]["merge_map"] = settings["sidecar"]["head_tilt_map"] = map;
@@ -346,6 +349,68 @@ TEST_F(StudioCommand, KnowsWhereEyesStrain) {
     EXPECT_GT(hot, image.pixels.size() / 50);
     EXPECT_LT(hot, image.pixels.size() * 9 / 10);
   }
+}
+
+// A scene opens with a merge that its depth allows; with the usual merge, the floor strains the eyes.
+class StudioComfort : public StudioServer, public testing::WithParamInterface<const char*> {
+  std::string opened_;
+  const char* scene() const override { return opened_.c_str(); }
+  void SetUp() override {
+    opened_ = GetParam();
+    if (opened_.ends_with(".glb")) opened_ = (std::filesystem::path(shared_scenes()) / opened_).string();
+    StudioServer::SetUp();
+  }
+};
+
+TEST_P(StudioComfort, IsNoErrorAtTheDefaults) {
+  Json settings = shown()["settings"];
+  const auto level_of = [&](const Json& limit) {
+    settings["merge_limit"] = limit;
+    frame_of(asked("set", settings)["revision"], "base", 512);
+    return Json::parse(body_of(get("studio/comfort")))["level"];
+  };
+  EXPECT_EQ(level_of(settings["merge_limit"]), "caution");
+  EXPECT_EQ(level_of(nullptr), "error") << "this test cannot fail";
+}
+
+std::vector<const char*> opened_scenes() {
+  std::vector<const char*> scenes{"toys", "room"};
+  if (std::filesystem::exists(std::filesystem::path(shared_scenes()) / "atrium.glb")) scenes.push_back("atrium.glb");
+  return scenes;
+}
+INSTANTIATE_TEST_SUITE_P(OfScenes, StudioComfort, testing::ValuesIn(opened_scenes()));
+
+// The merge follows the camera, and the command, the saved camera and the frame have the same.
+TEST_F(StudioCommand, MergesByDepthAsItsCommandDoes) {
+  Json settings = shown()["settings"];
+  settings["width"] = 64;
+  std::vector<Json> merges;
+  for (const double height : {1.5, 0.7}) {
+    settings["sidecar"]["position"][1] = height;
+    const Json set = asked("set", settings);
+    const std::string command = set["command"];
+    EXPECT_NE(command.find(" --merge auto "), std::string::npos) << command;
+    EXPECT_EQ(command.find("-map"), std::string::npos) << command;
+    EXPECT_EQ(set["note"], "");
+    const Json shares = frame_of(set["revision"], "base", 128).about["merge"];
+    EXPECT_EQ(asked("save")["file"], "toys.camera.json");
+    ASSERT_EQ(run(command.substr(4) + " -q --samples 1 --noise none --sidecar"), 0) << command << err;
+    const Json saved = Json::parse(folder.read("toys.camera.json"));
+    const Json rendered = Json::parse(folder.read("toys_360_TB.camera.json"));
+    EXPECT_EQ(saved["merge_map"], rendered["merge_map"]);
+    EXPECT_EQ(saved["merge_top"]["mode"], "map");
+    ASSERT_EQ(shares.size(), 180u);
+    EXPECT_NEAR(shares[179], saved["merge_map"]["values"].back(), 0.0006);
+    std::filesystem::remove("toys_360_TB.png");
+    merges.push_back(shares);
+  }
+  EXPECT_LT(merges[1][179], merges[0][179]) << "the ground is nearer";
+  settings["merge_limit"] = 40;
+  const std::string command = asked("set", settings)["command"];
+  EXPECT_NE(command.find(" --merge auto,40 "), std::string::npos) << command;
+  EXPECT_EQ(status_of(post("studio/set", R"({"merge_limit":0})")), 400);
+  const Json dropped = Json::parse(body_of(drop("toys.camera.json", folder.read("toys.camera.json"))));
+  EXPECT_EQ(dropped["settings"]["merge_limit"], nullptr) << "a camera's own merge is not kept";
 }
 
 }  // namespace ods::studio_command_test

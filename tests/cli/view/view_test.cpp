@@ -462,6 +462,7 @@ TEST_F(ViewOptions, AnExportHasATitleAndALanguage) {
                            "<noscript><a href=\"item/0/picture.png\"><img src=\"item/0/poster.jpg\""}) {
     EXPECT_NE(page.find(part), std::string::npos) << part << page;
   }
+  EXPECT_NE(folder.read("site/view.json").find(R"("A\"<b>\"&B")"), std::string::npos) << "visitors see a file's name";
   ASSERT_EQ(run("view -q " + picture + " --export " + site), 0) << err;
   EXPECT_NE(folder.read("site/index.html").find("<title>a_360_TB</title>"), std::string::npos);
   EXPECT_EQ(run("view -q " + picture + " --export " + site + " --lang tlh"), 2);
