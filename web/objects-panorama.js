@@ -227,7 +227,7 @@ export class Stage {
 
   // --- drags -------------------------------------------------------------------------------------------------------------
 
-  // What an eye sees in a direction of the frame: { found, at, from, normal } in the world.
+  // The surface that an eye sees in a direction of the frame: { found, at, from, normal } in the world.
   meet(direction, side) {
     const { gl } = this;
     const { drawer } = this.picture.objects;

@@ -84,7 +84,7 @@ Met met_at(vec3 direction) {
   found.place = found.origin + direction / max(near, 1e-6);
   return found;
 }
-// What is seen in a direction. The normal is that of the texels around: of each axis, those of the nearer side, which are
+// The surface in a direction. The normal is that of the texels around: of each axis, those of the nearer side, which are
 // of the same surface.
 Met met(vec3 direction) {
   direction = normalize(direction);

@@ -24,7 +24,7 @@ StereoCamera camera_of() {
   return stereo;
 }
 
-// Along a ray from the eye, in a room of 6 m; above it is the sky, where there is no ceiling.
+// The distance along a ray from the eye, in a room of 6 m; above it is the sky, where there is no ceiling.
 float distance_of(const Ray& ray, vec3 center, bool has_sky) {
   const vec3 from = ray.origin - center;
   float least = INFINITY;

@@ -4,7 +4,8 @@
 // Real-time objects in a stereo picture with depth, in a browser. testStage(job, tools) runs a part:
 //   { stage: 'vertices', cases: [{ camera, eye, points: [[x, y, z], ...], seen: [[x, y, z], ...] }] } compares the shader's
 //   vertices with the library's; it throws an error with the largest angle where that is above a tenth of a minute of arc.
-//   { stage: 'looks', width, height, objects, looks: [{ name, ...state }] } sends the canvas at each look.
+//   { stage: 'looks', width, height, objects, looks: [{ name, shade, ...state }] } sends the canvas at each
+//   look; from one without `shade` on, nothing is in the shadow.
 //   { stage: 'meets', rays: [{ along, eye, away }] } sends the errors of the picture's distances as meets.json.
 //   { stage: 'drag', ...looks, from, to } drags the object from one position on the page to the other, and sends its place.
 //   { stage: 'wear', ...looks } sends both eyes of a headset.
@@ -126,7 +127,8 @@ const send = async (canvas, name) => ask(`result/${name}`, { method: 'POST', bod
 
 async function looks(job) {
   const viewer = await open(job);
-  for (const { name, moves = false, ...state } of job.looks) {
+  for (const { name, moves = false, shade = true, ...state } of job.looks) {
+    if (!shade) viewer.picture.objects.drawer.shade = () => {};
     viewer.set({ yaw: 0, pitch: 0, fov: 90, mode: 'left', swap: false, shift: 0, ...state });
     viewer.fit();
     viewer.paint(0, { moves });

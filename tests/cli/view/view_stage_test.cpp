@@ -43,7 +43,7 @@ Box box_at(vec3 middle, float half) {
   return {middle - half, middle + half};
 }
 
-// Where a ray comes into a box, or leaves it (is_inside), or INFINITY.
+// Returns the distance at which a ray comes into a box, or leaves it (is_inside), or INFINITY.
 float meet_box(const Ray& ray, const Box& box, bool is_inside = false) {
   float near = 0.0f, far = INFINITY;
   for (int i = 0; i < 3; i++) {
@@ -284,6 +284,36 @@ TEST_F(Stage, OutlinesAgreeWithTheCameraWhereverTheHeadTurns) {
       EXPECT_GT(compare_outline(folder.path(name), 0, other, look["yaw"], look["pitch"]).wrong, 20) << name;
     }
   }
+}
+
+// The floor beside the foot of a cube gets darker, nothing gets brighter, and what is far from all cubes is the same.
+TEST_F(Stage, ShadowsDarkenTheFloorBesideThem) {
+  need_browser();
+  const Json looks = {{{"name", "shaded"}, {"yaw", 20}, {"pitch", -30}},
+                      {{"name", "plain"}, {"yaw", 20}, {"pitch", -30}, {"shade", false}}};
+  ASSERT_EQ(browse(looks_job("looks", looks)), "ok");
+  const Image shaded = part_of_sent(folder.path("shaded"), 0, kView),
+              plain = part_of_sent(folder.path("plain"), 0, kView);
+  const vec3 foot = cubes()[2].at;
+  int darker = 0, far = 0;
+  for (int y = 0; y < kView.height; y++) {
+    for (int x = 0; x < kView.width; x++) {
+      const vec2 at((static_cast<float>(x) + 0.5f) / static_cast<float>(kView.width),
+                    (static_cast<float>(y) + 0.5f) / static_cast<float>(kView.height));
+      const Ray ray = sight(kLeft, view_direction(at, 20, -30, kView));
+      const float after = shaded.at(x, y)[1], before = plain.at(x, y)[1];
+      ASSERT_LE(after, before + 1.5f / 255.0f) << x << " " << y;
+      if (cube_distance(ray) < distance_of(ray) + 0.02f) continue;
+      const vec3 place = ray.origin + distance_of(ray) * ray.direction;
+      darker += after < 0.95f * before && place.y < 0.01f && length(place - foot) < 0.8f;
+      const bool is_far =
+          std::ranges::all_of(cubes(), [&](const Cube& cube) { return length(place - cube.at) > 1.8f; });
+      far += is_far;
+      ASSERT_TRUE(!is_far || std::abs(after - before) < 1.5f / 255.0f) << x << " " << y;
+    }
+  }
+  EXPECT_GT(darker, 50);
+  EXPECT_GT(far, 50);
 }
 
 TEST_F(Stage, SideBySideAndSwappedEyesHaveTheirOwnPlaces) {
