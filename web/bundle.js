@@ -16,7 +16,8 @@ const $script = (file) => new Promise((done, fail) => {
 // Some modules are in separate scripts (ods/view/bundle.h); of a module they are modules, by $bring.
 async function $load(name) {
   if ($modules[name]) return $modules[name];
-  const file = name === 'tour.js' ? 'later-tour' : name.startsWith('translations') ? 'later-words' : 'later';
+  const rare = { 'tour.js': 'later-tour', 'objects-panorama.js': 'later-objects' };
+  const file = rare[name] ?? (name.startsWith('translations') ? 'later-words' : 'later');
   $later[file] ??= (typeof $bring === 'undefined' ? $script(file) : $bring[file]().then(({ later }) => later)).then((later) => later($modules, $load, $base, fetch));
   await $later[file].catch((error) => {
     $later[file] = null; // the next call tries again

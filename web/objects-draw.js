@@ -46,14 +46,14 @@ export function partOf([low, high], { toScreen, at, part: [x, y, width, height],
 const HALVED = [0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0.5, 0.5, 0.5, 1];
 
 export class ObjectsDrawer {
-  // drawer: the scene's. hasFloats: whether textures of halves can be drawn into.
-  constructor(gl, drawer, hasFloats) {
+  // drawer: the scene's. hasFloats: whether textures of halves can be drawn into. shaders: other ones.
+  constructor(gl, drawer, hasFloats, shaders = {}) {
     Object.assign(this, { gl, drawer, format: hasFloats ? gl.RGBA16F : gl.RGBA8, target: gl.createFramebuffer() });
-    const make = (fragment, vertices) => drawer.named(compile(gl, fragment, vertices));
-    this.programs = {
-      object: make(OBJECT, OBJECT_VERTICES(2 * NEAR)), caster: make(CASTER, CASTER_VERTICES), shade: make(SHADE(BIAS), VERTICES),
-      light: make(LIGHT), roughen: make(ROUGHEN),
+    const all = {
+      object: [OBJECT(), OBJECT_VERTICES(2 * NEAR)], caster: [CASTER, CASTER_VERTICES], shade: [SHADE(BIAS), VERTICES],
+      light: [LIGHT()], roughen: [ROUGHEN], ...shaders,
     };
+    this.programs = Object.fromEntries(Object.entries(all).map(([name, texts]) => [name, drawer.named(compile(gl, ...texts))]));
     this.small = new LayeredDrawer(gl, drawer);
   }
 
@@ -163,11 +163,15 @@ export class ObjectsDrawer {
     this.list(object, surfaces, meshes);
   }
 
+  // The box that an object's shadows may darken.
+  within({ light: { sun }, middle, radius, reach }) {
+    const ends = [plus(middle, sun.toward, -(radius + reach[0])), plus(middle, [0, -1, 0], radius + reach[1]), middle];
+    return [Math.min, Math.max].map((pick, side) => middle.map((_, i) => pick(...ends.map((end) => end[i])) + (2 * side - 1) * MARGIN * radius));
+  }
+
   list(object, surfaces, meshes) {
     const { gl } = this;
-    const { light: { sun }, middle, radius, reach } = object;
-    const ends = [plus(middle, sun.toward, -(radius + reach[0])), plus(middle, [0, -1, 0], radius + reach[1]), middle];
-    const within = [Math.min, Math.max].map((pick, side) => middle.map((_, i) => pick(...ends.map((end) => end[i])) + (2 * side - 1) * MARGIN * radius));
+    const within = this.within(object);
     this.freeList(object);
     object.within = within;
     object.darker = surfaces.near(...within).flatMap((indices, i) => {
@@ -186,6 +190,11 @@ export class ObjectsDrawer {
     }
   }
 
+  // Draws a face of what is around an object into the first target of `small`.
+  drawAround(rays, size, object, meshes, middle) {
+    this.small.drawEye(0, meshes, { rays, at: object.middle, middle, part: [0, 0, size, size], alpha: 0 });
+  }
+
   // Draws what an object reflects: the scene from the object's place. middle: of the box.
   reflect(object, meshes, middle) {
     const { gl, small } = this;
@@ -199,7 +208,7 @@ export class ObjectsDrawer {
       gl.viewport(0, 0, MIRROR >> level, MIRROR >> level);
     };
     for (const [face, rays] of FACES.entries()) {
-      small.drawEye(0, meshes, { rays, at: object.middle, middle, part: [0, 0, MIRROR, MIRROR], alpha: 0 });
+      this.drawAround(rays, MIRROR, object, meshes, middle);
       const at = this.use('light');
       gl.uniformMatrix3fv(at.rays, false, rays);
       gl.uniform3fv(at['terms[0]'], object.light.around);
@@ -234,9 +243,7 @@ export class ObjectsDrawer {
     gl.enable(gl.DEPTH_TEST);
     this.shade(objects, view);
     const parts = objects.flatMap((object) => object.parts.map((part) => ({ object, part })));
-    const at = this.use('object');
-    gl.uniformMatrix3fv(at.to_screen, false, view.toScreen);
-    gl.uniform3fv(at.eye, view.at);
+    const at = this.begin(view);
     gl.uniform1i(at.page, 0);
     gl.uniform1i(at.mirror, 1);
     gl.uniform1f(at.levels, LEVELS);
@@ -251,13 +258,22 @@ export class ObjectsDrawer {
     gl.frontFace(gl.CCW);
   }
 
+  // Sets up the program of the objects for a view.
+  begin(view) {
+    const { gl } = this;
+    const at = this.use('object');
+    gl.uniformMatrix3fv(at.to_screen, false, view.toScreen);
+    gl.uniform3fv(at.eye, view.at);
+    return at;
+  }
+
   drawPart(object, part, at) {
     const { gl } = this;
     const { material } = part;
     const matrix = this.matrixOf(part, object);
     this.pose(part, object.pose);
     gl[material.isDouble ? 'disable' : 'enable'](gl.CULL_FACE);
-    gl[material.cutoff ? 'enable' : 'disable'](gl.SAMPLE_ALPHA_TO_COVERAGE);
+    gl[material.cutoff || (this.isCovered && !material.blends) ? 'enable' : 'disable'](gl.SAMPLE_ALPHA_TO_COVERAGE);
     gl.frontFace(turnsOver(matrix) ? gl.CW : gl.CCW);
     this.bind(1, object.mirror ?? null, gl.TEXTURE_CUBE_MAP);
     this.bind(0, part.texture ?? null);
@@ -304,7 +320,7 @@ export class ObjectsDrawer {
     gl.depthMask(true);
   }
 
-  shadeBelow({ darker, maps, matrices, light: { sun, neutral }, radius, reach, spread }, at) {
+  setShade({ matrices, light: { sun, neutral }, radius, reach, spread }, at) {
     const { gl } = this;
     gl.uniformMatrix4fv(at.to_sun, false, matrices[0]);
     gl.uniformMatrix4fv(at.to_above, false, matrices[1]);
@@ -317,6 +333,12 @@ export class ObjectsDrawer {
     gl.uniform2fv(at.spread, spread);
     gl.uniform2f(at.soft, 0.004, 0.4 * radius);
     gl.uniform2fv(at.reach, reach);
+  }
+
+  shadeBelow(object, at) {
+    const { gl } = this;
+    const { darker, maps } = object;
+    this.setShade(object, at);
     this.bind(2, maps[1]);
     this.bind(1, maps[0]);
     for (const { mesh, array, count } of darker) {

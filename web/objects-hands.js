@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Drags objects over the surfaces of a layered scene: an object that is grabbed follows the pointer, standing on what is
+// Drags objects over the surfaces of a layered scene, or of a picture with depth: an object that is grabbed follows the pointer, standing on what is
 // below it or touching the wall behind it. The wheel turns it.
 import { dot, radians } from './geometry.js';
 import { plus, scaled, turned } from './headset-room.js';
@@ -46,6 +46,7 @@ export class Hands {
     if (!direction) return null;
     const side = direction.eye === 'right' ? 1 : 0;
     const shift = radians(viewer.state.shift) / 2;
+    if (picture.stage) return picture.stage.rayOf(raysOf(direction, 1).slice(6, 9), side, shift);
     const along = turned(raysOf(direction, 1).slice(6, 9), picture.about.turn + (side ? shift : -shift));
     return { from: picture.toWorld(picture.eyesOf(viewer.state, raysOf(viewer.state, 1))[side]), along: scaled(along, 1) };
   }

@@ -3,6 +3,8 @@
 //
 // The shaders of real-time objects. Light is linear and exposed: 1 is white but for the tone curve.
 
+const VERSION = '#version 300 es\n';
+
 // ods/image/tone.cpp, and its inverse: the Khronos PBR Neutral tone mapper's, from its specification.
 const TONE = `
 uniform bool neutral;
@@ -60,9 +62,9 @@ void main() {
 
 // Specular light by the split sum (Karis 2013), whose second factor is his fit (Karis 2014, "Physically Based Shading on
 // Mobile"), with the energy that a single scattering loses, as in the renderer (ods/kernel/bsdf.h). Rough surfaces
-// reflect the light of the probes.
-export const OBJECT = `#version 300 es
-precision highp float;
+// reflect the light of the probes. hide: the code that finds the part of a fragment that is seen, where the test of depth
+// does not.
+export const OBJECT = ({ head = VERSION, open = '1.0' } = {}) => `${head}precision highp float;
 uniform vec3 terms[9];
 uniform vec4 base;
 uniform bool has_page;
@@ -97,6 +99,7 @@ void main() {
   float edge = fwidth(color.a);
   if (cutoff > 0.0) color.a = clamp((color.a - cutoff) / max(edge, 0.001) + 0.5, 0.0, 1.0);
   else if (!blends) color.a = 1.0;
+  color.a *= ${open};
 }`;
 
 // --- its shadow ------------------------------------------------------------------------------------------------------
@@ -131,17 +134,13 @@ void main() {
   color = vec4(1.0, height, 1.0 - height, 0.0) * (cutoff > 0.0 ? 1.0 : covers);
 }`;
 
-// The remaining part of the light of a layer's triangles, to be multiplied with what they show. Two maps of what the object
-// covers: seen from the brightest direction, and from above.
-export const SHADE = (bias) => `#version 300 es
-precision highp float;
-uniform sampler2D page;
-uniform float cutoff;
+// The remaining part of the light of a surface, to be multiplied with what it shows. Two maps of what the object covers:
+// seen from the brightest direction, and from above.
+export const SHADOW = (bias) => `
 uniform sampler2D from_sun;
 uniform sampler2D from_above;
 uniform mat4 to_sun;    // from the world to the map and the height, 0..1
 uniform mat4 to_above;
-uniform vec3 eye;
 uniform vec3 toward;    // the sun
 uniform vec3 sun;
 uniform vec3 ambient;
@@ -150,9 +149,6 @@ uniform float deep;     // of their heights, metres
 uniform vec2 spread;    // of the light, a tangent: the sun's, and that from above
 uniform vec2 soft;      // metres by which even what touches is soft
 uniform vec2 reach;     // metres below the object
-in vec2 at;
-in vec3 world;
-out vec4 color;
 ${TONE}
 const int COUNT = 12;
 // Circles of the map that grow with the distance below the object: its edges are as soft as the light is wide.
@@ -175,33 +171,49 @@ float covered(sampler2D map, vec3 place, float spread, float soft, float reach) 
   vec2 margin = smoothstep(vec2(0.5), vec2(0.4), abs(place.xy - 0.5));
   return sum.r / float(COUNT) * below * (1.0 - smoothstep(0.5 * reach, reach, gap)) * margin.x * margin.y;
 }
+vec3 remaining(vec3 shown, vec3 world, vec3 n) {
+  vec3 direct = sun * max(dot(n, toward), 0.0);
+  float hidden = dot(direct, direct) > 0.0 ? covered(from_sun, (to_sun * vec4(world, 1.0)).xyz, spread.x, soft.x, reach.x) : 0.0;
+  float closed = n.y > 0.01 ? 0.9 * n.y * covered(from_above, (to_above * vec4(world, 1.0)).xyz, spread.y, soft.y, reach.y) : 0.0;
+  vec3 rest = (direct * (1.0 - hidden) + ambient * (1.0 - closed)) / (direct + ambient);
+  if (hidden + closed == 0.0) return vec3(1.0);
+  return min(tone(untone(shown) * rest) / max(shown, 1e-4), 1.0);
+}`;
+
+// Of a layer's triangles.
+export const SHADE = (bias) => `#version 300 es
+precision highp float;
+uniform sampler2D page;
+uniform float cutoff;
+uniform vec3 eye;
+in vec2 at;
+in vec3 world;
+out vec4 color;
+${SHADOW(bias)}
 void main() {
   vec4 shown = texture(page, at);
   float edge = fwidth(shown.a);
   vec3 n = normalize(cross(dFdx(world), dFdy(world)));
   n *= dot(n, eye - world) < 0.0 ? -1.0 : 1.0;
-  vec3 direct = sun * max(dot(n, toward), 0.0);
-  float hidden = dot(direct, direct) > 0.0 ? covered(from_sun, (to_sun * vec4(world, 1.0)).xyz, spread.x, soft.x, reach.x) : 0.0;
-  float closed = n.y > 0.01 ? 0.9 * n.y * covered(from_above, (to_above * vec4(world, 1.0)).xyz, spread.y, soft.y, reach.y) : 0.0;
-  vec3 rest = (direct * (1.0 - hidden) + ambient * (1.0 - closed)) / (direct + ambient);
-  color.rgb = min(tone(untone(shown.rgb) * rest) / max(shown.rgb, 1e-4), 1.0);
-  if (hidden + closed == 0.0) color.rgb = vec3(1.0);
+  color.rgb = remaining(shown.rgb, world, n);
   color.a = cutoff > 0.0 ? clamp((shown.a - cutoff) / max(edge, 0.001) + 0.5, 0.0, 1.0) : 1.0;
 }`;
 
 // --- what it reflects ------------------------------------------------------------------------------------------------
 
 // The light of a view of the scene; where there are no triangles, that of the probes.
-export const LIGHT = `#version 300 es
+// decode: of a picture of codes instead.
+export const LIGHT = (decode = '') => `#version 300 es
 precision highp float;
 uniform sampler2D seen;
 uniform mat3 rays;
 uniform vec3 terms[9];
 in vec2 screen;
 out vec4 color;
-${TONE}${HARMONICS}
+${TONE}${HARMONICS}${decode}
 void main() {
   vec4 shown = texelFetch(seen, ivec2(gl_FragCoord.xy), 0);
+  ${decode && 'shown.rgb = decode(shown.rgb);'}
   vec3 around = harmonics(terms, normalize(rays * vec3(screen, 1.0)));
   color = vec4(mix(around, untone(shown.rgb / max(shown.a, 0.001)), shown.a), 1.0);
 }`;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Real-time objects in a layered scene: their places, which keys and drags change and the server keeps, their animation
-// and their light. Loaded with the first scene that has some: an item's `objects`, of view.json, each
+// Real-time objects in a layered scene, or in a picture that is a stage (objects-panorama.js): their places, which keys
+// and drags change and the server keeps, their animation and their light. Loaded with the first one that has some: an item's `objects`, of view.json, each
 //   { file: its address, name, path: of its file for commands, if it is not the name, at: metres, turn: degrees }
 // Places are in the scene's axes; it turns counter-clockwise as seen from above.
 import { clamp, radians } from './geometry.js';
@@ -30,15 +30,21 @@ const wrapped = (angle) => ((angle % 360) + 360) % 360;
 const quoted = (text) => (/^[\w.,/:=+%@-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
 
 export class Objects {
-  // read: of the scene's file: { glb, meshes }, as layered.js has read them.
-  constructor(picture, viewer, { glb, meshes }) {
+  // read: of a layered scene's file: { glb, meshes }, as layered.js has read them.
+  constructor(picture, viewer, read) {
     Object.assign(this, { picture, viewer, all: [], chosen: null, past: [], isStill: matchMedia('(prefers-reduced-motion: reduce)').matches });
+    this.panel = new ObjectsPanel(this);
+    viewer.panorama.canvas.addEventListener('webglcontextlost', () => this.free(), { once: true, signal: picture.heard.signal }); // the next picture has its own
+    if (picture.stage) Object.assign(this, { surfaces: picture.stage, light: picture.stage.light });
+    else this.read(read);
+  }
+
+  read({ glb, meshes }) {
+    const { picture } = this;
     const isSolid = ({ isSky, isBlended }) => !isSky && !isBlended;
     this.solid = picture.meshes.filter(isSolid);
     this.surfaces = new Surfaces(meshes.filter((_, i) => isSolid(picture.meshes[i]))); // in the same order
     picture.read = null; // as large as the file
-    this.panel = new ObjectsPanel(this);
-    viewer.panorama.canvas.addEventListener('webglcontextlost', () => this.free(), { once: true, signal: picture.heard.signal }); // the next picture has its own
     try {
       this.light = readLight(glb);
     } catch (error) {
@@ -54,7 +60,7 @@ export class Objects {
 
   async load() {
     const { picture, picture: { gl, drawer, panorama, item, heard: { signal } } } = this;
-    this.drawer = new ObjectsDrawer(gl, drawer, panorama.hasLight);
+    this.drawer = picture.stage?.makeDrawer() ?? new ObjectsDrawer(gl, drawer, panorama.hasLight);
     for (const info of item.objects) {
       try {
         await this.open(info, signal);
@@ -72,7 +78,7 @@ export class Objects {
   }
 
   async open(info, signal) {
-    const { picture: { gl, base } } = this;
+    const { picture, picture: { gl, base } } = this;
     const blob = await download(new URL(info.file, base ?? location.href), info.name, signal);
     const file = readObject(await blob.arrayBuffer());
     const numbers = [...new Set(file.parts.map(({ material: { image } }) => image).filter((image) => image !== undefined))];
@@ -82,6 +88,7 @@ export class Objects {
     if (signal.aborted || this.isFree) return sources.forEach((source) => source.close());
     const textures = new Map(numbers.map((image, i) => [image, textureOf(gl, sources[i], { levels: 16, wrap: gl.REPEAT })]));
     sources.forEach((source) => source.close());
+    picture.stage?.prepare(file);
     const { low, high } = file;
     const size = Math.max(Math.hypot(...plus(high, low, -1)) / 2, 0.01) * 1.01;
     const object = {
@@ -108,6 +115,8 @@ export class Objects {
     object.middle = transformed(object.matrix, low.map((value, i) => (value + high[i]) / 2));
     this.lit(object);
     object.isCast = object.isCalm = false;
+    const fault = this.picture.stage?.faultOf(object);
+    if (fault) this.complain(fault);
   }
 
   lit(object) {
@@ -160,13 +169,15 @@ export class Objects {
   // The parts of the command that renders this, an option each.
   command() {
     const { item, about: { center, turn } } = this.picture;
-    const scene = item.scene ?? item.name;
+    const { camera, stage } = this.picture;
+    const scene = item.scene ?? (stage ? 'SCENE' : item.name);
+    const apart = stage && Math.abs(camera.ipd - 0.065) > 1e-5;
     const place = (list) => list.map((value) => round(value, 3)).join();
     const yaw = round((turn * 180) / Math.PI, 2);
     return [
-      `ods render ${quoted(scene)}`, `--position ${place(center)}`, ...(yaw ? [`--yaw ${yaw}`] : []),
+      `ods render ${quoted(scene)}`, `--position ${place(center)}`, ...(yaw ? [`--yaw ${yaw}`] : []), ...(apart ? [`--ipd ${round(camera.ipd, 5)}`] : []),
       ...item.objects.flatMap(({ name, path, at, turn: own }) => [`--with ${quoted(path ?? name)}`, `--at ${place(at)}`, ...(own ? [`--turn ${own}`] : [])]),
-      `-o ${quoted(`${scene.replace(/^.*[/\\]/, '').replace(/\.\w+$/, '')}_360_TB.png`)}`,
+      `-o ${quoted(`${(stage ? 'with' : scene).replace(/^.*[/\\]/, '').replace(/\.\w+$/, '')}_360_TB.png`)}`,
     ];
   }
 

@@ -114,11 +114,15 @@ void write_site(const std::vector<ViewItem>& items, const PageTexts& texts, cons
       files.push_back(fallback_file(items[i], i));
       copy_file(items[i].fallback, folder + "/" + files.back());
     }
+    write_pictures(items[i], i, files, folder);
     for (size_t k = 0; k < items[i].objects.size(); k++) {
       files.push_back(ods::object_file(i, k));
       ods::write_file(folder + "/" + files.back(), *items[i].objects[k].glb);
     }
-    write_pictures(items[i], i, files, folder);
+    if (items[i].stage) {
+      files.push_back(ods::item_file(i, ods::kDepthFile));
+      ods::write_file(folder + "/" + files.back(), items[i].stage->depth_png);
+    }
     if (has_preview(items[i], false)) {
       files.push_back(ods::item_file(i, ods::kPreviewFile));
       ods::write_file(folder + "/" + files.back(), preview_jpeg(items[i]));

@@ -9,6 +9,7 @@
 
 #include "cli/console/console.h"
 #include "ods/base/error.h"
+#include "ods/convert/reproject.h"
 #include "ods/view/objects/object_file.h"
 
 using ods::ViewItem;
@@ -29,8 +30,37 @@ ods::ViewObject open_placed(const ods::Placement& placement) {
   return object;
 }
 
-void add_kept(ViewItem& item) {
-  for (const ods::Placement& placement : ods::read_placements(item.path)) {
+bool shows_picture(const ViewItem& item) {
+  return item.kind == ods::ItemKind::kPicture;
+}
+
+// A picture gets its stage.
+void give_stage(ViewItem& item, const DepthInput& depth) {
+  if (!shows_picture(item)) return;
+  ods::OpenOptions open;
+  open.format = item.known;
+  ods::StoredPicture picture = ods::open_picture(item.path, open);
+  if (!depth.path.empty()) give_depth(depth, picture);
+  if (!ods::depth_layer(picture)) {
+    throw UsageError(fmt::format(
+        "'{}' has no depth, which --with needs: render it as .exr with depth, or add --depth FILE", item.path));
+  }
+  if (!picture.is_float) {
+    note(fmt::format("'{}' has no light above white: its objects are lit by what it shows, lamps are too weak",
+                     item.path));
+  }
+  item.stage = std::make_shared<const ods::PictureStage>(ods::make_stage(picture));
+}
+
+void add_kept(ViewItem& item, const DepthInput& depth) {
+  const std::vector<ods::Placement> kept = ods::read_placements(item.path);
+  if (kept.empty()) return;
+  try {
+    give_stage(item, depth);
+  } catch (const UsageError& error) {
+    return warn(fmt::format("'{}' is left out: {}", ods::placements_path(item.path), error.what()));
+  }
+  for (const ods::Placement& placement : kept) {
     try {
       item.objects.push_back(open_placed(placement));
     } catch (const ods::Error& error) {
@@ -42,23 +72,34 @@ void add_kept(ViewItem& item) {
 
 }  // namespace
 
-void add_objects(const ObjectOptions& options, std::vector<ViewItem>& items) {
+void add_objects(const ObjectOptions& options, const DepthInput& depth, std::vector<ViewItem>& items) {
   const std::vector<PlacedObject> placed = placed_objects(options);
+  const auto check_depth = [&] {
+    if (depth.path.empty() || std::ranges::any_of(items, [](const ViewItem& item) { return item.stage != nullptr; }))
+      return;
+    throw UsageError("--depth is for objects in a picture: add --with FILE");
+  };
   if (placed.empty()) {
     for (ViewItem& item : items) {
-      if (shows_layers(item)) add_kept(item);
+      if (shows_layers(item) || shows_picture(item)) add_kept(item, depth);
     }
-    return;
+    return check_depth();
   }
   if (placed.size() > ods::kMaxPlacements) {
     throw UsageError(fmt::format("--with: at most {} objects", ods::kMaxPlacements));
   }
-  if (std::ranges::count_if(items, shows_layers) != 1) {
+  const bool has_layers = std::ranges::any_of(items, shows_layers);
+  const auto holds = has_layers ? shows_layers : shows_picture;
+  if (std::ranges::count_if(items, holds) != 1) {
     throw UsageError(
-        "--with puts objects into one layered scene, which ods layers makes: ods view scene.layers.glb --with FILE");
+        "--with puts objects into one layered scene, which ods layers makes, or into one picture with depth: "
+        "ods view scene.layers.glb --with FILE");
   }
-  ViewItem& item = *std::ranges::find_if(items, shows_layers);
+  ViewItem& item = *std::ranges::find_if(items, holds);
+  give_stage(item, depth);
+  check_depth();
+  const ods::vec3 ahead = item.stage ? item.stage->ahead : item.ahead;
   for (const PlacedObject& object : placed) {
-    item.objects.push_back(open_placed({object.file, object.at.value_or(item.ahead), object.turn}));
+    item.objects.push_back(open_placed({object.file, object.at.value_or(ahead), object.turn}));
   }
 }

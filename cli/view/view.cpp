@@ -91,7 +91,7 @@ void view(ViewJob job) {
   find_tour(job);
   find_scene(job);
   if (!job.scene.empty() && !job.objects.files.empty()) {
-    throw UsageError("--with is for a layered scene, which ods layers makes of a scene");
+    throw UsageError("--with is for a layered scene, which ods layers makes of a scene, and for a picture with depth");
   }
   if (job.folder.empty()) return serve(job);
   announce_file(export_site(open_items(job), job.folder, job.texts, job.tour ? &*job.tour : nullptr));

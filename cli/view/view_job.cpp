@@ -32,6 +32,7 @@ constexpr const char* kViewExamples =
     "  ods view scene.glb                        the studio: the scene, rendered while you look\n"
     "  ods view scene.layers.glb                 a layered scene, in which the head moves\n"
     "  ods view scene.layers.glb --with robot.glb --at 0.4,0,-1\n"
+    "  ods view picture_360_TB.exr --with robot.glb --at 0.4,0,-1   a picture with depth\n"
     "  ods view tour.json                        panoramas with ways between them, a compass and a plan\n"
     "  ods view picture_360_TB.png --export site/ --title \"The harbour\" --lang de";
 
@@ -114,8 +115,9 @@ ViewJob parse_view(Options& options) {
   options.arguments(
       ValueKind::input_file("FILE"), job.paths,
       "pictures, videos, layered scenes, and folders of them (%V in a name: one file per eye), or a scene, or a tour");
-  options.group("Objects in a layered scene");
-  add_object_options(options, job.objects, "the layered scene");
+  options.group("Objects in a layered scene, or in a picture with depth");
+  add_object_options(options, job.objects, "the layered scene or the picture");
+  add_depth_options(options, job.depth);
   options.group("Input, if it is not detected");
   add_input_layout_option(options, job.known.layout, "how both eyes share the file");
   options.custom(
@@ -150,6 +152,7 @@ ViewJob parse_view(Options& options) {
     throw UsageError(fmt::format("--lang must be one of {}", fmt::join(languages, ", ")));
   }
   placed_objects(job.objects);
+  if (job.depth.path.empty()) options.refuse(depth_option_names(), "goes with --depth FILE");
   finish_lens_options(job.known);
   job.browser = !stay;
   return job;
@@ -193,7 +196,7 @@ std::vector<ViewItem> open_items(const ViewJob& job) {
       note_guesses(items.back());
     }
   }
-  add_objects(job.objects, items);
+  add_objects(job.objects, job.depth, items);
   if (items.size() == 1 && !job.texts.title.empty()) items[0].title = job.texts.title;  // instead of its file's name
   if (!job.tour) return items;
   if (items.size() != job.tour->panoramas.size()) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/console/options.h"
+#include "cli/convert/depth_input.h"
 #include "cli/options/scene_source.h"
 #include "cli/view/export_site.h"
 #include "ods/view/view_item.h"
@@ -15,7 +16,8 @@
 struct ViewJob {
   std::vector<std::string> paths;
   std::string scene;              // for the studio; empty: none
-  ObjectOptions objects;          // put into the layered scene
+  ObjectOptions objects;          // put into the layered scene, or the picture
+  DepthInput depth;               // of the picture
   std::optional<ods::Tour> tour;  // of which the paths are the panoramas
   ods::FormatHint known;
   std::string folder;  // to export to; empty: serve

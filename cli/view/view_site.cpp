@@ -142,6 +142,9 @@ WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
   if (!item.fallback.empty() && path == fallback_file(item, *number)) {
     return {.type = std::string(ods::media_type(path)), .file = item.fallback};
   }
+  if (item.stage && path == ods::item_file(*number, ods::kDepthFile)) {
+    return {.type = std::string(ods::media_type(path)), .body = item.stage->depth_png};
+  }
   for (size_t i = 0; i < item.objects.size(); i++) {
     if (path != ods::object_file(*number, i)) continue;
     return {.type = std::string(ods::media_type(path)), .body = *item.objects[i].glb};

@@ -55,16 +55,18 @@ bool is_left_out(std::string_view name, PageHost host) {
   return name == "share.js" && host == PageHost::kFolder;
 }
 
-// The modules that few pages need: each is in a later script, with the modules that only it imports; of a server, layered
-// scenes are with the rest.
-constexpr std::string_view kLayered = "layered.js", kTour = "tour.js", kTranslate = "translate.js";
+// The modules that few pages need: in a folder, each is in a later script, with the modules that only it imports; of a
+// server, all but layered scenes are.
+constexpr std::string_view kLayered = "layered.js", kObjects = "objects.js", kTour = "tour.js",
+                           kStage = "objects-panorama.js", kTranslate = "translate.js";
 
 std::vector<std::string> translations() {
   return names_in(std::string(find_page_file(kTranslate)->data), kLazyImport, 1);
 }
 
 bool is_rare(std::string_view name, PageHost host) {
-  if (name == kTour || (name == kLayered && host == PageHost::kFolder)) return true;
+  const bool is_scene = name == kLayered || name == kObjects;
+  if (name == kTour || name == kStage || (is_scene && host == PageHost::kFolder)) return true;
   const std::vector<std::string> words = translations();
   return std::ranges::find(words, name) != words.end();
 }
@@ -122,7 +124,7 @@ std::string bundle(const std::string& entry, PageHost host, ScriptKind kind) {
   const char* const import_later =
       all.has_rare
           ? "const $bring = { later: () => import('./later.mjs'), 'later-tour': () => import('./later-tour.mjs'), "
-            "'later-words': () => import('./later-words.mjs') };\n"
+            "'later-words': () => import('./later-words.mjs'), 'later-objects': () => import('./later-objects.mjs') };\n"
           : "";
   return fmt::format("{}const $base = import.meta.url;\n{}{}export const {{ {} }} = $modules['{}'];\n", kNotice,
                      import_later, script, exported, entry);
@@ -130,17 +132,22 @@ std::string bundle(const std::string& entry, PageHost host, ScriptKind kind) {
 
 std::string bundle_later(std::string_view name, PageHost host, ScriptKind kind) {
   if (std::ranges::find(kLaterScripts, name) == std::end(kLaterScripts)) return "";
-  const bool has_rest = name == kLaterScripts[0], is_folder = host == PageHost::kFolder;
+  const bool has_rest = name == kLaterScripts[0], is_stage = name == kLaterScripts[3];
+  const bool is_folder = host == PageHost::kFolder;
   Modules modules = first_of("main.js", host);
   if (is_folder) add_later(host, modules);
   modules.script.clear();
-  if (!has_rest) modules.later.clear();
+  if (!has_rest && !is_stage) modules.later.clear();
   if (name == kLaterScripts[1]) add(std::string(kTour), host, modules);
   if (name == kLaterScripts[2]) {
     for (const std::string& language : translations()) add(language, host, modules);
   }
-  if (has_rest && is_folder) add(std::string(kLayered), host, modules);
+  if ((has_rest || is_stage) && is_folder) {
+    add(std::string(kLayered), host, modules);
+    add(std::string(kObjects), host, modules);
+  }
   add_later(host, modules);
+  if (is_stage) modules.script.clear(), add(std::string(kStage), host, modules);
   return fmt::format("{}{} = ($modules, $load, $base, fetch) => {{\n'use strict';\n{}}};\n", kNotice,
                      kind == ScriptKind::kModule ? "export const later" : "window.omnistereoLater", modules.script);
 }

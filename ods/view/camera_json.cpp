@@ -43,8 +43,8 @@ static Json projection_json(const Projection& projection) {
           {"lens_back", numbers(projection.lens_back)}};
 }
 
-Json camera_json(const Camera& camera) {
-  const bool has_toe_in = camera.convergence == kToeIn;
+Json camera_json(const Camera& camera, bool has_points) {
+  const bool has_maps = has_points || camera.convergence == kToeIn;
   return {{"axis", numbers(camera.axis)},
           {"ipd", camera.ipd},
           {"neck", camera.neck},
@@ -53,8 +53,8 @@ Json camera_json(const Camera& camera) {
           {"top", merge_json(camera.top)},
           {"bottom", merge_json(camera.bottom)},
           {"projection", projection_json(camera.projection)},
-          {"merge_map", map_json(camera.merge_map, camera.merge_texels, has_toe_in)},
-          {"head_tilt_map", map_json(camera.head_tilt_map, camera.head_tilt_texels, has_toe_in)},
+          {"merge_map", map_json(camera.merge_map, camera.merge_texels, has_maps)},
+          {"head_tilt_map", map_json(camera.head_tilt_map, camera.head_tilt_texels, has_maps)},
           {"texel_rays", map_json(camera.texel_rays, nullptr, false)}};  // none; three.js wants every member
 }
 

@@ -10,7 +10,7 @@
 namespace ods {
 
 // Omits the pose: the page shows a panorama in the camera's own frame. Texels of maps are included, row by row,
-// only if the place of a line of sight depends on them: with toe-in.
-Json camera_json(const Camera& camera);
+// only if the place of a line of sight depends on them, with toe-in, or if places of points are wanted.
+Json camera_json(const Camera& camera, bool has_points = false);
 
 }  // namespace ods

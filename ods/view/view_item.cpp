@@ -201,14 +201,15 @@ static Json item_json(const ViewItem& item, size_t index, bool is_live) {
   if (item.kind == ItemKind::kLayers) {
     json["fallback"] = item.fallback.empty() ? Json() : Json(fallback_file(item, index));
     if (!item.scene.empty()) json["scene"] = item.scene;
-    json["objects"] = objects_json(item, index);
   }
+  if (item.kind == ItemKind::kLayers || item.stage) json["objects"] = objects_json(item, index);
+  if (item.stage) json["stage"] = stage_json(*item.stage, item.picture.camera, item_file(index, kDepthFile));
   if (has_stills(item)) json["thumbnail"] = item_file(index, kThumbnailFile);
   if (has_preview(item, is_live)) json["preview"] = item_file(index, kPreviewFile);
   json["layout"] = is_mono ? "mono" : layout_name(item.picture.layout);
   json["layout_reason"] = item.picture.layout_reason;
   json["projection"] = projection_name(item.picture.camera.projection);
-  json["camera"] = camera_json(make_camera(item.picture.camera));
+  json["camera"] = camera_json(make_camera(item.picture.camera), item.stage != nullptr);
   json["size"] = {item.picture.size.width, item.picture.size.height};
   json["notes"] = item.picture.guesses;
   json["live"] = item.is_light;

@@ -14,6 +14,7 @@
 #include "ods/image/tone.h"
 #include "ods/picture/stored_picture.h"
 #include "ods/view/beside.h"
+#include "ods/view/picture_stage.h"
 #include "ods/view/placements.h"
 #include "ods/view/tour.h"
 
@@ -24,7 +25,7 @@ inline constexpr NameRow<ItemKind> kItemKindTable[] = {
     {ItemKind::kPicture, "picture"}, {ItemKind::kVideo, "video"}, {ItemKind::kLayers, "layers"}};
 static_assert(has_every_member(kItemKindTable));
 
-// A real-time object in a layered scene.
+// A real-time object in a layered scene, or in a picture with depth.
 struct ViewObject {
   Placement placement;
   std::string name;                        // for people: the file's name without its folder
@@ -37,10 +38,11 @@ struct ViewItem {
   std::string fallback;  // of a layered scene: the path of the picture that is shown outside its box; empty for none
   std::string scene;     // of a layered scene: the name of the scene that was baked; empty if unknown
   vec3 ahead{0.0f};      // of a layered scene: the place for an object that has none
-  std::vector<ViewObject> objects;  // of a layered scene; the caller adds them
-  std::string name;                 // for people: the file's name without its folder
-  std::string title;                // in a tour, instead of the name
-  bool is_light = false;            // scene-linear: shown with an exposure and a tone curve
+  std::vector<ViewObject> objects;  // the caller adds them, and to a picture the stage on which they are
+  std::shared_ptr<const PictureStage> stage;
+  std::string name;           // for people: the file's name without its folder
+  std::string title;          // in a tour, instead of the name
+  bool is_light = false;      // scene-linear: shown with an exposure and a tone curve
   bool has_own_file = false;  // browsers read the file itself and divide it into eyes; else each eye is sent as a JPEG
   FormatHint known;           // the format as far as the caller specified it
   StoredPicture picture;      // its header, or the fallback's; with its pixels only if they were decoded before and the

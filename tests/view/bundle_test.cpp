@@ -128,6 +128,20 @@ TEST(Bundle, AFolderHasTheCodeOfLayeredScenesApart) {
             std::string::npos);
 }
 
+// Few pages have objects in pictures. Their script comes after later.js, from which it imports.
+TEST(Bundle, ObjectsInPicturesAreApart) {
+  for (const PageHost host : {PageHost::kFolder, PageHost::kView, PageHost::kStudio}) {
+    const std::string script = bundle_later("later-objects.js", host);
+    std::set<std::string> known = modules_in(script);
+    EXPECT_EQ(known, (std::set<std::string>{"objects-panorama.js", "objects-split.js", "objects-stage-shaders.js"}));
+    EXPECT_FALSE(modules_in(bundle("main.js", host)).contains("objects-panorama.js"));
+    const std::set<std::string> later = modules_in(bundle_later("later.js", host));
+    EXPECT_FALSE(later.contains("objects-panorama.js"));
+    known.insert(later.begin(), later.end());
+    expect_known(script, known, host);
+  }
+}
+
 // The imports of a module are made before it.
 TEST(Bundle, ModulesComeBehindWhatTheyImport) {
   const std::string script = bundle("main.js");

@@ -12,7 +12,8 @@
 // A job with `headset` shows its looks in an emulated headset instead; both eyes are sent, side by side. Its looks may
 // have `press` and `stick`: what a hand does to its controller first. The job { studio: true } runs studio-test.js instead,
 // { page: NAME } a test of page-test.js, { panel: NAME } a part of headset-test.js, { layered: NAME } one of
-// layered-test.js, { objects: NAME } one of objects-test.js, { tour: NAME } one of tour-test.js.
+// layered-test.js, { objects: NAME } one of objects-test.js, { tour: NAME } one of tour-test.js, and
+// { stage: NAME } one of stage-test.js.
 import { Headset } from './headset.js';
 import { Pace } from './pace.js';
 import { Panorama, compile, raysOf } from './panorama.js';
@@ -280,6 +281,7 @@ async function run() {
   if (jobs[0]?.panel) return (await import('./headset-test.js')).testHeadset(jobs[0].panel);
   if (jobs[0]?.layered) return (await import('./layered-test.js')).testLayered(jobs[0]);
   if (jobs[0]?.tour) return (await import('./tour-test.js')).testTour(jobs[0].tour);
+  if (jobs[0]?.stage) return (await import('./stage-test.js')).testStage(jobs[0]);
   if (jobs[0]?.objects) return (await import('./objects-test.js')).testObjects(jobs[0]);
   if (jobs[0]?.studio) return (await import('./studio-test.js')).testStudio();
   const view = await json('view.json');

@@ -408,7 +408,7 @@ TEST_F(LayeredView, TheServerKeepsThePlacesOfObjects) {
   folder.write("robot.glb", text_of(make_triangle().glb()));
   items.push_back(open_view_item(path));
   ObjectOptions options{{folder.path("robot.glb"), "toys"}, {"1,2,3", "4,5,6"}, {"30", "0"}};
-  add_objects(options, items);
+  add_objects(options, {}, items);
   ViewSite site(items, {});
   const auto get = [&](const std::string& name) { return site.answer({false, name, {}, "", ""}); };
   const auto objects = [&] { return nlohmann::json::parse(get("view.json").body)["items"][0]["objects"]; };
@@ -438,11 +438,11 @@ TEST_F(LayeredView, TheServerKeepsThePlacesOfObjects) {
   EXPECT_NE(err.find("left out"), std::string::npos) << err;
 }
 
-TEST_F(LayeredView, ObjectsNeedALayeredScene) {
+TEST_F(LayeredView, ObjectsNeedALayeredSceneOrAPictureWithDepth) {
   save_fallback("room_360_TB.png");
   const std::string path = add("room.layers.glb", Storage::kFloats), end = " --export " + folder.path("site");
   EXPECT_EQ(run("view " + folder.path("room_360_TB.png") + " --with toys --at 1,2,3" + end), 2);
-  EXPECT_NE(err.find("layered scene"), std::string::npos) << err;
+  EXPECT_NE(err.find("has no depth"), std::string::npos) << err;
   EXPECT_EQ(run("view " + path + " --with toys --at 1,2,3 --at 4,5,6" + end), 2);
   EXPECT_NE(err.find("--at is given 2 times and --with 1 times"), std::string::npos) << err;
   EXPECT_EQ(run("view " + path + " --with toys --at 1,2" + end), 2);

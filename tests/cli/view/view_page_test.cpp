@@ -289,11 +289,12 @@ TEST(Page, IsSmallOnTheWire) {
                studio = size_of(bundle("main.js", PageHost::kStudio), studios),
                later = size_of(bundle_later("later.js", PageHost::kStudio), {}),
                tour = size_of(bundle_later("later-tour.js", PageHost::kStudio), {}),
-               words = size_of(bundle_later("later-words.js", PageHost::kFolder), {});
+               words = size_of(bundle_later("later-words.js", PageHost::kFolder), {}),
+               objects = size_of(bundle_later("later-objects.js", PageHost::kStudio), {});
   fmt::print(
       "gzipped: page {} bytes, element {}, page of ods view {}, studio {}, what each loads later {}, for tours {}, "
-      "other languages {}\n",
-      page, element, view, studio, later, tour, words);
+      "other languages {}, for objects in pictures {}\n",
+      page, element, view, studio, later, tour, words, objects);
   EXPECT_LE(page, 70'000u);
   EXPECT_LE(element, 70'000u);
   EXPECT_LE(view, 43'000u);
@@ -301,6 +302,7 @@ TEST(Page, IsSmallOnTheWire) {
   EXPECT_LE(later, 55'000u);  // layered scenes need 8,000 of them, objects in them 17,000
   EXPECT_LE(tour, 12'000u);
   EXPECT_LE(words, 9'000u);
+  EXPECT_LE(objects, 9'000u);
 }
 
 }  // namespace ods::page_browser_test
