@@ -124,7 +124,8 @@ std::string bundle(const std::string& entry, PageHost host, ScriptKind kind) {
   const char* const import_later =
       all.has_rare
           ? "const $bring = { later: () => import('./later.mjs'), 'later-tour': () => import('./later-tour.mjs'), "
-            "'later-words': () => import('./later-words.mjs'), 'later-objects': () => import('./later-objects.mjs') };\n"
+            "'later-words': () => import('./later-words.mjs'), "
+            "'later-objects': () => import('./later-objects.mjs') };\n"
           : "";
   return fmt::format("{}const $base = import.meta.url;\n{}{}export const {{ {} }} = $modules['{}'];\n", kNotice,
                      import_later, script, exported, entry);

@@ -21,8 +21,8 @@ enum class ScriptKind { kClassic, kModule };
 std::string bundle(const std::string& entry, PageHost host = PageHost::kFolder, ScriptKind kind = ScriptKind::kClassic);
 
 // In a folder, later.js has what only layered scenes need; a server's has all but the code for the first view. The
-// second one has hotspots and tours, the third one the texts in other languages than English. The fourth one has objects
-// in pictures, and imports from the first one, which the page loads before it.
+// second one has hotspots and tours, the third one the texts in other languages than English. The fourth one has
+// objects in pictures, and imports from the first one, which the page loads before it.
 inline constexpr std::string_view kLaterScripts[] = {"later.js", "later-tour.js", "later-words.js", "later-objects.js"};
 
 // Returns the text of one of kLaterScripts, which the scripts of a host load; empty for any other name.
