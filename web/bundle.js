@@ -16,7 +16,7 @@ const $script = (file) => new Promise((done, fail) => {
 // Some modules are in separate scripts (ods/view/bundle.h); of a module they are modules, by $bring.
 async function $load(name) {
   if ($modules[name]) return $modules[name];
-  const file = name === 'tour.js' ? 'later-tour' : 'later';
+  const file = { 'tour.js': 'later-tour', 'layered-film.js': 'later-film' }[name] ?? 'later';
   $later[file] ??= (typeof $bring === 'undefined' ? $script(file) : $bring[file]().then(({ later }) => later)).then((later) => later($modules, $load, $base, fetch));
   await $later[file].catch((error) => {
     $later[file] = null; // the next call tries again

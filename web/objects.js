@@ -33,7 +33,7 @@ export class Objects {
   // read: of the scene's file: { glb, meshes }, as layered.js has read them.
   constructor(picture, viewer, { glb, meshes }) {
     Object.assign(this, { picture, viewer, all: [], chosen: null, past: [], isStill: matchMedia('(prefers-reduced-motion: reduce)').matches });
-    const isSolid = ({ isSky, isBlended }) => !isSky && !isBlended;
+    const isSolid = ({ isSky, isBlended, lights }) => !isSky && !isBlended && !lights;
     this.solid = picture.meshes.filter(isSolid);
     this.surfaces = new Surfaces(meshes.filter((_, i) => isSolid(picture.meshes[i]))); // in the same order
     picture.read = null; // as large as the file

@@ -56,11 +56,11 @@ bool is_left_out(std::string_view name, PageHost host) {
 }
 
 // The modules that few pages need: in a folder, each is in a later script, with the modules that only it imports; of a
-// server, the tour is.
-constexpr std::string_view kLayered = "layered.js", kTour = "tour.js";
+// server, the tour is, and films.
+constexpr std::string_view kLayered = "layered.js", kTour = "tour.js", kFilm = "layered-film.js";
 
 bool is_rare(std::string_view name, PageHost host) {
-  return name == kTour || (name == kLayered && host == PageHost::kFolder);
+  return name == kTour || name == kFilm || (name == kLayered && host == PageHost::kFolder);
 }
 
 struct Modules {
@@ -115,7 +115,8 @@ std::string bundle(const std::string& entry, PageHost host, ScriptKind kind) {
       fmt::format("{}", fmt::join(names_in(std::string(find_page_file(entry)->data), kExport, 3), ", "));
   const char* const import_later =
       all.has_rare
-          ? "const $bring = { later: () => import('./later.mjs'), 'later-tour': () => import('./later-tour.mjs') };\n"
+          ? "const $bring = { later: () => import('./later.mjs'), 'later-tour': () => import('./later-tour.mjs'),"
+            " 'later-film': () => import('./later-film.mjs') };\n"
           : "";
   return fmt::format("{}const $base = import.meta.url;\n{}{}export const {{ {} }} = $modules['{}'];\n", kNotice,
                      import_later, script, exported, entry);
@@ -123,12 +124,14 @@ std::string bundle(const std::string& entry, PageHost host, ScriptKind kind) {
 
 std::string bundle_later(std::string_view name, PageHost host, ScriptKind kind) {
   if (std::ranges::find(kLaterScripts, name) == std::end(kLaterScripts)) return "";
-  const bool is_tour = name == kLaterScripts[1], is_folder = host == PageHost::kFolder;
+  const bool is_tour = name == kLaterScripts[1], is_film = name == kLaterScripts[2];
+  const bool is_folder = host == PageHost::kFolder;
   Modules modules = first_of("main.js", host);
-  if (is_folder) add_later(host, modules);
+  if (is_folder || is_film) add_later(host, modules);
+  if (is_film && is_folder) add(std::string(kLayered), host, modules), add_later(host, modules);
   modules.script.clear();
-  if (is_tour) modules.later.clear();
-  if (is_tour || is_folder) add(std::string(is_tour ? kTour : kLayered), host, modules);
+  if (is_tour || is_film) modules.later.clear();
+  if (is_tour || is_film || is_folder) add(std::string(is_tour ? kTour : is_film ? kFilm : kLayered), host, modules);
   add_later(host, modules);
   return fmt::format("{}{} = ($modules, $load, $base, fetch) => {{\n'use strict';\n{}}};\n", kNotice,
                      kind == ScriptKind::kModule ? "export const later" : "window.omnistereoLater", modules.script);

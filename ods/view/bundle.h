@@ -21,8 +21,8 @@ enum class ScriptKind { kClassic, kModule };
 std::string bundle(const std::string& entry, PageHost host = PageHost::kFolder, ScriptKind kind = ScriptKind::kClassic);
 
 // In a folder, later.js has what only layered scenes need; a server's has all but the code for the first view. The
-// other one has hotspots and tours.
-inline constexpr std::string_view kLaterScripts[] = {"later.js", "later-tour.js"};
+// others have hotspots and tours, and films of layered scenes, which need that one.
+inline constexpr std::string_view kLaterScripts[] = {"later.js", "later-tour.js", "later-film.js"};
 
 // Returns the text of one of kLaterScripts, which the scripts of a host load; empty for any other name.
 std::string bundle_later(std::string_view name, PageHost host, ScriptKind kind = ScriptKind::kClassic);
