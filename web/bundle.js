@@ -16,7 +16,7 @@ const $script = (file) => new Promise((done, fail) => {
 // Some modules are in separate scripts (ods/view/bundle.h); of a module they are modules, by $bring.
 async function $load(name) {
   if ($modules[name]) return $modules[name];
-  const rare = { 'tour.js': 'later-tour', 'objects-panorama.js': 'later-objects' };
+  const rare = { 'tour.js': 'later-tour', 'objects-panorama.js': 'later-objects', 'layered-film.js': 'later-film' };
   const file = rare[name] ?? (name.startsWith('translations') ? 'later-words' : 'later');
   $later[file] ??= (typeof $bring === 'undefined' ? $script(file) : $bring[file]().then(({ later }) => later)).then((later) => later($modules, $load, $base, fetch));
   await $later[file].catch((error) => {

@@ -16,7 +16,7 @@ const isCount = (value) => Number.isInteger(value) && value >= 0 && value < 2 **
 // The matrices are given by columns.
 export const multiplied = (a, b) => IDENTITY.map((_, i) => [0, 1, 2, 3].reduce((sum, k) => sum + a[4 * k + (i % 4)] * b[4 * Math.floor(i / 4) + k], 0));
 
-function matrixOf({ matrix, translation: t = [0, 0, 0], rotation: [x, y, z, w] = [0, 0, 0, 1], scale: s = [1, 1, 1] }) {
+export function matrixOf({ matrix, translation: t = [0, 0, 0], rotation: [x, y, z, w] = [0, 0, 0, 1], scale: s = [1, 1, 1] }) {
   if (matrix) return matrix;
   const rows = [
     [1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)],
@@ -24,6 +24,14 @@ function matrixOf({ matrix, translation: t = [0, 0, 0], rotation: [x, y, z, w] =
     [2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)],
   ];
   return [...rows.flatMap((row, i) => [...row.map((value) => value * s[i]), 0]), ...t, 1];
+}
+
+// The bytes of an accessor's elements, without what is between them.
+export function packed({ bytes, offset, stride, size, count }) {
+  if (stride === size) return bytes.slice(offset, offset + count * size).buffer;
+  const to = new Uint8Array(count * size);
+  for (let i = 0; i < count; i++) to.set(bytes.subarray(offset + i * stride, offset + i * stride + size), i * size);
+  return to.buffer;
 }
 
 export class Glb {
@@ -78,13 +86,22 @@ export class Glb {
     return { view: bufferView, bytes, offset: byteOffset, stride, size, components, type: componentType, normalized, count };
   }
 
+  // The numbers of an accessor of floats.
+  floats(index, components) {
+    const accessor = this.accessor(index);
+    check(accessor.type === 5126 && accessor.components === components, 'its numbers are damaged');
+    const values = new Float32Array(packed(accessor));
+    check(values.every(Number.isFinite), 'its numbers are damaged');
+    return values;
+  }
+
   // An image as a file of its own.
   image(index) {
     const { bufferView, mimeType = '' } = this.of('images', index);
     return new Blob([this.view(bufferView)], { type: mimeType });
   }
 
-  // The nodes of the scene that have meshes: { node, matrix, mesh }.
+  // The nodes of the scene that have meshes: { node, index, above, matrix, mesh }; above: the matrix of what it is part of.
   nodes() {
     const found = [];
     const seen = new Set();
@@ -96,7 +113,7 @@ export class Glb {
       const matrix = multiplied(above, matrixOf(node));
       check(matrix.length === 16 && matrix.every(Number.isFinite), `it has a damaged nodes[${index}]`);
       waiting.push(...(node.children ?? []).map((child) => [child, matrix]));
-      if (node.mesh !== undefined) found.push({ node, matrix, mesh: this.of('meshes', node.mesh) });
+      if (node.mesh !== undefined) found.push({ node, index, above, matrix, mesh: this.of('meshes', node.mesh) });
     }
     return found;
   }

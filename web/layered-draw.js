@@ -32,12 +32,15 @@ void main() {
 const FRAGMENT = `#version 300 es
 precision highp float;
 uniform sampler2D page;
+uniform sampler2D next;  // light that follows,
+uniform float part;      // and its share
 uniform float cutoff;
 uniform bool is_blended;
 in vec2 at;
 out vec4 color;
 void main() {
   color = texture(page, at);
+  if (part > 0.0) color = mix(color, texture(next, at), part);
   if (is_blended) return;
   float edge = fwidth(color.a);
   color.a = cutoff > 0.0 ? clamp((color.a - cutoff) / max(edge, 0.001) + 0.5, 0.0, 1.0) : 1.0;
@@ -169,8 +172,8 @@ export class LayeredDrawer {
     gl.depthFunc(gl.LEQUAL);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ZERO, gl.ONE);
     gl.uniformMatrix3fv(uniforms.to_screen, false, toScreen);
-    gl.activeTexture(gl.TEXTURE0);
-    for (const { array, texture, matrix, cutoff, isBlended, isSky, place, indices: { count, type, offset } } of meshes) {
+    gl.uniform1i(uniforms.next, 1);
+    for (const { array, texture, next = texture, part = 0, matrix, cutoff, isBlended, isSky, place, indices: { count, type, offset } } of meshes) {
       gl[isSky ? 'disable' : 'enable'](gl.DEPTH_TEST);
       gl[cutoff ? 'enable' : 'disable'](gl.SAMPLE_ALPHA_TO_COVERAGE);
       gl[isBlended ? 'enable' : 'disable'](gl.BLEND);
@@ -181,7 +184,11 @@ export class LayeredDrawer {
       gl.uniform3fv(uniforms.eye, isSky ? middle : at);
       gl.uniform4fv(uniforms.place, place);
       gl.uniformMatrix4fv(uniforms.to_world, false, matrix);
-      gl.bindTexture(gl.TEXTURE_2D, texture);
+      gl.uniform1f(uniforms.part, part);
+      [next, texture].forEach((each, i) => {
+        gl.activeTexture(gl.TEXTURE1 - i);
+        gl.bindTexture(gl.TEXTURE_2D, each);
+      });
       gl.bindVertexArray(array);
       gl.drawElements(gl.TRIANGLES, count, type, offset);
     }

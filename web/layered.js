@@ -31,9 +31,9 @@ function aboutOf({ json }) {
   const about = json.asset?.extras?.omnistereo;
   check(about, 'it is a glTF scene, but not a layered one: ods layers makes one of it');
   check(about.layers === VERSION, 'a newer version of ods made it: reload the page, or update ods');
-  const { center, box, yaw = 0, fallback = '' } = about;
+  const { center, box, yaw = 0, fallback = '', film } = about;
   check(isVector(center) && isVector(box) && box.every((side) => side > 0) && Number.isFinite(yaw), 'its box is damaged');
-  return { center, box, turn: radians(yaw), fallback: /^[^/\\]+$/.test(fallback) ? fallback : '' };
+  return { film, center, box, turn: radians(yaw), fallback: /^[^/\\]+$/.test(fallback) ? fallback : '' };
 }
 
 // The numbers in a buffer of WebGL; a buffer view is uploaded once.
@@ -56,7 +56,8 @@ function checkIndices({ bytes, offset, count, size, type, components }, vertices
 }
 
 // The triangles of a primitive, without what the GPU gets of them.
-function readPrimitive(glb, { attributes, indices, material: number, mode = 4 }, { matrix, node }) {
+function readPrimitive(glb, primitive, { matrix, node, index, above }) {
+  const { attributes, indices, material: number, mode = 4 } = primitive;
   check(mode === 4 && indices !== undefined, 'it has something else than triangles with indices');
   const positions = glb.accessor(attributes?.POSITION);
   const uvs = glb.accessor(attributes?.TEXCOORD_0);
@@ -68,7 +69,7 @@ function readPrimitive(glb, { attributes, indices, material: number, mode = 4 },
   const mesh = {
     matrix, positions, uvs, indices: glb.accessor(indices), place: [...scale, ...offset], image: glb.imageOf(info.index),
     isSky: node.extras?.omnistereo?.sky === true, cutoff: material.alphaMode === 'MASK' ? material.alphaCutoff ?? 0.5 : 0,
-    isBlended: material.alphaMode === 'BLEND',
+    isBlended: material.alphaMode === 'BLEND', node, index, above, primitive, material,
   };
   checkIndices(mesh.indices, positions.count);
   return mesh;
@@ -113,9 +114,9 @@ class LayeredPicture {
   }
 
   // Loads the triangles and the textures onto the GPU.
-  async fill(glb, meshes, { signal }) {
+  async fill(glb, meshes, film, { signal }) {
     const { gl } = this;
-    const images = [...new Set(meshes.map(({ image }) => image))];
+    const images = [...new Set(meshes.flatMap(({ image, lights = [] }) => [image, ...lights]))];
     const decode = (blob) => createImageBitmap(blob, { premultiplyAlpha: 'none' }).catch(() => check(false, `this browser does not read its textures (${blob.type})`));
     const sources = images.map((image) => decode(glb.image(image)));
     for (const source of sources) source.catch(() => {}); // those after the first fault
@@ -127,18 +128,25 @@ class LayeredPicture {
     }
     if (this.item.objects?.length) this.read = { glb, meshes: meshes.map(({ positions, indices, matrix }) => ({ positions, indices, matrix })) };
     for (const mesh of meshes) {
+      if (mesh.shapes) mesh.positions = { ...mesh.positions, bytes: mesh.shapes[0], view: `shape ${this.meshes.length}`, offset: 0, stride: 12 };
       for (const name of ['positions', 'uvs']) mesh[name] = upload(gl, this.buffers, gl.ARRAY_BUFFER, mesh[name]);
       const before = gl.getParameter(gl.VERTEX_ARRAY_BINDING);
       gl.bindVertexArray(null); // which would take the indices
       mesh.indices = upload(gl, this.buffers, gl.ELEMENT_ARRAY_BUFFER, mesh.indices);
       gl.bindVertexArray(before);
-      Object.assign(mesh, { texture: this.textures.get(mesh.image), array: this.drawer.arrayOf(mesh) });
+      const textures = mesh.lights?.map((image) => this.textures.get(image));
+      Object.assign(mesh, { texture: this.textures.get(mesh.image), textures, array: this.drawer.arrayOf(mesh) });
       this.meshes.push(mesh);
     }
+    if (!film) return;
+    this.film = film;
+    film.begin(this.meshes, gl);
+    this.actions = [...film.keys, ...MOVES];
   }
 
   // The viewer shows it from now on. Objects come after the scene, which does not wait for them.
   enter(viewer) {
+    this.viewer = viewer;
     const { item, read } = this;
     if (!item.objects?.length) return;
     const begin = async () => {
@@ -152,6 +160,7 @@ class LayeredPicture {
 
   // Before every picture.
   refresh() {
+    this.film?.refresh(this.viewer);
     this.objects?.refresh();
   }
 
@@ -282,9 +291,10 @@ export async function openLayered(panorama, item, form, address, { base, choice,
   let picture;
   try {
     const { glb, about, meshes } = readScene(await blob.arrayBuffer());
+    const film = about.film && (await import('./layered-film.js')).readFilm(glb, about.film, meshes);
     picture = new LayeredPicture(panorama, about, item);
     Object.assign(picture, { address, base, choice, camera: form.camera });
-    await picture.fill(glb, meshes, { signal });
+    await picture.fill(glb, meshes, film, { signal });
     return picture;
   } catch (error) {
     picture?.free();

@@ -3,28 +3,11 @@
 //
 // Reads the file of a real-time object, a .glb that ods view makes of a scene file: parts with one material each, which
 // may move as wholes (a matrix per frame) and deform (vertices per frame).
-import { Glb } from './glb.js';
+import { Glb, packed } from './glb.js';
 import { check } from './meshopt.js';
 
 const MAX_FRAMES = 10000;
 const INDICES = { 5121: Uint8Array, 5123: Uint16Array, 5125: Uint32Array };
-const FLOAT = 5126;
-
-// The bytes of an accessor's elements, without what is between them.
-function packed({ bytes, offset, stride, size, count }) {
-  if (stride === size) return bytes.slice(offset, offset + count * size).buffer;
-  const to = new Uint8Array(count * size);
-  for (let i = 0; i < count; i++) to.set(bytes.subarray(offset + i * stride, offset + i * stride + size), i * size);
-  return to.buffer;
-}
-
-function floatsOf(glb, index, components) {
-  const accessor = glb.accessor(index);
-  check(accessor.type === FLOAT && accessor.components === components, 'its vertices are damaged');
-  const values = new Float32Array(packed(accessor));
-  check(values.every(Number.isFinite), 'its vertices are damaged');
-  return values;
-}
 
 function indicesOf(glb, index, vertices) {
   const accessor = glb.accessor(index);
@@ -51,11 +34,11 @@ function partOf(glb, { attributes, indices, material, mode = 4, extras }, matric
   const moving = extras?.omnistereo?.frames;
   check(!moving || moving.length === frames, 'its animation is damaged');
   const each = moving ?? [attributes];
-  const positions = each.map(({ POSITION }) => floatsOf(glb, POSITION, 3));
-  const normals = each.map(({ NORMAL }) => floatsOf(glb, NORMAL, 3));
+  const positions = each.map(({ POSITION }) => glb.floats(POSITION, 3));
+  const normals = each.map(({ NORMAL }) => glb.floats(NORMAL, 3));
   const { length } = positions[0];
   check(length > 0 && [...positions, ...normals].every((list) => list.length === length), 'its vertices are damaged');
-  const uvs = attributes.TEXCOORD_0 === undefined ? null : floatsOf(glb, attributes.TEXCOORD_0, 2);
+  const uvs = attributes.TEXCOORD_0 === undefined ? null : glb.floats(attributes.TEXCOORD_0, 2);
   check(!uvs || 3 * uvs.length === 2 * length, 'its vertices are damaged');
   const own = materialOf(glb, material);
   if (!uvs) own.image = undefined;
@@ -96,7 +79,7 @@ export function readObject(buffer) {
     const moving = node.extras?.omnistereo?.matrices;
     let matrices = [matrix];
     if (moving !== undefined) {
-      const whole = floatsOf(glb, moving, 16);
+      const whole = glb.floats(moving, 16);
       check(whole.length === 16 * frames, 'its animation is damaged');
       matrices = Array.from({ length: frames }, (_, i) => whole.subarray(16 * i, 16 * i + 16));
     }

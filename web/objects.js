@@ -41,7 +41,7 @@ export class Objects {
 
   read({ glb, meshes }) {
     const { picture } = this;
-    const isSolid = ({ isSky, isBlended }) => !isSky && !isBlended;
+    const isSolid = ({ isSky, isBlended, lights }) => !isSky && !isBlended && !lights;
     this.solid = picture.meshes.filter(isSolid);
     this.surfaces = new Surfaces(meshes.filter((_, i) => isSolid(picture.meshes[i]))); // in the same order
     picture.read = null; // as large as the file

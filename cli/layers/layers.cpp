@@ -11,6 +11,7 @@
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
 #include "cli/console/long_job.h"
+#include "cli/layers/film_job.h"
 #include "cli/layers/layer_files.h"
 #include "cli/layers/layers_job.h"
 #include "cli/layers/layers_of_picture.h"
@@ -42,8 +43,6 @@ ods::LayerLight light_of(const RenderJob& job, const ods::RenderOptions& options
   light.bake.is_denoised = look.finish.denoiser != ods::Denoiser::kNone;
   light.bake.unfinished = unfinished_path(job);
   light.bake.scene = identified(job).scene;
-  std::error_code ignored;
-  if (job.restart) fs::remove(light.bake.unfinished, ignored);
   return light;
 }
 
@@ -61,38 +60,63 @@ ods::LightProbes probes_of(const ods::Scene& scene, const ods::HeadBox& box, con
   return ods::light_probes(scene, box, options);
 }
 
+// Makes something of the scene without what moves. lamps_remain: but with its light.
+template <typename Make>
+auto without_movers(ods::Scene& scene, const std::vector<ods::Mover>& movers, bool lamps_remain, const Make& make) {
+  ods::HiddenMovers hidden = ods::hide_movers(scene, movers, lamps_remain);
+  auto made = make();
+  ods::show_movers(scene, std::move(hidden));
+  return made;
+}
+
 void bake_layers(const LayersJob& given, ProgressLines& lines) {
   ods::Scene scene = open_lit_scene(given.render.scene, false);
   const RenderJob job = on_device(given.render, scene);
   TimeOptions time = job.time;
   start_clock(time, job.camera, scene);
-  ods::FrameRenderer renderer(plan(job, time).sequence, scene);
-  const ods::SequenceFrame frame{0, double{time.time.value_or(0.0f)}, job.output, job.render.seed};
-  report_viewpoint(job, renderer, frame);
-  const ods::FirstLook look = ods::look_first(renderer, {frame});
+  ods::SequenceOptions sequence = plan(job, time).sequence;
+  sequence.shutter = 0.0;
+  ods::FrameRenderer renderer(std::move(sequence), scene);
+  const std::vector<ods::SequenceFrame> frames = layer_frames(given, time);
+  report_viewpoint(job, renderer, frames.front());
+  const ods::FirstLook look = ods::look_first(renderer, frames);
   ods::SequenceOptions options = renderer.options();
   report_look(job, options, look);
   options.finish.save.exposure = look.exposure;
   if (scene.as_painted && !job.tone) options.finish.save.tone = ods::ToneCurve::kLinear;
-  const ods::Shot shot = renderer.set(frame);
+  const ods::Shot shot = renderer.set(frames.front());
+  const ods::HeadBox box{shot.camera().position, ods::vec3(given.box)};
+  const int width = given.width.value_or(2 * job.render.width);
 
   const auto start = std::chrono::steady_clock::now();
   const GentleStop stop("ods: stopping\n");
   const ods::Progress progress = layers_progress(given, lines, stop);
   try {
+    FilmJob film = plan_film(given, scene, frames, box, width);
     ods::LayerCounts counts;
-    ods::LayerGeometry geometry =
-        ods::build_layers(scene, {shot.camera().position, ods::vec3(given.box)},
-                          given.width.value_or(2 * job.render.width), &counts, ods::part_of(progress, 0.0, kGeometry));
+    ods::LayerGeometry geometry = without_movers(scene, film.movers, false, [&] {
+      return ods::build_layers(scene, box, width, &counts, ods::part_of(progress, 0.0, kGeometry));
+    });
     geometry.scene.yaw = shot.camera().yaw;
     geometry.scene.fallback = given.fallback;
     geometry.scene.name = fs::path(job.scene.name).filename().string();
     report_geometry(counts, seconds_since(start));
-    ods::LayeredScene layers =
-        ods::light_layers(std::move(geometry), scene, renderer.renderer(), light_of(job, shot.options, options),
-                          ods::part_of(progress, kGeometry, kLight));
-    layers.light.probes = probes_of(scene, layers.box, shot.options);
+    ods::LayerLight light = light_of(job, shot.options, options);
+    if (job.restart) remove_unfinished(unfinished_path(job), film.lights);
+    light.bake.keeps_unfinished = !film.movers.empty();
+    const double still = kLight - (kLight - kGeometry) * share_of_film(film, counts.page_texels + counts.chart_texels);
+    ods::LayeredScene layers = without_movers(scene, film.movers, true, [&] {
+      ods::FrameRenderer own(options, scene);
+      own.set(frames.front());
+      ods::LayeredScene lit = ods::light_layers(std::move(geometry), scene, own.renderer(), light,
+                                                ods::part_of(progress, kGeometry, still));
+      lit.light.probes = probes_of(scene, box, shot.options);
+      return lit;
+    });
+    const std::vector<size_t> lights = film.lights;
+    layers.film = light_of_film(std::move(film), scene, box, options, light, ods::part_of(progress, still, kLight));
     write_layer_files(given, layers, ods::part_of(progress, kLight, 1.0), lines);
+    remove_unfinished(unfinished_path(job), lights);
   } catch (const ods::Error& error) {
     if (error.kind() != ods::ErrorKind::kCancelled) throw;
     if (fs::exists(unfinished_path(job))) note("the light so far is kept: the same command resumes");

@@ -16,6 +16,7 @@ constexpr const char* kLayersExamples =
     "  ods layers scene.glb -o scene.layers.glb --plain     for Blender and every viewer of glTF\n"
     "  ods layers scene.glb -o site/ --export               a web page, also for browsers without a headset\n"
     "  ods layers room -o room.layers.glb --box 0.5 --quality final\n"
+    "  ods layers toys -o toys.layers.glb --frames 0-192 --fps 24    a film: it plays while you move\n"
     "  ods layers picture_360_TB.exr -o picture.layers.glb  a picture with depth, without its scene\n"
     "  ods layers panorama.jpg --depth depth.png --depth-kind inverse --near 0.7 -o photo.layers.glb\n"
     "  ods view scene.layers.glb";
@@ -67,6 +68,7 @@ void check_picture_options(const Options& options, const LayersJob& job) {
     if (job.depth.path.empty()) options.refuse(depth_option_names(), "goes with --depth FILE");
   } else {
     options.refuse({"--depth"}, "is for pictures: a scene has its own depth");
+    if (job.render.time.frames.empty()) options.refuse({"--fps", "--light-every"}, "goes with --frames LIST");
     options.refuse(depth_option_names(), "is for pictures: a scene has its own depth");
   }
 }
@@ -86,6 +88,14 @@ LayersJob parse_layers(Options& options) {
   add_place_options(options, job.render.camera);
   options.number("--yaw", job.render.camera.yaw, -36000.0f, 36000.0f, "where viewers look first, degrees to the right");
   options.number("--time", job.render.time.time, 0.0f, 1e6f, "the moment of an animated scene, seconds");
+  options.text(
+      "--frames", "LIST|all", job.render.time.frames,
+      "a film: what moves in these frames is geometry of its own, with an animation. 1-100, 1-100x2 (every other "
+      "one), or all; as in ods video");
+  options.number("--fps", job.render.time.given_fps, 0.01f, 1000.0f, "frames per second", "30");
+  options.number("--light-every", job.light_every, 1, 1000,
+                 "frames from one light of what moves to the next, which players mix; by default four lights a second, "
+                 "or fewer if they would need 256 MB on graphics cards");
   add_quality_options(options, job.render);
   add_device_option(options, job.render);
   options.group("Console");

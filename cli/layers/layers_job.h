@@ -16,9 +16,10 @@ struct LayersJob {
   DepthInput depth;         // of the picture
   std::optional<int> width;
   float box = 0.3f;
-  std::string fallback;   // the name of the stereo picture beside the file, which is made if it does not exist
-  bool is_page = false;   // the output is the folder of a web page
-  std::string page_file;  // the name of its layered scene
+  std::optional<int> light_every;  // frames between two lights of what moves
+  std::string fallback;            // the name of the stereo picture beside the file, which is made if it does not exist
+  bool is_page = false;            // the output is the folder of a web page
+  std::string page_file;           // the name of its layered scene
   ods::WriteLayersOptions write;
 };
 

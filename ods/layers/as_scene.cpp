@@ -54,6 +54,25 @@ float sky_distance(const LayeredScene& layers) {
   return 2.0f * farthest;
 }
 
+void add_vertex(std::vector<Vertex>& vertices, vec3 position, vec2 uv) {
+  vertices.push_back({position, vec3(0, 1, 0), vec4(0.0f), uv, vec2(0.0f), vec4(1.0f)});
+}
+
+// Adds a moving object as it is in the first frame.
+void add_mover(Scene& scene, const LayeredScene& layers, const LayerMover& mover) {
+  for (const MoverMesh& mesh : mover.meshes) {
+    LayerMesh look;
+    look.kind = mesh.kind;
+    if (!layers.film.lights.empty()) look.texture = layers.film.lights[mesh.texture].front();
+    const int material = add_unlit(scene, look);
+    std::vector<Vertex> vertices;
+    for (size_t i = 0; i < mesh.positions.size(); i++) {
+      add_vertex(vertices, at_pose(mover.poses.front(), mesh.positions[i]), mesh.uvs[i]);
+    }
+    add_instance(scene, add_mesh(scene, std::move(vertices), mesh.triangles, material), glm::mat4(1.0f));
+  }
+}
+
 }  // namespace
 
 Scene as_scene(const LayeredScene& layers) {
@@ -67,9 +86,12 @@ Scene as_scene(const LayeredScene& layers) {
     for (size_t i = 0; i < mesh.positions.size(); i++) {
       const vec3 position =
           mesh.kind == LayerKind::kSky ? layers.box.center + far * mesh.positions[i] : mesh.positions[i];
-      vertices.push_back({position, vec3(0, 1, 0), vec4(0.0f), mesh.uvs[i], vec2(0.0f), vec4(1.0f)});
+      add_vertex(vertices, position, mesh.uvs[i]);
     }
     add_instance(scene, add_mesh(scene, std::move(vertices), mesh.triangles, material), glm::mat4(1.0f));
+  }
+  for (const LayerMover& mover : layers.film.movers) {
+    if (mover.poses.front().shown) add_mover(scene, layers, mover);
   }
   return scene;
 }

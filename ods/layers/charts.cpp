@@ -162,7 +162,9 @@ void grow(const PieceMesh& mesh, const std::vector<PieceShape>& shapes, const Ed
   }
 }
 
-std::vector<Chart> charts_of(const Probe& probe, const PieceMesh& mesh, size_t index, float pixel, float max_extent) {
+// begin: makes the chart of a first piece, by its shape.
+template <typename Begin>
+std::vector<Chart> charts_of(const PieceMesh& mesh, size_t index, float max_extent, const Begin& begin) {
   std::vector<Chart> charts;
   const EdgeNeighbours edges = neighbours_of(mesh);
   if (edges.empty()) return charts;
@@ -171,7 +173,7 @@ std::vector<Chart> charts_of(const Probe& probe, const PieceMesh& mesh, size_t i
   std::vector<char> taken(mesh.pieces.size());
   for (size_t i = 0; i < mesh.pieces.size(); i++) {
     if (mesh.pieces[i].state != PieceState::kChart || taken[i]) continue;
-    Chart chart = begin_chart(probe, mesh, shapes[i], pixel);
+    Chart chart = begin(shapes[i]);
     chart.mesh = index;
     const vec3 along = normalize(cross(chart.across, chart.down));
     grow(mesh, shapes, edges, along, i, max_extent, chart, taken);
@@ -192,11 +194,24 @@ vec2 in_chart(const Chart& chart, vec3 point) {
 std::vector<Chart> make_charts(const Probe& probe, const std::vector<PieceMesh>& meshes, float pixel, int size) {
   const float max_extent = std::min(kMaxExtent, static_cast<float>(size) * 0.5f);
   std::vector<std::vector<Chart>> found(meshes.size());
-  tbb::parallel_for(size_t{0}, meshes.size(),
-                    [&](size_t i) { found[i] = charts_of(probe, meshes[i], i, pixel, max_extent); });
+  tbb::parallel_for(size_t{0}, meshes.size(), [&](size_t i) {
+    found[i] = charts_of(meshes[i], i, max_extent,
+                         [&](const PieceShape& seed) { return begin_chart(probe, meshes[i], seed, pixel); });
+  });
   std::vector<Chart> charts;
   for (std::vector<Chart>& some : found) std::move(some.begin(), some.end(), std::back_inserter(charts));
   return charts;
+}
+
+std::vector<Chart> flat_charts(const PieceMesh& mesh, size_t index, float texel, float max_extent) {
+  return charts_of(mesh, index, max_extent, [&](const PieceShape& seed) {
+    Chart chart;
+    chart.origin = seed.center;
+    const Frame frame = frame_around(-seed.normal);
+    chart.across = frame.tangent / texel;
+    chart.down = frame.bitangent / texel;
+    return chart;
+  });
 }
 
 int pack_charts(std::vector<Chart*> charts, int size, int first) {

@@ -75,6 +75,45 @@ struct LayerLightInfo {
   LightProbes probes;
 };
 
+// The place of something that moves at one frame. A point p of it is at place + rotation * (scale * p).
+struct LayerPose {
+  vec3 place{0.0f};                       // metres, in the scene
+  vec4 rotation{0.0f, 0.0f, 0.0f, 1.0f};  // quaternion x, y, z, w
+  vec3 scale{1.0f};
+  bool shown = true;
+};
+
+inline vec3 at_pose(const LayerPose& pose, vec3 p) {
+  const vec3 axis(pose.rotation), v = pose.scale * p;
+  return pose.place + v + 2.0f * cross(axis, cross(axis, v) + pose.rotation.w * v);
+}
+
+// The triangles of something that moves that share a texture.
+struct MoverMesh {
+  LayerKind kind = LayerKind::kOpaque;  // or kMasked
+  size_t texture = 0;                   // of LayerFilm::lights
+  std::vector<vec3> positions;          // metres, from its own origin
+  std::vector<vec2> uvs;
+  std::vector<uvec3> triangles;
+  std::vector<std::vector<vec3>> shapes;  // if it deforms: the positions at each frame, `positions` at the first
+};
+
+// Something that moves as a whole, with triangles that exist from wherever the box sees them during the film.
+struct LayerMover {
+  std::string name;  // for files: "mover 0"
+  std::vector<MoverMesh> meshes;
+  std::vector<LayerPose> poses;  // by frame
+};
+
+// A film of things that move among still layers. Their light changes slower than their place: every texture exists once
+// for each of light_times, and viewers mix two of them.
+struct LayerFilm {
+  std::vector<float> times;                // seconds of the frames: ascending, the first is 0
+  std::vector<float> light_times;          // seconds: ascending, the first is 0, the last at most that of the frames
+  std::vector<std::vector<Image>> lights;  // by texture, then by time; as LayerMesh::texture
+  std::vector<LayerMover> movers;          // empty: nothing moves
+};
+
 struct LayeredScene {
   std::string name;  // of the scene that was baked, without folders; empty if unknown
   LayerLightInfo light;
@@ -83,6 +122,7 @@ struct LayeredScene {
   int width = 8192;      // of the lat-long panorama whose pixel is the unit of all errors
   std::string fallback;  // name of a stereo picture from the middle, in the same folder; may be empty
   std::vector<LayerMesh> meshes;
+  LayerFilm film;
 };
 
 }  // namespace ods

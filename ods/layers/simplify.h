@@ -9,7 +9,7 @@
 
 namespace ods {
 
-// For each position, the index of the first one that is equal.
+// Numbers the different positions in the order of their first ones, and returns the number of each.
 std::vector<uint> first_equal(const std::vector<vec3>& positions);
 
 enum class Borders { kMove, kStay };

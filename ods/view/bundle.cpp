@@ -55,20 +55,30 @@ bool is_left_out(std::string_view name, PageHost host) {
   return name == "share.js" && host == PageHost::kFolder;
 }
 
-// The modules that few pages need: in a folder, each is in a later script, with the modules that only it imports; of a
-// server, all but layered scenes are.
-constexpr std::string_view kLayered = "layered.js", kObjects = "objects.js", kTour = "tour.js",
-                           kStage = "objects-panorama.js", kTranslate = "translate.js";
+constexpr std::string_view kLayered = "layered.js", kObjects = "objects.js", kTranslate = "translate.js";
 
-std::vector<std::string> translations() {
+// A script with a module that few pages need, and the modules that only this one imports.
+struct RareScript {
+  std::string_view name;
+  std::string_view module;  // or, with all that it imports on demand, translate.js
+  bool needs_rest = false;  // it imports from later.js
+};
+constexpr RareScript kRareScripts[] = {{"later-tour.js", "tour.js"},
+                                       {"later-words.js", kTranslate},
+                                       {"later-objects.js", "objects-panorama.js", true},
+                                       {"later-film.js", "layered-film.js", true}};
+static_assert(std::size(kRareScripts) + 1 == std::size(kLaterScripts));
+
+std::vector<std::string> modules_of(const RareScript& script) {
+  if (script.module != kTranslate) return {std::string(script.module)};
   return names_in(std::string(find_page_file(kTranslate)->data), kLazyImport, 1);
 }
 
 bool is_rare(std::string_view name, PageHost host) {
   const bool is_scene = name == kLayered || name == kObjects;
-  if (name == kTour || name == kStage || (is_scene && host == PageHost::kFolder)) return true;
-  const std::vector<std::string> words = translations();
-  return std::ranges::find(words, name) != words.end();
+  return (is_scene && host == PageHost::kFolder) || std::ranges::any_of(kRareScripts, [&](const RareScript& script) {
+           return std::ranges::count(modules_of(script), name) > 0;
+         });
 }
 
 struct Modules {
@@ -107,6 +117,12 @@ Modules first_of(const std::string& entry, PageHost host) {
   return modules;
 }
 
+// The modules of later.js.
+void add_rest(PageHost host, Modules& modules) {
+  if (host == PageHost::kFolder) add(std::string(kLayered), host, modules), add(std::string(kObjects), host, modules);
+  add_later(host, modules);
+}
+
 }  // namespace
 
 constexpr std::string_view kNotice = "// Made by Omnistereo from its modules.\n";
@@ -125,7 +141,7 @@ std::string bundle(const std::string& entry, PageHost host, ScriptKind kind) {
       all.has_rare
           ? "const $bring = { later: () => import('./later.mjs'), 'later-tour': () => import('./later-tour.mjs'), "
             "'later-words': () => import('./later-words.mjs'), "
-            "'later-objects': () => import('./later-objects.mjs') };\n"
+            "'later-objects': () => import('./later-objects.mjs'), 'later-film': () => import('./later-film.mjs') };\n"
           : "";
   return fmt::format("{}const $base = import.meta.url;\n{}{}export const {{ {} }} = $modules['{}'];\n", kNotice,
                      import_later, script, exported, entry);
@@ -133,22 +149,18 @@ std::string bundle(const std::string& entry, PageHost host, ScriptKind kind) {
 
 std::string bundle_later(std::string_view name, PageHost host, ScriptKind kind) {
   if (std::ranges::find(kLaterScripts, name) == std::end(kLaterScripts)) return "";
-  const bool has_rest = name == kLaterScripts[0], is_stage = name == kLaterScripts[3];
-  const bool is_folder = host == PageHost::kFolder;
+  const auto rare = std::ranges::find(kRareScripts, name, &RareScript::name);
   Modules modules = first_of("main.js", host);
-  if (is_folder) add_later(host, modules);
-  modules.script.clear();
-  if (!has_rest && !is_stage) modules.later.clear();
-  if (name == kLaterScripts[1]) add(std::string(kTour), host, modules);
-  if (name == kLaterScripts[2]) {
-    for (const std::string& language : translations()) add(language, host, modules);
+  if (host == PageHost::kFolder) add_later(host, modules);
+  if (rare == std::end(kRareScripts)) {
+    modules.script.clear();
+    add_rest(host, modules);
+  } else {
+    if (rare->needs_rest) add_rest(host, modules);
+    modules.script.clear(), modules.later.clear();
+    for (const std::string& module : modules_of(*rare)) add(module, host, modules);
+    add_later(host, modules);
   }
-  if ((has_rest || is_stage) && is_folder) {
-    add(std::string(kLayered), host, modules);
-    add(std::string(kObjects), host, modules);
-  }
-  add_later(host, modules);
-  if (is_stage) modules.script.clear(), add(std::string(kStage), host, modules);
   return fmt::format("{}{} = ($modules, $load, $base, fetch) => {{\n'use strict';\n{}}};\n", kNotice,
                      kind == ScriptKind::kModule ? "export const later" : "window.omnistereoLater", modules.script);
 }

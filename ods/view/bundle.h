@@ -21,9 +21,10 @@ enum class ScriptKind { kClassic, kModule };
 std::string bundle(const std::string& entry, PageHost host = PageHost::kFolder, ScriptKind kind = ScriptKind::kClassic);
 
 // In a folder, later.js has what only layered scenes need; a server's has all but the code for the first view. The
-// second one has hotspots and tours, the third one the texts in other languages than English. The fourth one has
-// objects in pictures, and imports from the first one, which the page loads before it.
-inline constexpr std::string_view kLaterScripts[] = {"later.js", "later-tour.js", "later-words.js", "later-objects.js"};
+// others have hotspots and tours, the texts in other languages than English, objects in pictures, and films of layered
+// scenes. The last two import from the first one, which the page loads before them.
+inline constexpr std::string_view kLaterScripts[] = {"later.js", "later-tour.js", "later-words.js", "later-objects.js",
+                                                     "later-film.js"};
 
 // Returns the text of one of kLaterScripts, which the scripts of a host load; empty for any other name.
 std::string bundle_later(std::string_view name, PageHost host, ScriptKind kind = ScriptKind::kClassic);

@@ -142,6 +142,18 @@ TEST(Bundle, ObjectsInPicturesAreApart) {
   }
 }
 
+// Few layered scenes are films.
+TEST(Bundle, FilmsAreApart) {
+  for (const PageHost host : {PageHost::kFolder, PageHost::kView, PageHost::kStudio}) {
+    const std::string script = bundle_later("later-film.js", host);
+    EXPECT_EQ(modules_in(script), std::set<std::string>{"layered-film.js"});
+    std::set<std::string> known = modules_in(bundle_later("later.js", host));
+    EXPECT_FALSE(known.contains("layered-film.js"));
+    known.insert("layered-film.js");
+    expect_known(script, known, host);
+  }
+}
+
 // The imports of a module are made before it.
 TEST(Bundle, ModulesComeBehindWhatTheyImport) {
   const std::string script = bundle("main.js");

@@ -221,6 +221,30 @@ async function wear({ item, looks, width, height }) {
   expect(Math.abs(viewer.state.x) <= 0.15, 'the desk is outside the box');
 }
 
-const PARTS = { draw, move, decode: decodeAll, damage, fail, element: useElement, wear };
+// --- films ----------------------------------------------------------------------------------------------------------
+
+async function film({ item, looks, ...size }) {
+  const player = await makePlayer(size);
+  const { viewer } = player;
+  await open(player, item);
+  const { film: own } = viewer.picture;
+  await until(() => own.time > 0.1, 'plays');
+  press(' ');
+  const { time } = own;
+  await sleep(200);
+  expect(own.time === time, 'Space does not pause it');
+  for (const { name, time: at, ...look } of looks) {
+    own.show(at);
+    viewer.set({ yaw: 0, pitch: 0, fov: 90, mode: 'left', shift: 0, ...look });
+    viewer.fit();
+    viewer.paint(0, {});
+    await sendCanvas(viewer.canvas, name);
+  }
+  own.show(0.99 * own.end);
+  press(' ');
+  await until(() => own.time < 0.5 * own.end, 'begins again');
+}
+
+const PARTS = { film, draw, move, decode: decodeAll, damage, fail, element: useElement, wear };
 
 export const testLayered = (job) => PARTS[job.layered](job);

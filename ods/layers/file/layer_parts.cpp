@@ -20,10 +20,9 @@ namespace ods {
 
 // --- textures
 
-static std::string encoded(const LayerMesh& mesh, FileFormat format, int quality, const std::string& name,
+static std::string encoded(const Image& image, FileFormat format, int quality, const std::string& name,
                            const std::function<void()>& band_done) {
-  const Image& image = mesh.texture;
-  assert(image.width > 0 && image.height > 0 && image.channels == (has_alpha(mesh.kind) ? 4 : 3));
+  assert(image.width > 0 && image.height > 0);
   FileHeader header;
   header.format = format;
   header.width = image.width, header.height = image.height;
@@ -56,12 +55,32 @@ std::vector<LayerPart> layer_parts(const LayeredScene& scene, FileFormat opaque,
   size_t done = 0;
   tbb::parallel_for(size_t{0}, parts.size(), [&](size_t i) {
     LayerPart& part = parts[i];
-    part.texture = encoded(*part.mesh, part.format, quality, part.name, check);
+    assert(part.mesh->texture.channels == (has_alpha(part.mesh->kind) ? 4 : 3));
+    part.texture = encoded(part.mesh->texture, part.format, quality, part.name, check);
     const std::lock_guard lock(mutex);
     done++;
     if (progress.report) progress.report(static_cast<double>(done) / static_cast<double>(parts.size()));
   });
   return parts;
+}
+
+FilmTextures film_textures(const LayerFilm& film, FileFormat opaque, FileFormat alpha, int quality,
+                           const Progress& progress) {
+  FilmTextures textures(film.lights.size());
+  const size_t lights = film.light_times.size(), all = textures.size() * lights;
+  for (size_t i = 0; i < textures.size(); i++) {
+    textures[i] = {fmt::format("film {}", i), film.lights[i].front().channels == 4 ? alpha : opaque, {}};
+    textures[i].lights.resize(lights);
+  }
+  const auto check = [&] {
+    if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
+  };
+  tbb::parallel_for(size_t{0}, all, [&](size_t i) {
+    FilmTexture& texture = textures[i / lights];
+    texture.lights[i % lights] =
+        encoded(film.lights[i / lights][i % lights], texture.format, quality, texture.name, check);
+  });
+  return textures;
 }
 
 MeshOrder order_of(const LayerMesh& mesh) {

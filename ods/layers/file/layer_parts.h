@@ -26,6 +26,18 @@ struct LayerPart {
 std::vector<LayerPart> layer_parts(const LayeredScene& scene, FileFormat opaque, FileFormat alpha, int quality,
                                    const Progress& progress);
 
+// A texture of a film: the bytes of a file for each of its lights.
+struct FilmTexture {
+  std::string name;  // "film 0"
+  FileFormat format = FileFormat::kJpeg;
+  std::vector<std::string> lights;
+};
+using FilmTextures = std::vector<FilmTexture>;
+
+// The same for the film's textures.
+FilmTextures film_textures(const LayerFilm& film, FileFormat opaque, FileFormat alpha, int quality,
+                           const Progress& progress);
+
 // The order in which files have a mesh: what is drawn fastest, but blended triangles keep theirs.
 MeshOrder order_of(const LayerMesh& mesh);
 
@@ -43,8 +55,8 @@ float sky_scale(const LayeredScene& scene);
 float farthest(const LayeredScene& scene);
 
 // Each returns the bytes of the whole file. Throw Error(kOutput) if the format cannot hold them; `path` is its name.
-std::string layers_glb(const LayeredScene& scene, const std::vector<LayerPart>& parts, bool plain,
-                       const std::string& path);
+std::string layers_glb(const LayeredScene& scene, const std::vector<LayerPart>& parts, const FilmTextures& film,
+                       bool plain, const std::string& path);
 std::string layers_usdz(const LayeredScene& scene, const std::vector<LayerPart>& parts, const std::string& path);
 
 }  // namespace ods

@@ -38,6 +38,7 @@ Json layers_metadata(const LayeredScene& scene, std::optional<size_t> probes) {
   if (!scene.fallback.empty()) json["fallback"] = scene.fallback;
   if (!scene.name.empty()) json["scene"] = scene.name;
   json["light"] = light_metadata(scene.light, probes);
+  for (const float time : scene.film.light_times) json["film"]["lights"].push_back(decimal(time));
   return json;
 }
 

@@ -15,6 +15,11 @@ static bool is_usdz(const std::string& path) {
   return small_letters(path).ends_with(".usdz");
 }
 
+void check_film_path(const std::string& path) {
+  if (!is_usdz(path)) return;
+  throw Error(ErrorKind::kUsage, fmt::format("cannot write '{}': a film of layers is a .glb; choose that", path));
+}
+
 void check_layers_path(const std::string& path) {
   if (!is_usdz(path) && !small_letters(path).ends_with(".glb")) {
     throw Error(ErrorKind::kUsage,
@@ -33,18 +38,32 @@ LayersCost cost_of(const LayeredScene& scene) {
     const size_t texels = static_cast<size_t>(mesh.texture.width) * static_cast<size_t>(mesh.texture.height);
     cost.texture_bytes += 4 * texels * 4 / 3;
   }
+  for (const LayerMover& mover : scene.film.movers) {
+    for (const MoverMesh& mesh : mover.meshes) {
+      cost.triangles += mesh.triangles.size();
+      cost.vertices += mesh.positions.size();
+      cost.draw_calls++;
+    }
+  }
+  for (const std::vector<Image>& lights : scene.film.lights) {
+    for (const Image& light : lights) {
+      cost.texture_bytes += static_cast<size_t>(light.width) * static_cast<size_t>(light.height) * 4 * 4 / 3;
+    }
+  }
   return cost;
 }
 
 uint64_t write_layers(const LayeredScene& scene, const std::string& path, const WriteLayersOptions& options,
                       const Progress& progress) {
   check_layers_path(path);
+  if (!scene.film.movers.empty()) check_film_path(path);
   const bool is_webp = !options.plain && !is_usdz(path) && options.textures == LayerTextures::kWebp;
   const FileFormat opaque = is_webp ? FileFormat::kWebp : FileFormat::kJpeg;
   const FileFormat alpha = is_webp ? FileFormat::kWebp : FileFormat::kPng;
   const std::vector<LayerPart> parts = layer_parts(scene, opaque, alpha, options.quality, progress);
+  const FilmTextures film = film_textures(scene.film, opaque, alpha, options.quality, {{}, progress.cancelled});
   const std::string bytes =
-      is_usdz(path) ? layers_usdz(scene, parts, path) : layers_glb(scene, parts, options.plain, path);
+      is_usdz(path) ? layers_usdz(scene, parts, path) : layers_glb(scene, parts, film, options.plain, path);
   write_file(path, bytes);
   return bytes.size();
 }

@@ -13,6 +13,11 @@
 //                              {"omnistereo": {"sky": true}}, say that it belongs at infinity
 //     middle of the box        a camera that looks along the yaw
 //
+// A moving part of a film is a node "mover 0" beside the pages, with an animation: its translation, rotation and scale, linear
+// between frames, and the weights of morph targets if it deforms, one target for each frame after the first. Its materials
+// "film 0" show the first light; their extras, {"omnistereo": {"lights": [4, 5, 6]}}, are the numbers of the textures with
+// the light at each of the metadata's `film.lights`. Something hidden has a scale of 0.
+//
 // ods/layers/file/layers_info.h has the metadata of the file. By default, meshes are compressed with EXT_meshopt_compression
 // and textures are WebP (EXT_texture_webp). Positions are floats with the filter EXPONENTIAL, each rounded as its
 // distance from the box allows: it moves by at most a quarter of a pixel of the panorama. A point that two meshes share
@@ -60,6 +65,9 @@ LayersCost cost_of(const LayeredScene& scene);
 
 // Throws Error(kUsage) if the name is neither .glb nor .usdz, Error(kOutput) if no file can be written there.
 void check_layers_path(const std::string& path);
+
+// Throws Error(kUsage) if such a file cannot hold a film: a .usdz.
+void check_film_path(const std::string& path);
 
 // Writes the file that its extension names; returns its size in bytes. Preconditions: every mesh has a texture, of the
 // channels that LayerMesh says, and finite positions; every corner exists. Throws as check_layers_path(),

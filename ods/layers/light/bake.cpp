@@ -66,6 +66,7 @@ PictureSamples sampled(const Renderer& renderer, const StereoCamera& camera, con
   }
   PictureSamples samples = begin(about, options.unfinished);
   renderer.sample(std::span(&camera, 1), render, samples, progress, keep, options.cells);
+  if (keep && options.keeps_unfinished) keep(samples);
   return samples;
 }
 
@@ -89,7 +90,7 @@ Image bake(const Renderer& renderer, const std::shared_ptr<const TexelRays>& ray
     denoise(picture, camera, {true, render.threads, {}, false}, part_of(progress, rendered, 1.0));
   }
   std::error_code ignored;
-  if (!options.unfinished.empty()) std::filesystem::remove(options.unfinished, ignored);
+  if (!options.unfinished.empty() && !options.keeps_unfinished) std::filesystem::remove(options.unfinished, ignored);
   return std::move(picture.eyes[0].radiance);
 }
 

@@ -19,6 +19,11 @@ class LayersCommand : public Cli {
   }
 };
 
+Scene playing(Scene scene) {
+  play(scene.animation, "");
+  return scene;
+}
+
 TEST_F(LayersCommand, WritesAFileThatViewersRead) {
   ASSERT_EQ(run(layers("--box 0.25 --yaw 30 --fallback spheres_360_TB.png")), 0) << err;
   EXPECT_NE(out.find("spheres.layers.glb"), std::string::npos) << out;
@@ -80,6 +85,31 @@ TEST_F(LayersCommand, RefusesBeforeItBakes) {
   EXPECT_EQ(run("layers room --width 256 --box 2 -o " + folder.path("room.glb")), 2);
   EXPECT_NE(err.find("--box of at most"), std::string::npos) << err;
   EXPECT_FALSE(std::filesystem::exists(folder.path("room.glb")));
+}
+
+TEST_F(LayersCommand, MakesAFilm) {
+  const std::string output = folder.path("toys.layers.glb");
+  const std::string toys = "layers toys --width 256 --samples 1 --noise none --exposure 0 -o ";
+  ASSERT_EQ(run(toys + output + " --frames 0-9x3 --fps 10 --light-every 2"), 0) << err;
+  EXPECT_NE(err.find("4 frames: "), std::string::npos) << err;
+  EXPECT_NE(err.find("their light at 3 of the frames: "), std::string::npos) << err;
+  EXPECT_FALSE(std::filesystem::exists(output + ".unfinished"));
+  EXPECT_FALSE(std::filesystem::exists(output + ".unfinished.0"));
+  const Scene scene = load_scene(output);
+  EXPECT_NEAR(length_of(playing(scene).animation), 0.9, 1e-6);
+  EXPECT_GT(scene.animation.instances.size(), 3u);
+  EXPECT_EQ(run(toys + output + " --frames 0-9 --time 1"), 2);
+  EXPECT_NE(err.find("--time"), std::string::npos) << err;
+  EXPECT_EQ(run(toys + folder.path("toys.usdz") + " --frames 0-9"), 2);
+  EXPECT_NE(err.find("a film of layers is a .glb"), std::string::npos) << err;
+  EXPECT_EQ(run(toys + output + " --frames 3"), 2);
+  EXPECT_NE(err.find("2 to 1000 frames, not 1"), std::string::npos) << err;
+  EXPECT_EQ(run(toys + output + " --frames 9-1x-1"), 2);
+  EXPECT_NE(err.find("goes forwards"), std::string::npos) << err;
+  EXPECT_EQ(run(toys + output + " --light-every 3"), 2);
+  EXPECT_NE(err.find("--light-every goes with --frames LIST"), std::string::npos) << err;
+  EXPECT_EQ(run(layers("--frames 0-9")), 2);
+  EXPECT_NE(err.find("nothing moves in these frames"), std::string::npos) << err;
 }
 
 TEST_F(LayersCommand, TakesAPictureWithDepth) {
