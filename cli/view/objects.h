@@ -12,6 +12,6 @@
 // Opens the objects of the options and puts them into the only layered scene among the items, or, without one, into the
 // only picture, which then gets its stage (ods/view/picture_stage.h); depth is the picture's. Without options, every
 // layered scene and picture gets the objects that the file beside it lists (ods/view/placements.h); one of them that
-// cannot be opened is left out, with a warning, and so are all of a picture without depth. Throws UsageError if there is
-// not exactly one such item, or depth for none, and as open_object(), give_depth() and make_stage().
+// cannot be opened is left out, with a warning, and so are all of a picture without depth. Throws UsageError if there
+// is not exactly one such item, or depth for none, and as open_object(), give_depth() and make_stage().
 void add_objects(const ObjectOptions& options, const DepthInput& depth, std::vector<ods::ViewItem>& items);

@@ -32,7 +32,7 @@ vec2 in_chart(const Chart& chart, vec3 point);
 // Collects the pieces of the state kChart in charts for textures of size x size texels.
 std::vector<Chart> make_charts(const Probe& probe, const std::vector<PieceMesh>& meshes, float pixel, int size);
 
-// The same for a mesh that is not seen from known places: each chart shows its surface from straight in front, with texels
+// Makes charts of a mesh that is not seen from known places: each shows its surface from straight in front, with texels
 // of this size in metres. index: Chart::mesh. max_extent: texels of a chart of several pieces.
 std::vector<Chart> flat_charts(const PieceMesh& mesh, size_t index, float texel, float max_extent);
 

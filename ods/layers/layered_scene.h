@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A layered scene: what the eyes of a head that moves within a small box see of a scene, as triangles with baked light.
-// The triangles are the scene's own, simplified to half a pixel of the panorama and cut; their textures are the panorama
-// from the middle of the box, as pages of a cube, and charts for everything that the middle does not see.
+// The triangles are the scene's own, simplified to half a pixel of the panorama and cut; their textures are the
+// panorama from the middle of the box, as pages of a cube, and charts for everything that the middle does not see.
 //
 // World coordinates as in the scene: metres, right-handed, +Y up. Texture coordinates as in glTF: (0, 0) is the upper
 // left corner of the texture, (1, 1) its lower right one. Triangles are counter-clockwise as seen from the box.

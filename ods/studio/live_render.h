@@ -105,8 +105,8 @@ class LiveRender {
   // The present state of the whole picture.
   LiveSeen whole() const;
 
-  // The camera of the present settings, with its merge by depth if they have a limit. Waits for the render thread; throws
-  // Error(kInput) if that has ended with an error.
+  // The camera of the present settings, with its merge by depth if they have a limit. Waits for the render thread;
+  // throws Error(kInput) if that has ended with an error.
   StereoCamera camera() const;
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Data for real-time objects in a picture with depth, which the page (web/objects-panorama.js) needs beside the picture:
-// the distances that hide them, and the light that falls on them.
+// Data for real-time objects in a picture with depth, which the page (web/objects-panorama.js) needs beside the
+// picture: the distances that hide them, and the light that falls on them.
 #pragma once
 #include <array>
 #include <string>

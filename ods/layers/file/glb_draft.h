@@ -43,7 +43,8 @@ size_t add_to(Json& list, Json value);
 // Adds bytes as they are, and returns the number of the buffer view.
 size_t add_bytes(Glb& glb, const std::string& bytes);
 
-// Each adds an accessor and returns its number. step: to whose multiples a position is rounded in a file that is not plain.
+// Each adds an accessor and returns its number. step: to whose multiples a position is rounded in a file that is not
+// plain.
 using StepOf = std::function<float(size_t vertex)>;
 size_t add_positions(Glb& glb, const std::vector<vec3>& positions, const StepOf& step);
 size_t add_uvs(Glb& glb, const std::vector<vec2>& uvs);

@@ -13,17 +13,17 @@
 //                              {"omnistereo": {"sky": true}}, say that it belongs at infinity
 //     middle of the box        a camera that looks along the yaw
 //
-// A moving part of a film is a node "mover 0" beside the pages, with an animation: its translation, rotation and scale, linear
-// between frames, and the weights of morph targets if it deforms, one target for each frame after the first. Its materials
-// "film 0" show the first light; their extras, {"omnistereo": {"lights": [4, 5, 6]}}, are the numbers of the textures with
-// the light at each of the metadata's `film.lights`. Something hidden has a scale of 0.
+// A moving part of a film is a node "mover 0" beside the pages, with an animation: its translation, rotation and scale,
+// linear between frames, and the weights of morph targets if it deforms, one target for each frame after the first. Its
+// materials "film 0" show the first light; their extras, {"omnistereo": {"lights": [4, 5, 6]}}, are the numbers of the
+// textures with the light at each of the metadata's `film.lights`. Something hidden has a scale of 0.
 //
-// ods/layers/file/layers_info.h has the metadata of the file. By default, meshes are compressed with EXT_meshopt_compression
-// and textures are WebP (EXT_texture_webp). Positions are floats with the filter EXPONENTIAL, each rounded as its
-// distance from the box allows: it moves by at most a quarter of a pixel of the panorama. A point that two meshes share
-// is rounded alike in both, so no cracks open between them, which grids of 16 bits for each mesh would not guarantee.
-// Texture coordinates have 16 bits, which moves a texture of 2048 texels by at most 1/64 of a texel; those outside 0..1
-// are clamped.
+// ods/layers/file/layers_info.h has the metadata of the file. By default, meshes are compressed with
+// EXT_meshopt_compression and textures are WebP (EXT_texture_webp). Positions are floats with the filter EXPONENTIAL,
+// each rounded as its distance from the box allows: it moves by at most a quarter of a pixel of the panorama. A point
+// that two meshes share is rounded alike in both, so no cracks open between them, which grids of 16 bits for each mesh
+// would not guarantee. Texture coordinates have 16 bits, which moves a texture of 2048 texels by at most 1/64 of a
+// texel; those outside 0..1 are clamped.
 //
 // NAME.usdz, for Quick Look and Vision Pro: a stored .zip whose files start at multiples of 64 bytes. Its first file,
 // layers.usda, is text, about 40 bytes a triangle, with as many digits as a quarter of a pixel needs. A material is a

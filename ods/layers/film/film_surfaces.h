@@ -19,9 +19,9 @@ struct WholeSurface {
 };
 std::vector<WholeSurface> surfaces_of(Scene& scene, const std::vector<Mover>& movers, std::span<const double> times);
 
-// For each surface and triangle, whether a place in the box sees a point of it in one of some frames, with one ring of
-// neighbours; large triangles and those with alpha always count as seen. Inner sides and what never comes out from behind
-// something are not. Sets the scene to some of the times, and then to the first.
+// Returns for each surface and triangle whether a place in the box sees a point of it in one of some frames, with one ring of
+// neighbours; large triangles and those with alpha always count as seen. Inner sides and what never comes out from
+// behind something are not. Sets the scene to some of the times, and then to the first.
 std::vector<std::vector<char>> seen_triangles(Scene& scene, const std::vector<WholeSurface>& surfaces,
                                               const std::vector<Mover>& movers, std::span<const double> times,
                                               const HeadBox& box);

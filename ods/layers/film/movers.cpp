@@ -140,8 +140,8 @@ bool moves_alike(const Mover& a, const Mover& b) {
   return true;
 }
 
-// The next quaternion is the nearer one of the two that turn alike, as linear interpolation needs it, and what is hidden
-// waits where it was, or where it will be.
+// The next quaternion is the nearer one of the two that turn alike, as linear interpolation needs it, and what is
+// hidden waits where it was, or where it will be.
 void make_continuous(std::vector<LayerPose>& poses, size_t first_shown) {
   LayerPose last = poses[first_shown];
   for (LayerPose& pose : poses) {

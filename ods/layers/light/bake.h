@@ -22,8 +22,8 @@ struct BakeOptions {
   // Indirect::kCache, which only the CPU has. If not set, the texture fills a cache of its own.
   const LightCells* cells = nullptr;
   // A file for the samples so far (ods/render/unfinished.h). If it exists, bake() resumes from it, and the result has
-  // the same bits as without an interruption. bake() removes it at the end, unless `keeps_unfinished`: then the same call
-  // reads all of its samples. No file if empty.
+  // the same bits as without an interruption. bake() removes it at the end, unless `keeps_unfinished`: then the same
+  // call reads all of its samples. No file if empty.
   std::string unfinished;
   bool keeps_unfinished = false;
   Settings scene;  // identifies the scene and its lights for that file: scene_settings() (ods/sequence/identity.h)

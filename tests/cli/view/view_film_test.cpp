@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Films of layered scenes in the viewer: in Chromium, at times between the frames, against rays at the triangles as they
-// are then. tests/web/layered-test.js drives the browser.
+// Films of layered scenes in the viewer: in Chromium, at times between the frames, against rays at the triangles as
+// they are then. tests/web/layered-test.js drives the browser.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -40,7 +40,8 @@ struct Compared {
   int wrong = 0;
 };
 
-// Pixels all of whose surroundings are on one mover, or on none: those on movers have its light, the others another one.
+// Pixels all of whose surroundings are on one mover, or on none: those on movers have its light, the others another
+// one.
 Compared compare(const Image& got, vec3 eye, float t) {
   Compared compared;
   const auto light = [&](int x, int y) {

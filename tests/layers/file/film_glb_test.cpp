@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Films of layers in a .glb, read by the reader of scenes and by Khronos' validator (tests/layers/file/write_layers_test.cpp).
+// Films of layers in a .glb, read by the reader of scenes and by Khronos' validator
+// (tests/layers/file/write_layers_test.cpp).
 #include "ods/layers/file/film_glb.h"
 
 #include <gtest/gtest.h>
