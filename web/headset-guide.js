@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a guide (tour.js) adds to the headset's menu: the plan with the places of a tour and a cone for the view, the
+// The part of a guide (tour.js) in the headset's menu: the plan with the places of a tour and a cone for the view, the
 // compass, and the text of the panorama. A press on a place leads there.
 import { radians } from './geometry.js';
 import { t } from './translate.js';

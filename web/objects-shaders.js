@@ -180,7 +180,7 @@ vec3 remaining(vec3 shown, vec3 world, vec3 n) {
   return min(tone(untone(shown) * rest) / max(shown, 1e-4), 1.0);
 }`;
 
-// Of a layer's triangles.
+// Draws a layer's triangles in the shade of objects.
 export const SHADE = (bias) => `#version 300 es
 precision highp float;
 uniform sampler2D page;

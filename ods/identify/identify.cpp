@@ -285,7 +285,7 @@ std::string reading_text(const Reading& reading) {
                      projection_name(reading.projection));
 }
 
-// Two equal halves are no evidence of a stereo picture's projection: nothing in them has parallax.
+// Two equal halves do not show the projection of a stereo picture: nothing in them has parallax.
 static void doubt_copies(const std::vector<Cut>& cuts, std::vector<Candidate>& candidates) {
   constexpr double kAtMost = 0.85;
   for (Candidate& each : candidates) {

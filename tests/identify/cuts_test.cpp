@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What looks like two eyes and is not: noise in a pattern, a world that repeats itself, and the same picture twice; and
-// eyes of cameras that are not level.
+// Pictures that seem to have two eyes and do not: noise in a pattern, a world that repeats itself, and the same picture
+// twice; and eyes of cameras that are not level.
 #include "ods/identify/cuts.h"
 
 #include <gtest/gtest.h>

@@ -26,8 +26,8 @@ TEST(FilmGeometry, HasEverySideThatEyesSee) {
   }
 }
 
-// Of a plate of two double-sided triangles that does not turn, the inner side of the second one faces the box behind
-// the first one.
+// A plate of two double-sided triangles that does not turn: the inner side of the second one faces the box behind the
+// first one.
 TEST(FilmGeometry, LeavesOutWhatIsHidden) {
   GltfBuilder file = turning(true);
   file.json["animations"][0]["channels"].erase(0);
