@@ -48,7 +48,7 @@ function lay(rows) {
 
 // Files, and in the studio its scene, which can be displayed.
 function entriesOf({ viewer }) {
-  const { studio } = viewer.steering ?? {};
+  const { studio } = viewer;
   const { exposure, tone } = viewer.choice;
   const files = viewer.view.items.map(({ title, name, thumbnail }, i) => ({ name: title ?? name, thumbnail, on: !viewer.scene && i === viewer.item, run: () => viewer.open(i, { exposure, tone }) }));
   return studio ? [{ name: studio.scene.name, on: Boolean(viewer.scene), run: () => studio.showScene() }, ...files] : files;

@@ -40,6 +40,7 @@ export class Headset {
   // wants.layers: use layers if the browser supports them and the picture's format allows it.
   constructor(viewer, wants = {}) {
     Object.assign(this, { viewer, wants, session: null, turn: 0, pose: null, layers: null, panel: null, marker: null });
+    if (viewer.studio) import('./studio-headset.js').then(({ VrSteering }) => (viewer.steering = new VrSteering(viewer.studio)));
   }
 
   // Sets the point that the desk marks: { yaw, pitch, eye }, or null.
@@ -100,7 +101,7 @@ export class Headset {
     this.panel?.update(frame, this.pose, now);
     const { picture, panorama } = viewer;
     const look = lookOf(this.pose.transform, this.turn);
-    if (viewer.scene) viewer.steering?.head(look); // set by the studio
+    if (viewer.scene) viewer.steering?.head(look);
     if (!(now - this.looked < MIRROR)) this.lookAt(now, look);
     picture?.refresh?.();
     if (picture && !picture.draw && !viewer.scene && this.layers?.show(frame, viewer, this.turn)) {

@@ -13,6 +13,7 @@ import { inverse, plus, scaled, turned } from './headset-room.js';
 import { FACES } from './layers.js';
 import { LayeredDrawer, NEAR } from './layered-draw.js';
 import { Fault, check } from './meshopt.js';
+import { Objects } from './objects.js';
 import { ObjectsDrawer, partOf } from './objects-draw.js';
 import { split } from './objects-split.js';
 import { LIGHT, OBJECT, SHADOW } from './objects-shaders.js';
@@ -269,8 +270,8 @@ export class Stage {
   }
 }
 
-// Makes a picture the stage of its item's objects. how: of openPicture().
-export async function setStage(picture, panorama, item, how) {
+// Makes a picture the stage of its item's objects.
+async function setStage(picture, panorama, item, how) {
   const blob = await download(new URL(item.stage.depth, how.base ?? location.href), item.name, how.signal);
   const depths = await decode(blob, item.name, 'none');
   try {
@@ -281,4 +282,12 @@ export async function setStage(picture, panorama, item, how) {
   } finally {
     depths.close();
   }
+}
+
+// Shows the objects of a picture's item in it, unless another picture is shown by then. how: of openPicture().
+export async function enterStage(picture, viewer, panorama, item, how) {
+  if (viewer.picture === picture) await setStage(picture, panorama, item, how);
+  if (viewer.picture !== picture || !picture.stage) return;
+  picture.objects = new Objects(picture, viewer);
+  await picture.objects.load();
 }

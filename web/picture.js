@@ -161,20 +161,6 @@ export function imageAddresses(view, item, base, choice = {}) {
   return (item.image ? [item.image] : eyeFiles(item, layout)).map((path) => addressOf(path, base, { layout, exposure, tone }));
 }
 
-// Objects in a picture come after it, which does not wait for them.
-async function enterStage(picture, viewer, panorama, item, how) {
-  try {
-    const { Objects } = await import('./objects.js');
-    const { setStage } = await import('./objects-panorama.js');
-    if (viewer.picture === picture) await setStage(picture, panorama, item, how);
-    if (viewer.picture !== picture || !picture.stage) return;
-    picture.objects = new Objects(picture, viewer);
-    await picture.objects.load();
-  } catch (error) {
-    if (viewer.picture === picture) console.warn(error.message);
-  }
-}
-
 // base: the address that the item's addresses are relative to. choice: { layout, projection, exposure, tone }, all
 // optional. early(picture): receives a preview of the picture. ahead: of ahead.js, or missing. paging: whether to use
 // pages.js, by default depending on the picture's size. Throws an Error with one line for the user, or an AbortError if `signal` is aborted.
@@ -191,6 +177,7 @@ export async function openPicture(panorama, view, item, { base, choice = {}, ...
   }
   const isLight = item.light && panorama.hasLight;
   const picture = await (isLight ? openLight(panorama, item, form, url, choice, how) : openImage(panorama, item, form, imageAddresses(view, item, base, choice), url, how));
-  if (item.stage && item.objects.length && !choice.layout && !choice.projection) picture.enter = (viewer) => enterStage(picture, viewer, panorama, item, { base, choice, ...how });
+  // The picture does not wait for its objects.
+  if (item.stage && item.objects.length && !choice.layout && !choice.projection) picture.enter = (viewer) => import('./objects.js').then(() => import('./objects-panorama.js')).then(({ enterStage }) => enterStage(picture, viewer, panorama, item, { base, choice, ...how })).catch(({ message }) => viewer.picture === picture && console.warn(message));
   return picture;
 }

@@ -40,7 +40,7 @@ const FIELDS = {
     of: ({ viewer: { item, choice } }) => ({ item, choice }),
     fits: (value) => isObject(value) && Number.isInteger(value.item) && isNumber(value.item) && isObject(value.choice ?? {}),
     async take({ viewer }, { item, choice }) {
-      if (item < 0) return viewer.steering?.studio.showScene();
+      if (item < 0) return viewer.studio?.showScene();
       if (!viewer.view.items[item]) viewer.view.items = (await (await fetch('view.json')).json()).items; // rendered since
       return viewer.view.items[item] && viewer.open(item, choice);
     },
@@ -53,9 +53,9 @@ const FIELDS = {
     take: (share, film, time) => share.play(film, time),
   },
   settings: {
-    of: ({ viewer }) => viewer.steering?.studio.session.settings,
-    fits: (settings, { viewer }) => isLike(settings, viewer.steering?.studio.session.settings ?? {}),
-    take: ({ viewer }, settings) => viewer.steering?.studio.session.use(settings),
+    of: ({ viewer }) => viewer.studio?.session.settings,
+    fits: (settings, { viewer }) => isLike(settings, viewer.studio?.session.settings ?? {}),
+    take: ({ viewer }, settings) => viewer.studio?.session.use(settings),
   },
 };
 

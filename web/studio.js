@@ -8,7 +8,6 @@ import { nameButtons } from './controls.js';
 import { icon } from './icons.js';
 import { modeOf } from './modes.js';
 import { angleAcross } from './panorama.js';
-import { VrSteering } from './studio-headset.js';
 import { Live } from './studio-live.js';
 import { make } from './elements.js';
 import { Panel } from './studio-panel.js';
@@ -42,7 +41,7 @@ class Studio {
     this.build();
     this.panel = new Panel(this.rows, viewer.view, this.session);
     this.foot = new RenderFoot(this.element.querySelector('footer'), this);
-    viewer.steering = new VrSteering(this);
+    viewer.studio = this;
     this.listen();
     this.showScene();
     this.panel.curve.look(viewer.state.pitch);

@@ -521,7 +521,7 @@ async function testSharedSettings({ viewer, headset }, session) {
   const other = { settings: structuredClone(session.settings), use: (settings) => (other.settings = settings) };
   const desk = {
     item: -1, choice: {}, state: {}, view: viewer.view, element: document.createElement('div'), picture: null,
-    set: (state) => Object.assign(desk.state, state), steering: { studio: { session: other } },
+    set: (state) => Object.assign(desk.state, state), studio: { session: other },
   };
   const shares = [new Share({ viewer, headset }), new Share({ viewer: desk, headset: { mark() {} } })];
   session.edit({ 'sidecar.ipd': 0.07 });
