@@ -30,6 +30,26 @@ function lookAt(viewer, { yaw, pitch }) {
   requestAnimationFrame(step);
 }
 
+// The names of ways out of view, above the bar in `foot`.
+function waysAside(viewer, foot) {
+  const sides = [0, 1].map(() => make('div', {})); // left, right
+  foot.prepend(make('div', { id: 'aside', ariaHidden: 'true' }, ...sides)); // the Tab key reaches the signs themselves
+  return {
+    clear: () => sides.forEach((side) => side.replaceChildren()),
+    make({ title, at }) {
+      const name = make('button', { type: 'button', tabIndex: -1 }, make('span', { textContent: title }));
+      name.addEventListener('click', () => lookAt(viewer, seenBy(0, at)));
+      return name;
+    },
+    place(name, { at }, isHidden) {
+      name.hidden = isHidden || viewer.element.clientHeight < ROOMY;
+      if (name.hidden) return;
+      const side = sides[Number(wrapDegrees(seenBy(0, at).yaw - viewer.state.yaw) >= 0)];
+      if (name.parentElement !== side) side.append(name);
+    },
+  };
+}
+
 // The parts of the view, each with the eye for which it is: 1 left, -1 right. Where both share it, there are two parts.
 function seenParts(viewer) {
   const { state } = viewer;
@@ -44,8 +64,7 @@ export function showNotes(viewer, guide) {
   const layer = make('div', { id: 'spots' });
   const card = make('div', { id: 'card', role: 'status', hidden: true });
   viewer.element.after(layer, caption, card);
-  const sides = [0, 1].map(() => make('div', {})); // left, right
-  layer.parentElement.querySelector('#foot').prepend(make('div', { id: 'aside', ariaHidden: 'true' }, ...sides)); // the Tab key reaches the signs themselves
+  const aside = waysAside(viewer, layer.parentElement.querySelector('#foot'));
   let entries = []; // { spot, buttons, rings }: one for each part of the view
 
   const makeButton = (spot, k) => {
@@ -58,11 +77,6 @@ export function showNotes(viewer, guide) {
     button.addEventListener('focus', () => button.classList.contains('away') && viewer.set(seenBy(0, spot.at)));
     return button;
   };
-  const makeName = (spot) => {
-    const name = make('button', { type: 'button', tabIndex: -1 }, make('span', { textContent: spot.title }));
-    name.addEventListener('click', () => lookAt(viewer, seenBy(0, spot.at)));
-    return name;
-  };
   const fill = () => {
     const { about } = viewer;
     caption.textContent = about?.caption ?? '';
@@ -71,9 +85,9 @@ export function showNotes(viewer, guide) {
     const hadFocus = layer.contains(activeElement);
     entries = guide.spots.map((spot) => ({
       spot, buttons: [0, 1].map((k) => makeButton(spot, k)),
-      name: spot.to !== undefined && makeName(spot), rings: spot.foot ? [0, 1].map(() => make('div', { className: 'ring', hidden: true })) : [],
+      name: spot.to !== undefined && aside.make(spot), rings: spot.foot ? [0, 1].map(() => make('div', { className: 'ring', hidden: true })) : [],
     }));
-    sides.forEach((side) => side.replaceChildren());
+    aside.clear();
     layer.replaceChildren(...entries.flatMap(({ rings, buttons }) => [...rings, ...buttons]));
     place();
     if (hadFocus) viewer.element.focus({ preventScroll: true });
@@ -86,28 +100,22 @@ export function showNotes(viewer, guide) {
   const placeRing = (ring, { foot }, part) => {
     const way = Math.hypot(foot[0], foot[2]) || 1;
     const ahead = [(RING * foot[0]) / way, 0, (RING * foot[2]) / way];
-    const aside = [-ahead[2], 0, ahead[0]];
+    const beside = [-ahead[2], 0, ahead[0]];
     const near = (axis, sign) => part && find(foot.map((x, i) => x + sign * axis[i]), part);
-    const [left, right, low, high] = [near(aside, -1), near(aside, 1), near(ahead, -1), near(ahead, 1)];
+    const [left, right, low, high] = [near(beside, -1), near(beside, 1), near(ahead, -1), near(ahead, 1)];
     ring.hidden = !(left && right && low && high);
     if (ring.hidden) return;
     const [width, height] = [Math.hypot(right[0] - left[0], right[1] - left[1]), Math.hypot(high[0] - low[0], high[1] - low[1])];
     Object.assign(ring.style, { left: `${(left[0] + right[0] - width) / 2}px`, top: `${(low[1] + high[1] - height) / 2}px`, width: `${width}px`, height: `${height}px` });
     ring.className = `ring ${part.tint ?? ''}`;
   };
-  // part: of the view, if there is only one.
-  const placeName = (name, { at }, part) => {
-    name.hidden = !part || viewer.element.clientHeight < ROOMY || Boolean(find(at, part));
-    if (name.hidden) return;
-    const side = sides[Number(wrapDegrees(seenBy(0, at).yaw - viewer.state.yaw) >= 0)];
-    if (name.parentElement !== side) side.append(name);
-  };
   const place = () => {
     const parts = viewer.session || !viewer.picture ? [] : seenParts(viewer);
+    const whole = parts.length === 1 || parts[0]?.tint ? parts[0] : null; // the only part
     for (const entry of entries) {
       const { spot, buttons, rings } = entry;
       if (!entry.size?.[0]) entry.size = [buttons[0].offsetWidth, buttons[0].offsetHeight];
-      if (entry.name) placeName(entry.name, spot, parts.length === 1 || parts[0]?.tint ? parts[0] : null);
+      if (entry.name) aside.place(entry.name, spot, !whole || Boolean(find(spot.at, whole)));
       rings.forEach((ring, i) => placeRing(ring, spot, parts[i]));
       buttons.forEach((button, i) => {
         const at = parts[i] && find(spot.at, parts[i]);

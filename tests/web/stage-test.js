@@ -4,9 +4,9 @@
 // Real-time objects in a stereo picture with depth, in a browser. testStage(job, tools) runs a part:
 //   { stage: 'vertices', cases: [{ camera, eye, points: [[x, y, z], ...], seen: [[x, y, z], ...] }] } compares the shader's
 //   vertices with the library's; it throws an error with the largest angle where that is above a tenth of a minute of arc.
-//   { stage: 'looks', width, height, objects, looks: [{ name, shade, ...state }] } sends the canvas at each
-//   look; from one without `shade` on, nothing is in the shadow.
-//   { stage: 'meets', rays: [{ along, eye, away }] } sends the errors of the picture's distances as meets.json.
+//   { stage: 'looks', width, height, objects, looks: [{ name, shade, width, ...state }], rays: [{ along, eye, away }] }
+//   sends the canvas at each look, perhaps of another width; from one without `shade` on, nothing is in the shadow. With
+//   `rays` it sends the errors of the picture's distances as meets.json.
 //   { stage: 'drag', ...looks, from, to } drags the object from one position on the page to the other, and sends its place.
 //   { stage: 'wear', ...looks } sends both eyes of a headset.
 import { Headset } from './headset.js';
@@ -127,19 +127,20 @@ const send = async (canvas, name) => ask(`result/${name}`, { method: 'POST', bod
 
 async function looks(job) {
   const viewer = await open(job);
-  for (const { name, moves = false, shade = true, ...state } of job.looks) {
+  for (const { name, moves = false, shade = true, width = job.width, ...state } of job.looks) {
     if (!shade) viewer.picture.objects.drawer.shade = () => {};
+    viewer.element.style.width = `${width}px`;
     viewer.set({ yaw: 0, pitch: 0, fov: 90, mode: 'left', swap: false, shift: 0, ...state });
     viewer.fit();
     viewer.paint(0, { moves });
     await send(viewer.canvas, name);
   }
+  if (job.rays) await meets(viewer.picture, job.rays);
   return viewer;
 }
 
-async function meets(job) {
-  const { picture: { stage } } = await open({ width: 64, height: 64, objects: [{ half: 0.1, at: [0, 0, -1] }] });
-  const errors = job.rays.map(({ along, eye, away }) => {
+function meets({ stage }, rays) {
+  const errors = rays.map(({ along, eye, away }) => {
     const { found, at, from } = stage.meet(along, eye);
     return found ? Math.abs(Math.hypot(...at.map((value, i) => value - from[i])) - away) : 1e9;
   });
@@ -187,6 +188,6 @@ async function wear(job) {
   await headset.session.end();
 }
 
-const PARTS = { vertices, looks, meets, drag, wear };
+const PARTS = { vertices, looks, drag, wear };
 
 export const testStage = (job) => PARTS[job.stage](job);

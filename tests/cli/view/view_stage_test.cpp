@@ -257,22 +257,24 @@ TEST_F(Stage, VerticesAreSeenAsTheLibraryProjectsThem) {
 
 // --- what is seen ---------------------------------------------------------------------------------------------------
 
-TEST_F(Stage, OutlinesAgreeWithTheCameraWhereverTheHeadTurns) {
-  need_browser();
+// The looks whose outlines are compared: name, mode, yaw, pitch, moves. All are drawn in one session of the browser, which
+// takes longer to start than to draw.
+Json outline_looks() {
   Json looks = Json::array();
-  for (const int yaw : {0, 48, 20}) {
+  for (const auto& [yaw, moves] : {std::pair{0, false}, {48, false}, {48, true}, {20, true}}) {
     for (const char* const mode : {"left", "right"}) {
-      for (const bool moves : {false, true}) {
-        looks.push_back({{"name", fmt::format("{}{}{}", mode, yaw, moves)},
-                         {"mode", mode},
-                         {"yaw", yaw},
-                         {"pitch", yaw == 20 ? -30 : 0},
-                         {"moves", moves}});
-      }
+      looks.push_back({{"name", fmt::format("{}{}{}", mode, yaw, moves)},
+                       {"mode", mode},
+                       {"yaw", yaw},
+                       {"pitch", yaw == 20 ? -30 : 0},
+                       {"moves", moves}});
     }
   }
-  ASSERT_EQ(browse(looks_job("looks", looks)), "ok");
-  for (const Json& look : looks) {
+  return looks;
+}
+
+void expect_outlines(const TemporaryFolder& folder) {
+  for (const Json& look : outline_looks()) {
     const std::string name = look["name"];
     const int eye = look["mode"] == "left" ? kLeft : kRight;
     const Counts counts = compare_outline(folder.path(name), 0, eye, look["yaw"], look["pitch"]);
@@ -286,12 +288,16 @@ TEST_F(Stage, OutlinesAgreeWithTheCameraWhereverTheHeadTurns) {
   }
 }
 
+void expect_sides(const TemporaryFolder& folder) {
+  for (int i = 0; i < 2; i++) {
+    const int column = i * kView.width;
+    EXPECT_EQ(compare_outline(folder.path("both"), column, i, 48, 0).wrong, 0) << i;
+    EXPECT_EQ(compare_outline(folder.path("swapped"), column, 1 - i, 48, 0).wrong, 0) << i;
+  }
+}
+
 // The floor beside the foot of a cube gets darker, nothing gets brighter, and what is far from all cubes is the same.
-TEST_F(Stage, ShadowsDarkenTheFloorBesideThem) {
-  need_browser();
-  const Json looks = {{{"name", "shaded"}, {"yaw", 20}, {"pitch", -30}},
-                      {{"name", "plain"}, {"yaw", 20}, {"pitch", -30}, {"shade", false}}};
-  ASSERT_EQ(browse(looks_job("looks", looks)), "ok");
+void expect_shadows(const TemporaryFolder& folder) {
   const Image shaded = part_of_sent(folder.path("shaded"), 0, kView),
               plain = part_of_sent(folder.path("plain"), 0, kView);
   const vec3 foot = cubes()[2].at;
@@ -316,17 +322,47 @@ TEST_F(Stage, ShadowsDarkenTheFloorBesideThem) {
   EXPECT_GT(far, 50);
 }
 
-TEST_F(Stage, SideBySideAndSwappedEyesHaveTheirOwnPlaces) {
-  need_browser();
-  const Json looks = {{{"name", "both"}, {"mode", "side-by-side"}, {"yaw", 48}},
-                      {{"name", "swapped"}, {"mode", "side-by-side"}, {"yaw", 48}, {"swap", true}}};
-  const Extent whole{2 * kView.width, kView.height};
-  ASSERT_EQ(browse(looks_job("looks", looks, whole)), "ok");
-  for (int i = 0; i < 2; i++) {
-    const int column = i * kView.width;
-    EXPECT_EQ(compare_outline(folder.path("both"), column, i, 48, 0).wrong, 0) << i;
-    EXPECT_EQ(compare_outline(folder.path("swapped"), column, 1 - i, 48, 0).wrong, 0) << i;
+// Rays of both eyes, and their distances in the room.
+Json some_rays() {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> heading(-kPi, kPi), rise(-1.0f, 1.0f);
+  Json rays = Json::array();
+  for (int i = 0; i < 600; i++) {
+    const float a = heading(random), y = rise(random), level = std::sqrt(1.0f - y * y);
+    const vec3 direction(level * std::sin(a), y, -level * std::cos(a));
+    const int eye = i % 2;
+    rays.push_back({{"along", {direction.x, direction.y, direction.z}},
+                    {"eye", eye},
+                    {"away", distance_of(sight(eye, direction))}});
   }
+  return rays;
+}
+
+// Away from the edges of surfaces, which are as exact as the picture's texels.
+void expect_distances(const TemporaryFolder& folder) {
+  std::vector<float> errors = Json::parse(folder.read("meets.json")).get<std::vector<float>>();
+  std::ranges::sort(errors);
+  const float middle = errors[errors.size() / 2], most = errors[errors.size() * 99 / 100];
+  fmt::print("the test of depth: median {:.2f} mm, p99 {:.2f} mm, width {}\n", 1000.0f * middle, 1000.0f * most,
+             kEye.width);
+  EXPECT_LT(middle, 0.002f);
+  EXPECT_LT(most, 0.010f);
+}
+
+TEST_F(Stage, TheyAreSeenAsByTheCameraWhereverTheHeadTurns) {
+  need_browser();
+  Json job = looks_job("looks", outline_looks());
+  job["rays"] = some_rays();
+  const Json both = {{"mode", "side-by-side"}, {"yaw", 48}, {"width", 2 * kView.width}};
+  for (const auto& [name, swap] : {std::pair{"both", false}, {"swapped", true}}) {
+    Json look = both;
+    look["name"] = name, look["swap"] = swap;
+    job["looks"].push_back(look);
+  }
+  for (const auto& [name, shade] : {std::pair{"shaded", true}, {"plain", false}})
+    job["looks"].push_back({{"name", name}, {"yaw", 20}, {"pitch", -30}, {"shade", shade}});
+  ASSERT_EQ(browse(job), "ok");
+  expect_outlines(folder), expect_sides(folder), expect_shadows(folder), expect_distances(folder);
 }
 
 TEST_F(Stage, AHeadsetsEyesSeeThemInTheirPlaces) {
@@ -342,31 +378,6 @@ TEST_F(Stage, AHeadsetsEyesSeeThemInTheirPlaces) {
       EXPECT_GT(counts.seen, 100) << name;
     }
   }
-}
-
-// Away from the edges of surfaces, which are as exact as the picture's texels.
-TEST_F(Stage, DistancesOfThePictureAreExactToAFewMillimetres) {
-  need_browser();
-  std::mt19937 random(3);
-  std::uniform_real_distribution<float> heading(-kPi, kPi), rise(-1.0f, 1.0f);
-  Json rays = Json::array();
-  std::vector<float> all;
-  for (int i = 0; i < 600; i++) {
-    const float a = heading(random), y = rise(random), level = std::sqrt(1.0f - y * y);
-    const vec3 direction(level * std::sin(a), y, -level * std::cos(a));
-    const int eye = i % 2;
-    rays.push_back({{"along", {direction.x, direction.y, direction.z}},
-                    {"eye", eye},
-                    {"away", distance_of(sight(eye, direction))}});
-  }
-  ASSERT_EQ(browse({{"stage", "meets"}, {"rays", rays}}), "ok");
-  std::vector<float> errors = Json::parse(folder.read("meets.json")).get<std::vector<float>>();
-  std::ranges::sort(errors);
-  const float middle = errors[errors.size() / 2], most = errors[errors.size() * 99 / 100];
-  fmt::print("the test of depth: median {:.2f} mm, p99 {:.2f} mm, width {}\n", 1000.0f * middle, 1000.0f * most,
-             kEye.width);
-  EXPECT_LT(middle, 0.002f);
-  EXPECT_LT(most, 0.010f);
 }
 
 // An object that is dragged stands on the picture's floor.
