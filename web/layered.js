@@ -222,7 +222,7 @@ class LayeredPicture {
     this.objects?.prepare();
     drawer.fit(box.slice(2));
     for (const [i, side] of shown.entries()) {
-      const turn = about.turn + (side ? shift : -shift);
+      const turn = about.turn + (side ? -shift : shift);
       const own = [0, 3, 6].flatMap((at) => turned(rays.slice(at, at + 3), turn));
       const part = [clip[0] - box[0], clip[1] - box[1], clip[2], clip[3]];
       drawer.drawEye(i, meshes, { rays: own, at: this.toWorld(eyes[side]), middle: about.center, part, objects: this.objects });

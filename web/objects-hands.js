@@ -47,7 +47,7 @@ export class Hands {
     const side = direction.eye === 'right' ? 1 : 0;
     const shift = radians(viewer.state.shift) / 2;
     if (picture.stage) return picture.stage.rayOf(raysOf(direction, 1).slice(6, 9), side, shift);
-    const along = turned(raysOf(direction, 1).slice(6, 9), picture.about.turn + (side ? shift : -shift));
+    const along = turned(raysOf(direction, 1).slice(6, 9), picture.about.turn + (side ? -shift : shift));
     return { from: picture.toWorld(picture.eyesOf(viewer.state, raysOf(viewer.state, 1))[side]), along: scaled(along, 1) };
   }
 

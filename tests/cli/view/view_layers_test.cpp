@@ -179,8 +179,9 @@ TEST_F(LayeredView, EveryModeHasItsEyesAndTheBoxItsEdge) {
   const Place place{"right", vec3(0.02f, 0.0f, 0.0f), 10.0f};
   Place side = place, mixed = place, far_away{"far", vec3(9.0f, -9.0f, 9.0f)};
   side.name = "sides", mixed.name = "anaglyph";
-  const nlohmann::json looks = {look_of(place, 0, "right"), look_of(side, 0, "side-by-side"),
-                                look_of(mixed, 0, "anaglyph"), look_of(far_away, 0)};
+  nlohmann::json looks = {look_of(place, 0, "right"), look_of(side, 0, "side-by-side"), look_of(mixed, 0, "anaglyph"),
+                          look_of(far_away, 0)};
+  looks[1]["shift"] = 4;  // degrees: the left eye's picture to the left, the right eye's to the right
   ASSERT_EQ(browse(job_of("draw", {{"looks", looks}})), "ok");
   const auto at = [&](Place from, int eye) {
     from.at = eye_of(from.at, from.yaw, eye);
@@ -190,6 +191,7 @@ TEST_F(LayeredView, EveryModeHasItsEyesAndTheBoxItsEdge) {
   const Extent half{kView.width / 2, kView.height};
   for (const int eye : {kLeft, kRight}) {
     Place narrow = at(side, eye);
+    narrow.yaw += eye == kLeft ? 2.0f : -2.0f;
     narrow.fov = 2.0f * glm::degrees(std::atan(static_cast<float>(half.width) / static_cast<float>(half.height)));
     EXPECT_GT(expect_view(sent("sides", eye * half.width, half), narrow), 0.3) << eye;
   }
