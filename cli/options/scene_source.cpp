@@ -271,6 +271,7 @@ Scene open_object(const std::string& file, const std::string& confine) {
   source.name = file;
   source.confine = confine;
   source.taken_for = ods::TakenFor::kObject;
+  source.has_places = true;  // beside other things, a ring stays as small as it is
   Scene object = open_scene(source);
   if (object.instances.empty()) {
     throw ods::Error(ods::ErrorKind::kInput, fmt::format("--with '{}' has no triangles that could be shown", file));

@@ -87,6 +87,9 @@ TEST_F(SceneOptionsOf, ObjectsAreInThePicture) {
   EXPECT_GT(one, 10);
   ASSERT_EQ(run(words + with + " --at 0.3,0.2,-0.9" + with + " --at 0.3,0.2,0.1 --turn 0 --turn 180"), 0) << err;
   EXPECT_NEAR(black(), 2 * one, 4);
+  file.json["nodes"][0]["scale"] = {0.2, 0.2, 0.2};  // it keeps its size, although it would be shown larger on its own
+  ASSERT_EQ(run(words + " --with " + save(file) + " --at 0.3,0.2,-0.9"), 0) << err;
+  EXPECT_LT(10 * black(), one);
 }
 
 TEST_F(SceneOptionsOf, Variants) {
