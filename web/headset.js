@@ -40,7 +40,6 @@ export class Headset {
   // wants.layers: use layers if the browser supports them and the picture's format allows it.
   constructor(viewer, wants = {}) {
     Object.assign(this, { viewer, wants, session: null, turn: 0, pose: null, layers: null, panel: null, marker: null });
-    if (viewer.studio) import('./studio-headset.js').then(({ VrSteering }) => (viewer.steering = new VrSteering(viewer.studio)));
   }
 
   // Sets the point that the desk marks: { yaw, pitch, eye }, or null.
@@ -50,11 +49,13 @@ export class Headset {
 
   async toggle() {
     if (this.session) return this.session.end();
-    const { gl } = this.viewer.panorama;
+    const { viewer } = this;
+    const { gl } = viewer.panorama;
     const optionalFeatures = ['local', 'hand-tracking', ...(this.wants.layers ? ['layers'] : [])];
     const session = await navigator.xr.requestSession('immersive-vr', { optionalFeatures });
     session.addEventListener('end', () => this.ended());
     await gl.makeXRCompatible();
+    if (viewer.studio) viewer.steering ??= new (await import('./studio-headset.js')).VrSteering(viewer.studio);
     this.space = await session.requestReferenceSpace('local');
     const isQuick = session.supportedFrameRates?.includes(RATE);
     if (isQuick) session.updateTargetFrameRate(RATE).catch(() => {});
@@ -66,7 +67,7 @@ export class Headset {
     this.pace = new Pace({ period: 1000 / (isQuick ? RATE : (session.frameRate ?? RATE)) });
     this.listenToHands();
     this.watchWearer();
-    this.viewer.session = session;
+    viewer.session = session;
     this.viewer.say('change');
     if (this.wants.layers) {
       const { EyeLayers, hasLayers } = await import('./layers.js');
