@@ -29,8 +29,8 @@ size_t light_step(const LayersJob& job, const ods::FilmGeometry& geometry, size_
   }
   if (bytes(step) > ods::kMostFilmBytes) {
     throw UsageError(fmt::format(
-        "the light of what moves would need {} on graphics cards, at most {}: a smaller --width or a larger --light-every "
-        "needs less",
+        "the light of what moves would need {} on graphics cards, at most {}: a smaller --width or a larger "
+        "--light-every needs less",
         ods::bytes_text(bytes(step)), ods::bytes_text(ods::kMostFilmBytes)));
   }
   return step;

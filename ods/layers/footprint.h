@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The texels that a textured triangle reads.
+// The texels that a textured triangle reads, and the part of one that a masked surface covers.
 #pragma once
 #include <algorithm>
 #include <cmath>
 
+#include "ods/camera/texel_rays.h"
 #include "ods/kernel/math.h"
 
 namespace ods {
@@ -36,6 +37,26 @@ void for_each_texel(const vec2 (&corners)[3], int size, const Visit& visit) {
       if (read && !visit(x, y, inside)) return;
     }
   }
+}
+
+// Samples a masked texel on a grid. Returns the ray of the covered sample that is nearest to its centre, and the part of
+// the texel that is covered, 0..1. shoot(offset) returns the ray at an offset from the centre, in texels; direction 0 if
+// nothing is there.
+template <typename Shoot>
+TexelRay covered_ray(const Shoot& shoot, float& coverage) {
+  constexpr int kGrid = 4;
+  TexelRay best{};
+  float nearest = 1e30f;
+  int covered = 0;
+  for (int i = 0; i < kGrid * kGrid; i++) {
+    const vec2 offset = (vec2(i % kGrid, i / kGrid) + 0.5f) / static_cast<float>(kGrid) - 0.5f;
+    const TexelRay ray = shoot(offset);
+    if (ray.direction == vec3(0.0f)) continue;
+    covered++;
+    if (dot(offset, offset) < nearest) nearest = dot(offset, offset), best = ray;
+  }
+  coverage = static_cast<float>(covered) / (kGrid * kGrid);
+  return best;
 }
 
 }  // namespace ods

@@ -114,6 +114,11 @@ struct LayerFilm {
   std::vector<LayerMover> movers;          // empty: nothing moves
 };
 
+// The bytes of textures on the graphics card: 4 for each texel, and a third for mipmaps.
+constexpr size_t texture_bytes(size_t texels) {
+  return 4 * texels * 4 / 3;
+}
+
 struct LayeredScene {
   std::string name;  // of the scene that was baked, without folders; empty if unknown
   LayerLightInfo light;

@@ -16,7 +16,6 @@ namespace ods {
 namespace {
 
 constexpr float kLift = 1e-3f;  // metres in front of a surface that the probe's own ray has met
-constexpr int kMaskGrid = 4;    // coverage is sampled kMaskGrid x kMaskGrid times in a texel
 constexpr float kFlatness = 1e-3f;
 constexpr int kSeveral = 4;              // texels of a piece that is dropped if none has a ray
 constexpr float kGrazingJitter = 0.02f;  // cosine: steps on steeper surfaces become no longer
@@ -157,22 +156,6 @@ TexelRay pane_ray(const Probe& probe, const ChartTriangle& triangle, vec3 point)
   return ray;
 }
 
-// A masked texel: its coverage, and the ray of the covered sample that is nearest to its centre.
-TexelRay masked_ray(const ChartShooter& shooter, const ChartTriangle& triangle, vec2 center, float& coverage) {
-  TexelRay best{};
-  float nearest = 1e30f;
-  int covered = 0;
-  for (int i = 0; i < kMaskGrid * kMaskGrid; i++) {
-    const vec2 offset = (vec2(i % kMaskGrid, i / kMaskGrid) + 0.5f) / static_cast<float>(kMaskGrid) - 0.5f;
-    const TexelRay ray = shooter.ray(triangle.point(center + offset), triangle.normal);
-    if (ray.direction == vec3(0.0f)) continue;
-    covered++;
-    if (dot(offset, offset) < nearest) nearest = dot(offset, offset), best = ray;
-  }
-  coverage = static_cast<float>(covered) / (kMaskGrid * kMaskGrid);
-  return best;
-}
-
 // Sets what a texel of a pane needs beside its light.
 void set_glass(const Scene& scene, int side, float cosine, size_t at, LayerGeometry& geometry) {
   const Instance& instance = scene.instances[static_cast<size_t>(side / 2)];
@@ -246,8 +229,9 @@ void add_chart_rays(const FirstHits& hits, const Probe& probe, PieceMesh& mesh, 
       if (done >= level) return true;
       done = level;
       const vec3 point = triangle.point(center);
+      const auto shoot = [&](vec2 offset) { return shooter.ray(triangle.point(center + offset), triangle.normal); };
       TexelRay ray = mesh.is_pane  ? pane_ray(probe, triangle, point)
-                     : mesh.masked ? masked_ray(shooter, triangle, center, geometry.coverage[at])
+                     : mesh.masked ? covered_ray(shoot, geometry.coverage[at])
                                    : shooter.ray(point, triangle.normal);
       if (mesh.is_pane) set_glass(hits.scene(), mesh.side, -dot(normalize(point), triangle.normal), at, geometry);
       if ((!mesh.masked || mesh.is_pane) && level == 2 && ray.direction != vec3(0.0f)) {

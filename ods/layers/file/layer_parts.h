@@ -34,7 +34,7 @@ struct FilmTexture {
 };
 using FilmTextures = std::vector<FilmTexture>;
 
-// The same for the film's textures.
+// Encodes the textures of a film, as layer_parts() does those of still layers.
 FilmTextures film_textures(const LayerFilm& film, FileFormat opaque, FileFormat alpha, int quality,
                            const Progress& progress);
 

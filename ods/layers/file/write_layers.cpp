@@ -28,6 +28,10 @@ void check_layers_path(const std::string& path) {
   check_writable(path);
 }
 
+static size_t texels_of(const Image& texture) {
+  return static_cast<size_t>(texture.width) * static_cast<size_t>(texture.height);
+}
+
 LayersCost cost_of(const LayeredScene& scene) {
   LayersCost cost;
   for (const LayerMesh& mesh : scene.meshes) {
@@ -35,8 +39,7 @@ LayersCost cost_of(const LayeredScene& scene) {
     cost.triangles += mesh.triangles.size();
     cost.vertices += mesh.positions.size();
     cost.draw_calls++;
-    const size_t texels = static_cast<size_t>(mesh.texture.width) * static_cast<size_t>(mesh.texture.height);
-    cost.texture_bytes += 4 * texels * 4 / 3;
+    cost.texture_bytes += texture_bytes(texels_of(mesh.texture));
   }
   for (const LayerMover& mover : scene.film.movers) {
     for (const MoverMesh& mesh : mover.meshes) {
@@ -47,7 +50,7 @@ LayersCost cost_of(const LayeredScene& scene) {
   }
   for (const std::vector<Image>& lights : scene.film.lights) {
     for (const Image& light : lights) {
-      cost.texture_bytes += static_cast<size_t>(light.width) * static_cast<size_t>(light.height) * 4 * 4 / 3;
+      cost.texture_bytes += texture_bytes(texels_of(light));
     }
   }
   return cost;

@@ -59,7 +59,7 @@ struct LayersCost {
   size_t triangles = 0;
   size_t vertices = 0;
   size_t draw_calls = 0;     // one for each mesh that has triangles
-  size_t texture_bytes = 0;  // on the graphics card: 4 bytes a texel and a third for mipmaps
+  size_t texture_bytes = 0;  // on the graphics card
 };
 LayersCost cost_of(const LayeredScene& scene);
 

@@ -15,6 +15,7 @@
 #include "ods/files/atomic_file.h"
 #include "ods/files/md5.h"
 #include "ods/files/read_file.h"
+#include "ods/layers/footprint.h"
 #include "ods/layers/light/display.h"
 #include "ods/layers/light/push.h"
 #include "ods/layers/rays/first_hits.h"
@@ -28,8 +29,6 @@ constexpr float kLift = 1e-3f;     // metres in front of a surface
 constexpr float kSlack = 0.004f;   // metres by which the scene's own surface may be elsewhere
 constexpr float kGrazing = 0.05f;  // cosine between a ray and the surface, at least
 constexpr float kFlatTexels = 1e-6f;
-constexpr int kMaskGrid = 4;  // coverage is sampled kMaskGrid x kMaskGrid times in a texel
-constexpr int kRings = 16;    // as in light_layers.cpp
 
 // A triangle as it is at a frame.
 struct Placed {
@@ -91,22 +90,6 @@ struct FilmShooter {
   }
 };
 
-// The ray of a masked texel: the covered sample that is nearest to its centre.
-TexelRay masked_film_ray(const FilmShooter& shooter, const Placed& triangle, vec2 center, float& coverage) {
-  TexelRay best{};
-  float nearest = 1e30f;
-  int covered = 0;
-  for (int i = 0; i < kMaskGrid * kMaskGrid; i++) {
-    const vec2 offset = (vec2(i % kMaskGrid, i / kMaskGrid) + 0.5f) / static_cast<float>(kMaskGrid) - 0.5f;
-    const TexelRay ray = shooter.ray(triangle.point(center + offset), triangle.normal);
-    if (ray.direction == vec3(0.0f)) continue;
-    covered++;
-    if (dot(offset, offset) < nearest) nearest = dot(offset, offset), best = ray;
-  }
-  coverage = static_cast<float>(covered) / (kMaskGrid * kMaskGrid);
-  return best;
-}
-
 // Identifies a frame's light by all that it depends on.
 std::string key_of(const TexelRays& rays, const BakeOptions& options) {
   Settings settings = options.scene;
@@ -154,7 +137,7 @@ Image lit_textures(FilmRays film, const Renderer& renderer, const LayerLight& li
     all = bake(renderer, rays, light.bake, progress);
     if (!kept.empty()) keep_light(kept, key, rays->owners, all);
   }
-  push_outwards(all, rays->owners, film.claims, kRings);
+  push_outwards(all, rays->owners, film.claims, kPushedRings);
   return displayed(std::move(all), light.exposure, light.tone);
 }
 
@@ -202,7 +185,7 @@ std::vector<size_t> light_frames(size_t frames, size_t step) {
 
 size_t film_texture_bytes(const FilmGeometry& geometry, size_t lights) {
   const size_t size = static_cast<size_t>(geometry.texture_size);
-  return lights * geometry.textures * size * size * 4 * 4 / 3;
+  return texture_bytes(lights * geometry.textures * size * size);
 }
 
 FilmRays film_rays(const Scene& scene, const FilmGeometry& geometry, size_t frame, vec3 eye) {
@@ -225,8 +208,9 @@ FilmRays film_rays(const Scene& scene, const FilmGeometry& geometry, size_t fram
     const bool has_area = now.across != vec3(0.0f) || now.down != vec3(0.0f);
     const vec2 from_first = texel.center - triangle.at[0];
     const vec3 point = has_area ? now.point(from_first) : (now.corners[0] + now.corners[1] + now.corners[2]) / 3.0f;
-    TexelRay ray = surface.is_masked && has_area ? masked_film_ray(shooter, now, from_first, film.coverage[texel.at])
-                                                 : shooter.ray(point, now.normal);
+    const auto shoot = [&](vec2 offset) { return shooter.ray(now.point(from_first + offset), now.normal); };
+    TexelRay ray =
+        surface.is_masked && has_area ? covered_ray(shoot, film.coverage[texel.at]) : shooter.ray(point, now.normal);
     const bool is_lit = ray.direction != vec3(0.0f);
     if (surface.is_masked && !has_area) film.coverage[texel.at] = is_lit ? 1.0f : 0.0f;
     if (is_lit && texel.is_inside && !surface.is_masked && shooter.hits_all(now, from_first)) {

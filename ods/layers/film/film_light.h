@@ -20,8 +20,7 @@ namespace ods {
 // Every `step`-th of the frames, and the last one. Precondition: step > 0, frames > 0.
 std::vector<size_t> light_frames(size_t frames, size_t step);
 
-// The bytes of a film's textures on the graphics card, as LayersCost::texture_bytes, and the largest that a film may
-// have.
+// The bytes of a film's textures on the graphics card, and the most that a film may have.
 size_t film_texture_bytes(const FilmGeometry& geometry, size_t lights);
 inline constexpr size_t kMostFilmBytes = size_t{512} << 20;
 

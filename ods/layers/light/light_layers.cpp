@@ -14,7 +14,6 @@ namespace ods {
 
 namespace {
 
-constexpr int kRings = 16;  // texels of a chart without light that are that far from lit ones
 
 // Copies light to the texels beside silhouettes, then fills all others.
 void fill(const LayerGeometry& geometry, const std::vector<int>& lit, Image& light) {
@@ -23,7 +22,7 @@ void fill(const LayerGeometry& geometry, const std::vector<int>& lit, Image& lig
     std::copy_n(&light.pixels[3 * push.from], 3, &light.pixels[3 * push.to]);
     owners[push.to] = owners[push.from];
   }
-  push_outwards(light, owners, geometry.claims, kRings);
+  push_outwards(light, owners, geometry.claims, kPushedRings);
 }
 
 // Reduces the light of a texture to what panes reflect of it.

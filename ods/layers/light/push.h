@@ -10,6 +10,9 @@
 
 namespace ods {
 
+// The rounds for baked light: texels without it that are so far from lit ones get the colour of their own surface.
+inline constexpr int kPushedRings = 16;
+
 // owners: the surface of each texel that has a colour; -1 for the others. claims: for texels without a colour, the
 // surface that they belong to; -1 for none. Row by row from the top. In each of `rings` rounds, every texel that is
 // claimed gets the mean of those of the 8 texels around it that have a colour of that surface, if there are any.
