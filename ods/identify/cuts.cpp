@@ -14,6 +14,24 @@ namespace ods {
 
 namespace {
 
+// Returns whether both eyes are the same picture: they differ less than its adjacent pixels do.
+bool are_equal(const std::vector<Image>& eyes) {
+  const Image first = shown(eyes[0]), second = shown(eyes[1]);
+  double between = 0.0, beside = 0.0;
+  for (int y = 0; y < first.height; y++) {
+    for (int x = 0; x + 1 < first.width; x++) {
+      between += static_cast<double>(std::abs(*first.at(x, y) - *second.at(x, y)));
+      beside += static_cast<double>(std::abs(*first.at(x, y) - *first.at(x + 1, y)));
+    }
+  }
+  return between < 0.2 * beside;
+}
+
+void compare_eyes(Cut& cut) {
+  cut.pairs = find_pairs(shown(cut.eyes[0]), shown(cut.eyes[1]));
+  cut.is_copy = are_equal(cut.eyes);
+}
+
 Cut one_eye(const Thumbnail& thumbnail) {
   Cut cut;
   cut.eyes = {thumbnail.light};
@@ -27,22 +45,10 @@ Cut two_halves(const Thumbnail& thumbnail, EyePacking how) {
   cut.eyes = unpack(layout, without_middle(layout, thumbnail.light));
   const EyeMatch match = match_eyes(cut.eyes);
   cut.two_eyes = match.mark(), cut.is_still = match.is_still;
+  if (cut.two_eyes > 0.0) compare_eyes(cut);
   const char* halves = how == EyePacking::kStacked ? "its upper and lower half" : "its left and right half";
   cut.reason = fmt::format("{} match at {:.0f} % of {} places", halves, 100.0 * match.share, match.places);
   return cut;
-}
-
-// Returns whether both eyes are the same picture: they differ less than its adjacent pixels do.
-bool are_equal(const std::vector<Image>& eyes) {
-  const Image first = shown(eyes[0]), second = shown(eyes[1]);
-  double between = 0.0, beside = 0.0;
-  for (int y = 0; y < first.height; y++) {
-    for (int x = 0; x + 1 < first.width; x++) {
-      between += static_cast<double>(std::abs(*first.at(x, y) - *second.at(x, y)));
-      beside += static_cast<double>(std::abs(*first.at(x, y) - *first.at(x + 1, y)));
-    }
-  }
-  return between < 0.2 * beside;
 }
 
 // Returns whether most details move the same way from one eye to the other, as between the eyes of a sphere, where
@@ -64,10 +70,9 @@ bool repeats(const Cut& cut, Extent file) {
   constexpr double kFew = 0.35;
   const bool is_sphere = std::abs(file.width - 2 * file.height) <= 2;
   if (cut.how != EyePacking::kBeside || cut.two_eyes <= 0.0 || !is_sphere || cut.broken >= 0.0) return false;
-  if (cut.is_still && are_equal(cut.eyes)) return true;
-  const PointPairs pairs = find_pairs(shown(cut.eyes[0]), shown(cut.eyes[1]));
-  const bool has_few = static_cast<double>(pairs.found.size()) < kFew * pairs.places;
-  return has_few && (cut.is_still || !moves_one_way(pairs));
+  if (cut.is_still && cut.is_copy) return true;
+  const bool has_few = static_cast<double>(cut.pairs.found.size()) < kFew * cut.pairs.places;
+  return has_few && (cut.is_still || !moves_one_way(cut.pairs));
 }
 
 double between(double value, double no, double yes) {
@@ -114,8 +119,8 @@ Cut interleaved(const StoredPicture& whole, const Thumbnail& thumbnail, EyePacki
   cut.reason = "every other pixel is more alike than neighbours";
   if (cut.two_eyes > 0.0) {
     cut.eyes = interleaved_eyes(whole, *layout_with({how}));
-    cut.pairs = find_pairs(shown(cut.eyes[0]), shown(cut.eyes[1]));
-    if (lacks_parallax(cut.pairs)) cut.two_eyes = -1.0;
+    compare_eyes(cut);
+    if (lacks_parallax(cut.pairs)) cut.two_eyes = -1.0, cut.is_copy = false;
   }
   if (cut.two_eyes <= 0.0) cut.eyes = {thumbnail.light};
   return cut;
@@ -138,7 +143,8 @@ std::vector<Cut> all_cuts(const StoredPicture& whole, const Thumbnail& thumbnail
   const double broken = breaks_in_middle(shown(cuts[0].eyes[0]));
   double maximum = 0.0;
   for (Cut& cut : cuts) {
-    cut.broken = broken, cut.two_eyes = repeats(cut, thumbnail.file) ? -1.0 : cut.two_eyes;
+    cut.broken = broken;
+    if (repeats(cut, thumbnail.file)) cut.two_eyes = -1.0, cut.pairs = {}, cut.is_copy = false;
     maximum = std::max(maximum, cut.two_eyes);
   }
   cuts[0].two_eyes = -maximum;
@@ -148,8 +154,6 @@ std::vector<Cut> all_cuts(const StoredPicture& whole, const Thumbnail& thumbnail
     const Image other = cut.eyes.size() == 2 ? shown(cut.eyes[1]) : Image();
     const bool is_pair = cut.two_eyes > 0.0 && cut.eyes.size() == 2;
     cut.marks = marks_of(cut.shown, is_pair ? &other : nullptr);
-    if (is_pair && cut.pairs.found.empty()) cut.pairs = find_pairs(cut.shown, other);
-    cut.is_copy = is_pair && are_equal(cut.eyes);
   }
   return cuts;
 }
