@@ -148,7 +148,7 @@ export class Panel {
     this.curve.draw(merges(sides[active]), sides[1 - active] && merges(sides[1 - active]));
   }
 
-  // shares: of the dotted curve; none: there is none.
+  // Draws the dotted curve, or removes it if there are no shares.
   showAuto(shares) {
     this.curve.drawAuto(shares);
     this.useAuto.hidden = !shares.length;

@@ -137,12 +137,14 @@ std::string bundle(const std::string& entry, PageHost host, ScriptKind kind) {
   }
   const std::string exported =
       fmt::format("{}", fmt::join(names_in(std::string(find_page_file(entry)->data), kExport, 3), ", "));
-  const char* const import_later =
-      all.has_rare
-          ? "const $bring = { later: () => import('./later.mjs'), 'later-tour': () => import('./later-tour.mjs'), "
-            "'later-words': () => import('./later-words.mjs'), "
-            "'later-objects': () => import('./later-objects.mjs'), 'later-film': () => import('./later-film.mjs') };\n"
-          : "";
+  std::string import_later;
+  if (all.has_rare) {
+    for (const std::string_view file : kLaterScripts) {
+      const std::string_view stem = file.substr(0, file.rfind('.'));
+      import_later += fmt::format("{}'{}': () => import('./{}.mjs')", import_later.empty() ? "" : ", ", stem, stem);
+    }
+    import_later = fmt::format("const $bring = {{ {} }};\n", import_later);
+  }
   return fmt::format("{}const $base = import.meta.url;\n{}{}export const {{ {} }} = $modules['{}'];\n", kNotice,
                      import_later, script, exported, entry);
 }
