@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <mutex>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -30,8 +31,6 @@ bool stderr_is_terminal() {
 
 namespace {
 
-constexpr const char* kThreadLimit = "the limit on memory or processes is reached; --threads N starts fewer";
-
 void print_json(const nlohmann::ordered_json& line) {
   put_error("", ods::json_document(line) + "\n");
 }
@@ -48,40 +47,56 @@ ExitCode fail(ExitCode code, const std::string& what) {
   return code;
 }
 
-// The error as a whole, in both forms.
-struct MemoryError {
-  std::string plain = "ods: error: not enough memory; a smaller scene or picture needs less\n";
-  std::string json = "{\"error\":\"not enough memory; a smaller scene or picture needs less\",\"exit_code\":1}\n";
+// A whole error in both forms, made while there is memory.
+struct PreparedError {
+  std::string plain, json;
 };
 
-std::string inputs;  // "'a.png', 'b.png'"
-
-MemoryError memory_error;
-
-std::string for_inputs() {
-  return inputs.empty() ? "" : " for " + inputs;
+PreparedError prepare(const std::string& text) {
+  const nlohmann::ordered_json json = {{"error", text}, {"exit_code", static_cast<int>(kExitFailure)}};
+  return {fmt::format("ods: error: {}\n", text),
+          json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"};
 }
 
-// Must not allocate.
-ExitCode fail_without_memory() {
-  const std::string_view line = console.json ? memory_error.json : memory_error.plain;
-  const ssize_t ignored = write(STDERR_FILENO, line.data(), line.size());
-  static_cast<void>(ignored);
+// The errors of a lack of memory or threads, and files that may be the reason: "'a.png', 'b.png'".
+struct Shortages {
+  PreparedError memory, threads;
+
+  explicit Shortages(const std::string& inputs) {
+    const std::string suffix = inputs.empty() ? "" : " for " + inputs;
+    memory = prepare(fmt::format("not enough memory{}; a smaller scene or picture needs less", suffix));
+    threads =
+        prepare(fmt::format("cannot start a thread{}: the limit on memory or processes is reached; "
+                            "--threads N starts fewer",
+                            suffix));
+  }
+};
+
+Shortages shortages("");
+
+// Writes an error without allocating. Threads that run out together give one line.
+ExitCode fail_prepared(const PreparedError& error) {
+  static std::once_flag is_written;
+  std::call_once(is_written, [&] {
+    const std::string_view line = console.json ? error.json : error.plain;
+    const ssize_t ignored = write(STDERR_FILENO, line.data(), line.size());
+    static_cast<void>(ignored);
+  });
   return kExitFailure;
 }
 
-// Some library functions promise not to throw but allocate anyway, some destructors among them. If memory runs out
-// there, the process ends here.
-[[noreturn]] void end_without_memory() {
+// Some library functions promise not to throw but allocate or start threads anyway, some destructors among them. If
+// that fails, the process ends here. Must not allocate.
+[[noreturn]] void end_in_terminate() {
   try {
     if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
   } catch (const std::bad_alloc&) {
     ods::remove_unfinished_files();
-    _exit(fail_without_memory());
+    _exit(fail_prepared(shortages.memory));
   } catch (const std::exception& error) {
-    if (std::string_view(error.what()).starts_with("pthread_create")) {  // oneTBB, in a function that must not throw
+    if (std::string_view(error.what()).starts_with("pthread_create")) {  // oneTBB
       ods::remove_unfinished_files();
-      _exit(fail(kExitFailure, std::string("cannot start a thread: ") + kThreadLimit));
+      _exit(fail_prepared(shortages.threads));
     }
     put_error("ods: terminated: ", std::string(error.what()) + "\n");
   } catch (...) {
@@ -112,11 +127,7 @@ void name_inputs(const std::vector<std::string>& files) {
   std::vector<std::string> names;
   for (const std::string& file : files) names.push_back(fmt::format("'{}'", ods::one_line(file)));
   if (names.size() > kMax) names.resize(kMax), names.emplace_back("...");
-  inputs = fmt::format("{}", fmt::join(names, ", "));
-  const std::string text = fmt::format("not enough memory{}; a smaller scene or picture needs less", for_inputs());
-  memory_error.plain = fmt::format("ods: error: {}\n", text);
-  const nlohmann::ordered_json json = {{"error", text}, {"exit_code", static_cast<int>(kExitFailure)}};
-  memory_error.json = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  shortages = Shortages(fmt::format("{}", fmt::join(names, ", ")));
 }
 
 std::string with_options(const std::string& text) {
@@ -148,7 +159,7 @@ void announce_file(const std::string& file) {
 }
 
 ExitCode run_to_exit_code(const std::function<ExitCode()>& body) {
-  std::set_terminate(end_without_memory);
+  std::set_terminate(end_in_terminate);
   try {
     const ExitCode code = body();
     // Writing stdout to a full disk fails only now.
@@ -158,10 +169,10 @@ ExitCode run_to_exit_code(const std::function<ExitCode()>& body) {
   } catch (const ods::Error& error) {
     return fail(exit_code(error.kind()), error.what());
   } catch (const std::bad_alloc&) {
-    return fail_without_memory();
+    return fail_prepared(shortages.memory);
   } catch (const std::system_error& error) {
     if (error.code() != std::errc::resource_unavailable_try_again) return fail(kExitFailure, error.what());
-    return fail(kExitFailure, fmt::format("cannot start a thread{}: {}", for_inputs(), kThreadLimit));
+    return fail_prepared(shortages.threads);
   } catch (const std::exception& error) {
     return fail(kExitFailure, error.what());
   }

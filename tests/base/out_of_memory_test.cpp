@@ -6,10 +6,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <barrier>
 #include <filesystem>
 #include <functional>
 #include <new>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "cli/console/console.h"
@@ -188,6 +190,36 @@ TEST(OutOfMemoryDeathTest, TheCommandNamesItsFiles) {
 TEST(OutOfMemoryDeathTest, TheCommandSaysThatNoThreadStarts) {
   EXPECT_EXIT(_exit(run_to_exit_code([]() -> ExitCode { throw std::system_error(EAGAIN, std::generic_category()); })),
               testing::ExitedWithCode(1), "^ods: error: cannot start a thread");
+}
+
+// Acts as oneTBB, which starts threads where it must not throw.
+void start_thread() {
+  throw std::system_error(EAGAIN, std::generic_category(), "pthread_create");
+}
+
+void start_without_throwing() noexcept {
+  start_thread();
+}
+
+TEST(OutOfMemoryDeathTest, ThreadsThatRunOutTogetherGiveOneLine) {
+#ifdef ODS_SANITIZED
+  GTEST_SKIP() << "skipped: a sanitizer ends the process in its own way";
+#endif
+  constexpr int kThreads = 16;
+  const auto run_out = []() -> ExitCode {
+    std::barrier together(kThreads);
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < kThreads; i++) {
+      threads.emplace_back([&, i] {
+        together.arrive_and_wait();
+        i % 2 == 0 ? start_without_throwing() : allocate_without_throwing();
+      });
+    }
+    return threads.clear(), kExitOk;
+  };
+  for (int i = 0; i < 10; i++) {
+    EXPECT_EXIT(_exit(run_to_exit_code(run_out)), testing::ExitedWithCode(1), "^ods: error: [^\n]*\n$");
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Once, OutOfMemory, testing::Values(false));
