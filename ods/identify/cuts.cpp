@@ -46,7 +46,7 @@ Cut two_halves(const Thumbnail& thumbnail, EyePacking how) {
   const EyeMatch match = match_eyes(cut.eyes);
   cut.two_eyes = match.mark(), cut.is_still = match.is_still;
   if (cut.two_eyes > 0.0) compare_eyes(cut);
-  const char* halves = how == EyePacking::kStacked ? "its upper and lower half" : "its left and right half";
+  const char* halves = how == EyePacking::kStacked ? "its upper and lower picture" : "its left and right picture";
   cut.reason = fmt::format("{} match at {:.0f} % of {} places", halves, 100.0 * match.share, match.places);
   return cut;
 }

@@ -13,11 +13,12 @@ namespace ods {
 // two similar sides of a scene have both, or, if the scene repeats itself exactly, none. Without parallax, two eyes
 // match everywhere.
 struct EyeMatch {
-  int places = 0;         // places with detail in both images
-  double share = 0.0;     // fraction of the places that is found in the other image
-  double one_sign = 0.0;  // fraction of the parallax that has one sign, 0..1
-  bool is_still = false;  // nothing moves
-  double mark() const;    // -1 for two parts of one picture, 1 for two eyes, 0 if undecided
+  int places = 0;           // places with detail in both images
+  double share = 0.0;       // fraction of the places that is found in the other image
+  double one_sign = 0.0;    // fraction of the parallax that has one sign, 0..1
+  bool is_still = false;    // nothing moves
+  bool is_shifted = false;  // one eye lies beside its place or above it as a whole, as on a scanned stereo card
+  double mark() const;      // -1 for two parts of one picture, 1 for two eyes, 0 if undecided
 };
 
 // Compares the luminance of both images, linear, 1 channel, of equal size. The images are compared as stored, whatever

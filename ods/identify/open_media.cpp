@@ -185,6 +185,24 @@ static Identity identify_pair(const StoredPicture& left, const MediaFile& media)
   return identity;
 }
 
+// Identifies the picture of one file. A name with "mono" may mean that both eyes of the file are the same picture, for
+// viewers that want two: if the pixels rule out one eye, the name does not count.
+static Identity identify_file(const StoredPicture& whole, const MediaFile& media) {
+  const LayoutGuess& layout = media.format.layout;
+  const double aspect = pixel_aspect(media.reader->info());
+  FormatHint known = media.hint;
+  if (layout.source < FormatSource::kPixels) {
+    known.one_eye = !layout.layout;
+    known.layout = layout.layout;
+  }
+  const Identity identity = identify_shown(whole, known, aspect);
+  if (layout.source != FormatSource::kName || layout.layout || identity.is_likely()) return identity;
+  Identity doubled = identify_shown(whole, media.hint, aspect);
+  if (!doubled.is_likely() || !doubled.best().layout) return identity;
+  doubled.reason += ", so its name means that both eyes are the same";
+  return doubled;
+}
+
 // The pixels of two views are not examined: they have the layout in their metadata.
 static void look_at_picture(MediaFile& media, bool left_first) {
   const StereoFormat& format = media.format;
@@ -196,13 +214,7 @@ static void look_at_picture(MediaFile& media, bool left_first) {
   const StoredPicture whole = media.reader->whole();
   if (may_have_lenses) media.hint = with_lenses(whole, media.path, media.hint, media.notes);
   if (!media.hint.lenses.empty() || !format.is_open) return;
-  FormatHint known = media.hint;
-  if (format.layout.source < FormatSource::kPixels) {
-    known.one_eye = !format.layout.layout;
-    known.layout = format.layout.layout;
-  }
-  media.identity = names_eye(media.path) ? identify_pair(whole, media)
-                                         : identify_shown(whole, known, pixel_aspect(media.reader->info()));
+  media.identity = names_eye(media.path) ? identify_pair(whole, media) : identify_file(whole, media);
   if (left_first) media.identity = in_order_of_players(std::move(*media.identity));
   if (whole.memory) whole.memory->release();
   if (media.identity->readings.empty()) {
@@ -215,6 +227,7 @@ static void look_at_picture(MediaFile& media, bool left_first) {
   if (!convinces(*media.identity, format)) return;
   media.hint.bars = media.identity->bars;
   media.hint.seen = seen_format(*media.identity);
+  media.hint.seen->denies_name = !format.layout.layout && media.hint.seen->layout;
 }
 
 static void open_picture_media(MediaFile& media, const MediaOptions& options) {

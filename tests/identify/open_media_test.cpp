@@ -81,6 +81,25 @@ TEST_F(OpenMedia, TheOrderOfPlayersIsKeptOnRequest) {
   EXPECT_EQ(open_media(path, options).hint.seen->layout, Layout::kSideBySide);
 }
 
+// As written for viewers that want two eyes.
+TEST_F(OpenMedia, ANameWithMonoMayMeanThatBothEyesAreTheSame) {
+  const ProjectionSetting sphere = find_projection("lat-long")->setting;
+  const TwoEyes same = [](int, const ProjectionSetting& setting, Extent size) {
+    StereoCamera camera;
+    camera.projection = setting;
+    return seen_in(World::kHall, camera, kLeft, size, true);
+  };
+  write_unknown(folder.path("hall_mono.jpg"), {Layout::kTopBottom, sphere}, same, unknown_eye(sphere, 384));
+  const MediaFile media = open_media(folder.path("hall_mono.jpg"));
+  EXPECT_EQ(media.format.layout.layout, Layout::kTopBottom);
+  EXPECT_EQ(media.format.layout.source, FormatSource::kPixels);
+  EXPECT_EQ(media.format.camera.projection.kind, kLatLong);
+
+  const MediaFile one = open_media(write("one_mono.jpg", std::nullopt, "lat-long"));
+  EXPECT_EQ(one.format.layout.layout, std::nullopt);
+  EXPECT_EQ(one.format.layout.source, FormatSource::kName);
+}
+
 TEST_F(OpenMedia, AFlatGreyPictureShowsNothing) {
   Picture picture;
   picture.eyes.resize(1);

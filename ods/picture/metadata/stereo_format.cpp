@@ -218,6 +218,7 @@ static std::optional<LayoutGuess> layout_in(FormatSource source, const Evidence&
       if (has_view(of.info, "right") || has_view(of.info, "left")) return guess(Layout::kMultiview, "it has two views");
       return layout_in_descriptor(of.info);
     case FormatSource::kName:
+      if (of.known.seen && of.known.seen->denies_name) return std::nullopt;
       if (of.words.layout_token.empty() && is_cross_eyed_by_custom(of.path))
         return guess(Layout::kCrossEyed, "a .jps or .pns is cross-eyed by custom");
       if (of.words.layout_token.empty()) return std::nullopt;

@@ -50,7 +50,8 @@ bool is_guess(const LayoutGuess& guess);
 struct SeenFormat {
   std::optional<Layout> layout;  // not set for one eye
   ProjectionSetting projection;
-  std::string reason;  // for messages
+  std::string reason;        // for messages
+  bool denies_name = false;  // the file does not have the layout in its name
 };
 
 // The widths of the black bars around a file's picture, pixels of the file.

@@ -78,7 +78,7 @@ TEST_F(IdentifyInput, AFilmOfSqueezedEyesAndItsFramesAreRecognised) {
   ASSERT_EQ(run("encode " + folder.path("frame.####.png") + " -o " + tagged), 0) << err;
   EXPECT_NE(err.find(frame_is), std::string::npos) << err;
   ASSERT_EQ(run("inject " + tagged + " --remove -o " + film), 0) << err;
-  const std::string said = "film.mp4' is side-by-side-half, lat-long: its left and right half match";
+  const std::string said = "film.mp4' is side-by-side-half, lat-long: its left and right picture match";
   const int code = run("comfort " + film + " --json");
   EXPECT_TRUE(code == 0 || code == 5) << err;
   EXPECT_NE(err.find(said), std::string::npos) << err;
