@@ -67,7 +67,7 @@ Compared compare(const Image& got, vec3 eye, float t) {
 using FilmView = Cli;
 
 TEST_F(FilmView, PlaysBetweenItsFrames) {
-  if (chromium("").empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   write_layers(film(), folder.path("film.layers.glb"));
   const std::vector<float> times = {0.0f, 0.25f, 0.6f, 1.0f};
   const vec3 head(0.05f, 0.02f, 0.05f);
