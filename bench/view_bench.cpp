@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Cost of a frame of the viewer, in CPU milliseconds of a Chromium with a software GPU: while it moves, at rest, and
-// for comparison the simplest shader for a lat-long picture, one bilinear look-up, in the same run. Also the time until
-// a large picture is visible, and sharp, and the memory of the page and its server.
+// for comparison the simplest shader for a lat-long picture, one bilinear look-up, in the same run; the parts of a
+// film's frame; and the next picture of a folder. Also the time until a large picture is visible, and sharp, and the
+// memory of the page and its server.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@
 #include "bench/measure.h"
 #include "cli/view/export_site.h"
 #include "cli/view/view_site.h"
+#include "ods/files/read_file.h"
 #include "ods/view/page.h"
 #include "tests/support/browser.h"
 #include "tests/support/browser_run.h"
@@ -31,7 +33,7 @@ constexpr int kWidth = 640, kHeight = 360;
 // Draws frames while the look turns, and reports the start and the end. Each frame is read back, because drivers would
 // defer it.
 constexpr const char* kScript = R"(
-import { Panorama, compile, loadShader, raysOf } from './panorama.js';
+import { Panorama, compile, raysOf } from './panorama.js';
 import { openPicture } from './picture.js';
 const PLAIN = `#version 300 es
 precision highp float;
@@ -48,7 +50,7 @@ const [width, height, moving, still] = (await (await fetch('sizes')).text()).spl
 const canvas = Object.assign(document.createElement('canvas'), { width, height });
 document.body.append(canvas);
 const view = await (await fetch('view.json')).json();
-const panorama = new Panorama(canvas, await loadShader(location.href));
+const panorama = new Panorama(canvas);
 const { gl } = panorama;
 const pixel = new Uint8Array(4);
 async function measure(name, count, draw) {
@@ -87,6 +89,83 @@ try {
 }
 )";
 
+// Frames of a film: uploaded; the eye that is shown is cut; mip levels are made; and it is drawn, as soon as a slow GPU is
+// asked to. Counts what the page itself does for a frame while the film is magnified.
+constexpr const char* kFilmScript = R"(
+import { Panorama, raysOf } from './panorama.js';
+import { openPicture } from './picture.js';
+const post = (path, body = '') => fetch(path, { method: 'POST', body });
+const [width, height] = (await (await fetch('sizes')).text()).split(' ').map(Number);
+const canvas = Object.assign(document.createElement('canvas'), { width, height });
+document.body.append(canvas);
+const view = await (await fetch('view.json')).json();
+const panorama = new Panorama(canvas);
+const { gl } = panorama;
+const pixel = new Uint8Array(4);
+const counts = { texImage2D: 0, generateMipmap: 0, drawArrays: 0, drawElements: 0 };
+for (const name of Object.keys(counts)) {
+  const own = gl[name].bind(gl);
+  gl[name] = (...values) => (counts[name]++, own(...values));
+}
+async function measure(name, count, run) {
+  run();
+  gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+  await post('begin');
+  for (let i = 0; i < count; i++) {
+    run(i);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+  }
+  await post(`end/${name}/${count}`);
+}
+try {
+  const picture = await openPicture(panorama, view, view.items[0], {});
+  const { video, eyes } = picture;
+  const cut = eyes[0];
+  let rays = raysOf({ yaw: 20, fov: 90 }, width / height);
+  const draw = () => panorama.draw(picture, { rays, box: [0, 0, width, height], moves: true, cheap: true });
+  const again = () => (video.dispatchEvent(new Event('ended')), picture.refresh());
+  await measure('upload', 20, again);
+  await measure('upload_cut', 20, () => (again(), picture.prepare(cut, false)));
+  await measure('upload_cut_mips', 20, () => (again(), picture.prepare(cut, true)));
+  await measure('drawing', 20, draw);
+  Object.assign(counts, { texImage2D: 0, generateMipmap: 0, drawArrays: 0, drawElements: 0 });
+  for (let i = 0; i < 20; i++) again(), draw();
+  for (const [name, count] of Object.entries(counts)) await post(`count/${name}_per_frame/${count / 20}`);
+  await post('done', 'ok');
+} catch (error) {
+  await post('done', error.stack);
+}
+)";
+
+// The next picture of a folder, milliseconds from the key to the picture that has replaced the other one, and the files
+// that are fetched meanwhile.
+constexpr const char* kFolderScript = R"(
+const post = (path, body = '') => fetch(path, { method: 'POST', body });
+const heard = (viewer, name) => new Promise((done) => viewer.addEventListener(name, done, { once: true }));
+const sleep = (time) => new Promise((done) => setTimeout(done, time));
+try {
+  while (!window.omnistereo?.viewer.picture) await sleep(50);
+  const { viewer } = window.omnistereo;
+  const times = [];
+  for (let i = 0; i < 4; i++) {
+    for (let k = 0; k < 600 && !viewer.ahead?.kept.size; k++) await sleep(100);
+    await Promise.all([...viewer.ahead.kept.values()]);
+    await sleep(500);
+    const since = performance.now();
+    const opened = heard(viewer, 'open');
+    viewer.go(1);
+    await opened;
+    await new Promise(requestAnimationFrame);
+    times.push(performance.now() - since);
+  }
+  await post(`count/next_ms/${times.sort((a, b) => a - b)[2]}`);
+  await post(`count/slowest_ms/${times[3]}`);
+  await post('done', 'ok');
+} catch (error) {
+  await post('done', error.stack);
+}
+)";
+
 class Frames {
  public:
   // Milliseconds by name.
@@ -99,12 +178,21 @@ class Frames {
     known.projection = stereo.projection;
     std::vector<ViewItem> items = {open_view_item(path, known)};
     items[0].picture.camera = stereo;
-    export_site(items, folder.path("site"));
-    end_ = run_in_browser({chromium(folder.path("profile")), folder.path("home"), "bench.html",
-                           [&](const WebRequest& request) { return answer(request, folder.path("site/")); },
-                           std::chrono::minutes(5), [this](pid_t browser) { browser_ = browser; }});
-    if (end_ != "ok") times_.clear();
-    return times_;
+    return run(items, "bench.html", kScript, folder);
+  }
+
+  // Of files that ods testcard makes.
+  std::map<std::string, double> measure(const std::vector<std::string>& cards, const std::string& page,
+                                        const char* script) {
+    const Folder folder;
+    std::vector<ViewItem> items;
+    for (const std::string& card : cards) {
+      const std::string path = folder.path(card.substr(0, card.find(' ')));
+      const std::string how = card.substr(card.find(' '));
+      if (std::system((ods_command() + " testcard -q -o " + path + how).c_str()) != 0) return {};
+      items.push_back(open_view_item(path));
+    }
+    return run(items, page, script, folder);
   }
 
   std::string end_;
@@ -125,21 +213,33 @@ class Frames {
     save_picture(convert(made.picture, same_format(made.picture)).rows, nullptr, options, path);
   }
 
+  std::map<std::string, double> run(const std::vector<ViewItem>& items, const std::string& page, const char* script,
+                                    const Folder& folder) {
+    export_site(items, folder.path("site"));
+    script_ = script;
+    end_ = run_in_browser({chromium(folder.path("profile")), folder.path("home"), page,
+                           [&](const WebRequest& request) { return answer(request, folder.path("site/")); },
+                           std::chrono::minutes(5), [this](pid_t browser) { browser_ = browser; }});
+    if (end_ != "ok") times_.clear();
+    return times_;
+  }
+
+  void hear(const std::string& path) {
+    const double now = cpu_seconds_of(browser_);
+    if (path == "begin") begin_ = now;
+    const size_t from = path.find('/'), slash = path.rfind('/');
+    if (from == slash) return;
+    double& number = times_[path.substr(from + 1, slash - from - 1)];
+    number = std::atof(path.substr(slash + 1).c_str());
+    if (path.starts_with("end/")) number = 1000.0 * (now - begin_) / number;
+  }
+
   WebAnswer answer(const WebRequest& request, const std::string& site) {
-    if (request.is_post) {
-      const double now = cpu_seconds_of(browser_);
-      if (request.path == "begin") begin_ = now;
-      if (request.path.starts_with("end/")) {
-        const size_t slash = request.path.rfind('/');
-        times_[request.path.substr(4, slash - 4)] =
-            1000.0 * (now - begin_) / std::atof(request.path.substr(slash + 1).c_str());
-      }
-      return {};
-    }
-    if (request.path == "bench.html") {
-      return {.type = "text/html", .body = "<!DOCTYPE html><script type=\"module\" src=\"bench.js\"></script>"};
-    }
-    if (request.path == "bench.js") return {.type = "text/javascript", .body = kScript};
+    if (request.is_post) return hear(request.path), WebAnswer{};
+    const std::string tag = "<script type=\"module\" src=\"bench.js\"></script>";
+    if (request.path == "bench.html") return {.type = "text/html", .body = "<!DOCTYPE html>" + tag};
+    if (request.path.empty()) return {.type = "text/html", .body = read_text(site + "index.html", 1 << 20) + tag};
+    if (request.path == "bench.js") return {.type = "text/javascript", .body = script_};
     if (request.path == "sizes")
       return {.body = fmt::format("{} {} {} {}", kWidth, kHeight, kMovingFrames, kStillFrames)};
     const PageFile* const module = find_page_file(request.path);  // sites have them as one script
@@ -148,6 +248,7 @@ class Frames {
   }
 
   std::atomic<pid_t> browser_ = -1;
+  const char* script_ = nullptr;
   double begin_ = 0.0;
   std::map<std::string, double> times_;
 };
@@ -164,6 +265,17 @@ void frame(benchmark::State& state, const std::string& projection, Extent eye, b
     if (times.empty()) return state.SkipWithError(frames.end_.c_str());
     for (const auto& [name, time] : times) state.counters[name + "_ms"] = time;
     state.counters["ratio"] = times.at("moving") / times.at("plain");
+  }
+}
+
+void of_cards(benchmark::State& state, const std::vector<std::string>& cards, const std::string& page,
+              const char* script) {
+  if (chromium("").empty()) return state.SkipWithError("there is no chromium");
+  for (auto _ : state) {
+    Frames frames;
+    const auto times = frames.measure(cards, page, script);
+    if (times.empty()) return state.SkipWithError(frames.end_.c_str());
+    for (const auto& [name, number] : times) state.counters[name] = number;
   }
 }
 
@@ -232,6 +344,15 @@ void large_picture(benchmark::State& state) {
 
 const bool registered = [] {
   benchmark::RegisterBenchmark("large_picture", large_picture)->Iterations(1)->Unit(benchmark::kSecond);
+  benchmark::RegisterBenchmark("film", [](benchmark::State& state) {
+    of_cards(state, {"film_360_TB.mp4 --video --duration 1 --fps 10 --width 1024"}, "bench.html", kFilmScript);
+  })->Iterations(1);
+  benchmark::RegisterBenchmark("folder", [](benchmark::State& state) {
+    of_cards(state,
+             {"a_360_TB.jpg --width 2048", "b_360_TB.jpg --width 2048", "c_360_TB.jpg --width 2048",
+              "d_360_TB.jpg --width 2048"},
+             "", kFolderScript);
+  })->Iterations(1);
   struct Case {
     const char* name;
     const char* projection;

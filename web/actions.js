@@ -43,6 +43,9 @@ function planet(player, viewer) {
   return t(state.planet ? 'Little planet' : 'Panorama');
 }
 
+// Of Safari on visionOS, in which <img> has controls, and <model> is there.
+const hasSystemPlayer = () => 'controls' in HTMLImageElement.prototype || 'HTMLModelElement' in window;
+
 const LOOK = 'Look around';
 const EYES = 'Eyes';
 const FILM = 'Video';
@@ -108,6 +111,9 @@ export const ACTIONS = [
   { id: 'fullscreen', keys: ['f'], label: 'full screen', group: PAGE, run: (player) => player.toggleFullscreen() },
   { id: 'device', keys: [], run: (player) => player.controls.device(), label: 'look by turning this device', group: PAGE, when: hasDevice },
   { id: 'headset', keys: ['v'], label: 'view in the headset', group: PAGE, run: (player) => player.enterHeadset() },
+  { id: 'system', keys: [], label: 'the browser’s own player', group: PAGE, when: (viewer) => Boolean(viewer.about?.system) && hasSystemPlayer(), async run(player) {
+    (await import('./system-player.js')).showSystemPlayer(player);
+  } },
   { id: 'screenshot', keys: ['c'], label: 'save a screenshot', group: PAGE, run: (player) => player.screenshot() },
   { id: 'settings', keys: ['o'], label: 'settings', group: PAGE, run: (player) => player.toggleSettings() },
   { id: 'help', keys: ['?', 'h'], label: 'help', group: PAGE, run: (player) => player.help() },

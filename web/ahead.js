@@ -19,6 +19,7 @@ async function load(address) {
 export class Ahead {
   constructor() {
     this.kept = new Map(); // by address: promises of images, or of null for those that are not kept
+    this.there = new Set(); // the addresses of images that are decoded
   }
 
   // Keeps the images at these addresses and frees all others.
@@ -26,10 +27,14 @@ export class Ahead {
     for (const [address, image] of this.kept) {
       if (addresses.includes(address)) continue;
       this.kept.delete(address);
+      this.there.delete(address);
       image.then((each) => each?.close());
     }
     for (const address of addresses) {
-      if (!this.kept.has(address)) this.kept.set(address, load(address).catch(() => null));
+      if (this.kept.has(address)) continue;
+      const image = load(address).catch(() => null);
+      this.kept.set(address, image);
+      image.then((each) => each && this.kept.get(address) === image && this.there.add(address));
     }
   }
 
@@ -37,6 +42,7 @@ export class Ahead {
   async take(address) {
     const image = this.kept.get(address);
     this.kept.delete(address);
+    this.there.delete(address);
     return (await image) ?? null;
   }
 }

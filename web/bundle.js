@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The start of a bundle (ods/view/bundle.h), with $base, its own address, before it and the modules after it. Browsers
-// do not let a page from disk read files, so it gets a file from the script FILE.js beside it.
+// The start of a bundle (ods/view/bundle.h), with $base, its own address, before it, and $rare, which names the script
+// of each module that is in another one than later.js; and the modules after it. Browsers do not let a page from disk
+// read files, so it gets a file from the script FILE.js beside it.
 const $modules = {};
 const $later = {};
 
@@ -16,8 +17,7 @@ const $script = (file) => new Promise((done, fail) => {
 // Some modules are in separate scripts (ods/view/bundle.h); of a module they are modules, by $bring.
 async function $load(name) {
   if ($modules[name]) return $modules[name];
-  const rare = { 'tour.js': 'later-tour', 'objects-panorama.js': 'later-objects', 'layered-film.js': 'later-film' };
-  const file = rare[name] ?? (name.startsWith('translations') ? 'later-words' : 'later');
+  const file = $rare[name] ?? 'later';
   $later[file] ??= (typeof $bring === 'undefined' ? $script(file) : $bring[file]().then(({ later }) => later)).then((later) => later($modules, $load, $base, fetch));
   await $later[file].catch((error) => {
     $later[file] = null; // the next call tries again

@@ -6,6 +6,7 @@ import { ACTIONS, actionsOf, applies, keysOf } from './actions.js';
 import { make } from './elements.js';
 import { angleOf, hasOtherLayouts } from './form.js';
 import { degrees } from './geometry.js';
+import { itemName } from './item-name.js';
 import { LAYOUTS, PROJECTIONS, TONES } from './formats.js';
 import { followDevice, hasDevice } from './look.js';
 import { MODES } from './modes.js';
@@ -154,7 +155,7 @@ export class Controls {
     find('count').textContent = !viewer.scene && isOneOfMany ? `${item + 1} / ${view.items.length}` : '';
     find('name').title = name;
     this.mark();
-    if (player.isPage && view.live) document.title = `${about.title ?? about.name} – Omnistereo`;
+    if (player.isPage && view.live) document.title = `${itemName(about)} – Omnistereo`;
     find('picture').ariaLabel = t('{}. Look around with the arrow keys; ? lists all keys.', name || t('A panorama'));
     find('reason').textContent = choice.layout ? '' : (about.layout_reason ?? '');
     find('why').hidden = !find('reason').textContent;
@@ -175,7 +176,9 @@ export class Controls {
     for (const id of ['speed-row', 'loop-row']) find(id).hidden = !isFilm;
     player.element.classList.toggle('film', isFilm);
     if (!isFilm) return;
-    find('seek').max = picture.frames - 1;
+    const isEndless = !Number.isFinite(picture.frames); // a live stream
+    find('seek').hidden = isEndless;
+    if (!isEndless) find('seek').max = picture.frames - 1;
     picture.video.playbackRate = Number(find('speed').value);
   }
 
@@ -196,16 +199,16 @@ export class Controls {
     this.press('compare', Boolean(this.viewer.compare));
     find('shift-row').hidden = Boolean(picture?.mono);
     for (const id of ['layout', 'projection', 'grid', 'planet']) find(`${id}-row`).hidden = Boolean(picture?.lacks?.includes(id));
-    for (const id of ['comfort', 'link', 'compare', 'swap']) this.button(id).hidden = !applies(ACTIONS.find((action) => action.id === id), player);
+    for (const id of ['comfort', 'link', 'compare', 'swap', 'system']) this.button(id).hidden = !applies(ACTIONS.find((action) => action.id === id), player);
     if (picture?.video) this.film(picture);
   }
 
   // The mark in a corner, which stays when the bar fades.
   mark() {
-    const { camera, mono } = this.viewer.picture;
-    const wide = Math.round(degrees(angleOf(camera)));
-    this.find('mark').textContent = `${Math.min(wide, 360)}°${mono ? '' : ' 3D'}`;
-    this.find('mark').hidden = !this.player.isVisitors;
+    const { picture } = this.viewer; // null before the studio's first one
+    const mark = this.find('mark');
+    mark.hidden = !this.player.isVisitors || !picture;
+    if (!mark.hidden) mark.textContent = `${Math.min(Math.round(degrees(angleOf(picture.camera))), 360)}°${picture.mono ? '' : ' 3D'}`;
   }
 
   button(action) {
@@ -228,7 +231,7 @@ export class Controls {
     if (this.player.root.activeElement !== find('seek') || !video.paused) find('seek').value = at;
     const clock = (seconds) => `${Math.floor(seconds / 60)}:${two(seconds % 60)}`;
     this.button('subtitles').hidden = !this.viewer.about.video?.subtitles;
-    find('time').replaceChildren(`${clock(at / fps)} / ${clock(frames / fps)}`, make('span', {}, video.paused ? `  ${t('frame {}', at)}` : ''));
+    find('time').replaceChildren(clock(at / fps) + (Number.isFinite(frames) ? ` / ${clock(frames / fps)}` : ''), make('span', {}, video.paused ? `  ${t('frame {}', at)}` : ''));
   }
 
   // Lists the actions that apply now, with the most common ones first.

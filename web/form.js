@@ -22,9 +22,10 @@ export function hasOtherLayouts(view, item) {
   return Boolean(item.image) || ((view.live || item.light) && item.kind === 'picture' && !['separate', 'multiview'].includes(item.layout));
 }
 
-// Kinds of ods/kernel/camera/projection.h: a lat-long and a cylinder have a span, in radians; the cubes are all around.
+// Kinds of ods/kernel/camera/projection.h: a lat-long and a cylinder have a span, in radians; the cubes are all around,
+// and have columns of faces.
 const hasSpan = ({ kind }) => kind < 2;
-const isCube = ({ kind }) => kind > 4 && kind < 9;
+const COLUMNS = { 5: 3, 6: 6, 7: 1, 8: 3 };
 
 // Returns whether the right edge of a picture continues at its left one.
 export function isRound({ projection }) {
@@ -34,7 +35,13 @@ export function isRound({ projection }) {
 // Returns the horizontal angle of a picture, radians.
 export function angleOf({ projection }) {
   if (hasSpan(projection)) return projection.span[0];
-  return isCube(projection) ? 2 * Math.PI : projection.angle;
+  return projection.kind in COLUMNS ? 2 * Math.PI : projection.angle;
+}
+
+// Returns the angle of a texel in the middle of an eye's picture of a width, radians.
+export function texelAngle(camera, width) {
+  const columns = COLUMNS[camera.projection.kind];
+  return (columns ? (columns * Math.PI) / 2 : angleOf(camera)) / width;
 }
 
 // Fractions of a file -> whole pixels.

@@ -6,6 +6,7 @@
 // picture of its own, `high` pixels high, which depends on `key`; and inside(box) gives controls that are in it.
 import { clamp } from './geometry.js';
 import { guideRows, isMapped, pointedAt } from './headset-guide.js';
+import { itemName } from './item-name.js';
 import { WORN } from './modes.js';
 import { t } from './translate.js';
 
@@ -50,7 +51,7 @@ function lay(rows) {
 function entriesOf({ viewer }) {
   const { studio } = viewer;
   const { exposure, tone } = viewer.choice;
-  const files = viewer.view.items.map(({ title, name, thumbnail }, i) => ({ name: title ?? name, thumbnail, on: !viewer.scene && i === viewer.item, run: () => viewer.open(i, { exposure, tone }) }));
+  const files = viewer.view.items.map((item, i) => ({ name: itemName(item), thumbnail: item.thumbnail, on: !viewer.scene && i === viewer.item, run: () => viewer.open(i, { exposure, tone }) }));
   return studio ? [{ name: studio.scene.name, on: Boolean(viewer.scene), run: () => studio.showScene() }, ...files] : files;
 }
 
@@ -78,7 +79,7 @@ function videoRows({ picture, about, subtitles }) {
   ], [
     { id: 'play', icon: video.paused ? 'play' : 'pause', run: () => picture.toggle() },
     { id: 'seek', part: stepped(at / Math.max(frames - 1, 1)), share: 6, drag: (part, isLast) => (isLast || !video.seeking) && picture.seek((part * (frames - 1) + 0.5) / fps) },
-    { text: `${clock(at / fps)} / ${clock(frames / fps)}`, share: 3 },
+    { text: clock(at / fps) + (Number.isFinite(frames) ? ` / ${clock(frames / fps)}` : ''), share: 3 },
   ]];
 }
 
@@ -110,7 +111,7 @@ export function controlsOf(headset, panel) {
   const worn = Math.max(WORN.findIndex(({ name }) => name === state.worn), 0);
   const many = entries.length > 1;
   return lay([
-    [{ text: panel.message || pointedAt(panel, viewer.guide) || (viewer.about?.title ?? viewer.about?.name) || '', share: 9, isName: true }, { id: 'close', icon: 'close', run: () => panel.close() }],
+    [{ text: panel.message || pointedAt(panel, viewer.guide) || itemName(viewer.about), share: 9, isName: true }, { id: 'close', icon: 'close', run: () => panel.close() }],
     ...(isMapped(viewer.guide) ? [] : listRows(panel, entries)),
     ...guideRows(panel, viewer),
     ...videoRows(viewer),

@@ -34,10 +34,17 @@ export function lookOf({ matrix: m }, turn) {
   return { yaw: degrees(yaw + turn), pitch: degrees(pitch), roll: degrees(roll) };
 }
 
+// The menu needs a second layer, above the picture's.
+function hasLayers(session) {
+  return (session.enabledFeatures?.includes('layers') ?? true) && typeof XRWebGLBinding !== 'undefined' &&
+    typeof XRWebGLBinding.prototype.createEquirectLayer === 'function' && (session.maxRenderLayers ?? 2) >= 2;
+}
+
 const indexOf = ({ eye }) => (eye === 'right' ? 1 : 0);
 
 export class Headset {
-  // wants.layers: use layers if the browser supports them and the picture's format allows it.
+  // wants.layers: use the browser's layers for pictures, too, if it has them and the picture's format allows it. Films
+  // have them wherever they are true.
   constructor(viewer, wants = {}) {
     Object.assign(this, { viewer, wants, session: null, turn: 0, pose: null, layers: null, panel: null, marker: null });
   }
@@ -51,8 +58,7 @@ export class Headset {
     if (this.session) return this.session.end();
     const { viewer } = this;
     const { gl } = viewer.panorama;
-    const optionalFeatures = ['local', 'hand-tracking', ...(this.wants.layers ? ['layers'] : [])];
-    const session = await navigator.xr.requestSession('immersive-vr', { optionalFeatures });
+    const session = await navigator.xr.requestSession('immersive-vr', { optionalFeatures: ['local', 'hand-tracking', 'layers'] });
     session.addEventListener('end', () => this.ended());
     await gl.makeXRCompatible();
     if (viewer.studio) viewer.steering ??= new (await import('./studio-headset.js')).VrSteering(viewer.studio);
@@ -69,16 +75,20 @@ export class Headset {
     this.watchWearer();
     viewer.session = session;
     this.viewer.say('change');
-    if (this.wants.layers) {
-      const { EyeLayers, hasLayers } = await import('./layers.js');
-      if (hasLayers(session)) this.layers = new EyeLayers(session, gl, this.space);
-    }
+    await this.findLayers().catch((error) => console.warn('No layers:', error.message));
     import('./headset-panel.js').then(({ HeadsetPanel }) => {
       if (this.session === session) this.panel = new HeadsetPanel(this);
     }, (error) => console.warn('No panel in the headset:', error.message));
     session.requestAnimationFrame((...next) => this.frame(...next));
     this.mirror();
     return session;
+  }
+
+  async findLayers() {
+    const { session, viewer, wants } = this;
+    if (!hasLayers(session)) return;
+    const { EyeLayers } = await import('./layers.js');
+    this.layers = new EyeLayers(session, viewer.panorama.gl, this.space, Boolean(wants.layers));
   }
 
   ended() {
@@ -104,11 +114,8 @@ export class Headset {
     const look = lookOf(this.pose.transform, this.turn);
     if (viewer.scene) viewer.steering?.head(look);
     if (!(now - this.looked < MIRROR)) this.lookAt(now, look);
+    if (this.showLayers(frame)) return;
     picture?.refresh?.();
-    if (picture && !picture.draw && !viewer.scene && this.layers?.show(frame, viewer, this.turn)) {
-      this.layers.drawAbove(this.panel?.isSeen ? (view, box, target) => this.drawPanel(view, box, target) : null, this.pose);
-      return;
-    }
     const layer = session.renderState.baseLayer;
     if (!layer) return;
     const { gl } = panorama;
@@ -123,6 +130,28 @@ export class Headset {
       this.drawPanel(view, [x, y, width, height], layer.framebuffer);
     }
     picture?.pager?.follow(parts, now);
+  }
+
+  // Shows the picture by the browser's layers. Returns false if the shader must draw; for the rest of the session, if
+  // the browser refuses what it seemed to allow.
+  showLayers(frame) {
+    const { viewer, viewer: { picture }, layers, panel } = this;
+    if (!layers) return false;
+    try {
+      if (!picture || picture.draw || viewer.scene) {
+        layers.drop();
+        return false;
+      }
+      if (!layers.show(frame, viewer, this.turn)) return false;
+      layers.drawAbove(panel?.isSeen ? (...view) => this.drawPanel(...view) : null, this.pose);
+      return true;
+    } catch (error) {
+      console.warn('No layers, so the shader draws:', error.message);
+      this.session.updateRenderState({ baseLayer: layers.base });
+      layers.free();
+      this.layers = null;
+      return false;
+    }
   }
 
   // Turns the page's view to the direction of the head.
@@ -161,6 +190,7 @@ export class Headset {
   drawMirror(now) {
     const { viewer, viewer: { picture, panorama, state } } = this;
     const { x, y, z } = this.pose.views[0].transform.position;
+    picture?.refresh?.();
     panorama.clear();
     for (const options of viewer.parts(now)) {
       const { box } = options;

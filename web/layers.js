@@ -1,30 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The Omnistereo authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The picture as a WebXR layer, which the headset's compositor samples by itself: a cube for cubes if the browser
-// supports that, else equirect. The specification does not define which half of a stereo-top-bottom layer is the left
-// eye's, and browsers differ; so each eye is requested by name, and drawn into the region that the browser returns.
+// The picture as a WebXR layer, which the headset's compositor samples by itself: films as media-layer.js says, and if
+// they are wanted, pictures as a cube for cubes if the browser supports that, else equirect. The specification does not
+// define which half of a stereo-top-bottom layer is the left eye's, and for pictures browsers differ; so each eye of a
+// picture is requested by name, and drawn into the region that the browser returns.
+import { FACES } from './geometry.js';
+import { filmLayer, hasMediaLayers } from './media-layer.js';
 import { wornEye } from './modes.js';
 
 const LARGEST = 4096; // pixels of a layer around the horizon
 const CUBES = [5, 6, 7, 8]; // numbers of the kernel's projections
 const AROUND = [1, 0, 0, 0, 1, 0, 0, 0, -1];
-// The rays (panorama.js) of a cube's faces in the order of GL (OpenGL ES 3.0, table 3.19): +X, -X, +Y, -Y, +Z, -Z.
-export const FACES = [
-  [0, 0, -1, 0, -1, 0, 1, 0, 0], [0, 0, 1, 0, -1, 0, -1, 0, 0], [1, 0, 0, 0, 0, 1, 0, 1, 0],
-  [1, 0, 0, 0, 0, -1, 0, -1, 0], [1, 0, 0, 0, -1, 0, 0, 0, 1], [-1, 0, 0, 0, -1, 0, 0, 0, -1],
-];
-
-export function hasLayers(session) {
-  return (session.enabledFeatures?.includes('layers') ?? true) && typeof XRWebGLBinding !== 'undefined' &&
-    typeof XRWebGLBinding.prototype.createEquirectLayer === 'function' && (session.maxRenderLayers ?? 1) >= 1;
-}
 
 export class EyeLayers {
-  constructor(session, gl, space) {
+  // all: pictures have layers, too, not only films.
+  constructor(session, gl, space, all = true) {
     this.base = session.renderState.baseLayer; // for pictures without a layer
-    Object.assign(this, { session, gl, space, layer: null, above: null, shown: null, target: gl.createFramebuffer() });
+    Object.assign(this, { session, gl, space, all, layer: null, above: null, shown: null, isFilm: false, target: gl.createFramebuffer() });
     this.binding = new XRWebGLBinding(session, gl);
+    this.media = hasMediaLayers() ? new XRMediaBinding(session) : null;
   }
 
   createCube([width, height]) {
@@ -42,14 +37,15 @@ export class EyeLayers {
     });
   }
 
-  create({ camera, eyes: [{ size }] }) {
+  create({ camera, video, eyes: [{ size }] }, film) {
     this.layer?.destroy?.();
-    this.isCube = CUBES.includes(camera.projection.kind) && Boolean(this.binding.createCubeLayer);
+    this.isCube = !film && CUBES.includes(camera.projection.kind) && Boolean(this.binding.createCubeLayer);
+    this.layer = null;
     try {
-      this.layer = this.isCube ? this.createCube(size) : this.createEquirect(size);
+      if (film) this.layer = this.media.createEquirectLayer(video, { space: this.space, ...film.init });
+      else if (this.all) this.layer = this.isCube ? this.createCube(size) : this.createEquirect(size);
     } catch (error) {
       console.warn('No layer, so the shader draws:', error.message);
-      this.layer = null;
     }
     this.arrange(false);
   }
@@ -65,21 +61,37 @@ export class EyeLayers {
     return layer && this.session.renderState.layers?.includes(layer);
   }
 
+  // The shader draws what follows.
+  drop() {
+    if (!this.layer) return;
+    this.layer.destroy?.();
+    Object.assign(this, { layer: null, picture: null });
+    this.arrange(false);
+  }
+
   // Draws the eyes that changed. Returns false if the shader must draw, because there is no layer, or the browser does
   // not allow drawing into it.
-  show(frame, { panorama, picture, state }, turn) {
-    const { gl } = this;
-    if (this.picture !== picture) {
-      this.picture = picture;
-      this.create(picture);
-      this.shown = null;
+  show(frame, viewer, turn) {
+    const { panorama, picture, state } = viewer;
+    const film = this.media && filmLayer(picture, state);
+    if (this.picture !== picture || this.isFilm !== Boolean(film)) {
+      Object.assign(this, { picture, isFilm: Boolean(film), shown: null });
+      this.create(picture, film);
     }
     if (!this.has(this.layer)) return false;
-    const [s, c] = [Math.sin(-turn / 2), Math.cos(turn / 2)];
-    if (this.isCube) this.layer.orientation = new DOMPointReadOnly(0, -s, 0, c);
-    else this.layer.transform = new XRRigidTransform({ x: 0, y: 0, z: 0 }, { x: 0, y: -s, z: 0, w: c });
+    const half = (turn - (film?.heading ?? 0)) / 2;
+    const [s, c] = [Math.sin(half), Math.cos(half)];
+    if (this.isCube) this.layer.orientation = new DOMPointReadOnly(0, s, 0, c);
+    else this.layer.transform = new XRRigidTransform({ x: 0, y: 0, z: 0 }, { x: 0, y: s, z: 0, w: c });
+    if (!film) this.drawEyes(frame, panorama, picture, state);
+    return true;
+  }
+
+  drawEyes(frame, panorama, picture, state) {
+    const { gl } = this;
+    picture.refresh?.();
     const what = `${state.swap} ${state.worn} ${state.grid} ${picture.frame?.()}`;
-    if (this.shown === what && !this.layer.needsRedraw) return true;
+    if (this.shown === what && !this.layer.needsRedraw) return;
     this.shown = what;
     for (const [eye, name] of ['left', 'right'].entries()) {
       const part = this.binding.getSubImage(this.layer, frame, name);
@@ -93,7 +105,6 @@ export class EyeLayers {
         });
       }
     }
-    return true;
   }
 
   // Draws the objects in the room into a layer above the picture's. draw(view, box, target); null if there are none.

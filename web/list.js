@@ -5,13 +5,14 @@
 // close it.
 import { make } from './elements.js';
 import { icon } from './icons.js';
+import { itemName } from './item-name.js';
 
-export function makeList({ element, viewer }) {
+export function makeList({ element, viewer, nameOf }) {
   const list = make('div', { id: 'list', popover: 'auto', role: 'group', 'aria-label': 'All pictures' });
   element.append(list);
   const cell = (item, i) => {
     const { kind, thumbnail } = item;
-    const name = item.title ?? item.name;
+    const name = nameOf(item) || itemName(item);
     const picture = make('img', { src: thumbnail ? new URL(thumbnail, viewer.base).href : '', alt: '', loading: 'lazy', decoding: 'async' });
     picture.addEventListener('error', () => picture.removeAttribute('src')); // an empty frame beats a broken image
     const button = make('button', { type: 'button', title: name, 'aria-current': String(i === viewer.item) }, picture, make('span', {}, name));

@@ -3,6 +3,7 @@
 //
 // Starts the page: reads view.json, makes the player, and keeps the page's address and its server in step with it.
 import { copyText } from './copy.js';
+import { itemName, plainName } from './item-name.js';
 import { Panorama } from './panorama.js';
 import { Player } from './player.js';
 import { findItem, readState, writeState } from './state.js';
@@ -63,7 +64,8 @@ async function start() {
   const view = await answer.json();
   await useLanguage();
   const wanted = readState(location.hash);
-  const player = new Player(find('player'), document, { view, base: location.href, wanted, keys: document, isPage: true, isVisitors: !view.live && !wanted.controls });
+  const isVisitors = !view.live && !wanted.controls;
+  const player = new Player(find('player'), document, { view, base: location.href, wanted, keys: document, isPage: true, isVisitors, nameOf: isVisitors ? plainName : itemName });
   const { viewer } = player;
   viewer.wake(new Panorama());
   player.frame = wanted.frame;

@@ -26,7 +26,7 @@ function bar() {
     make('output', { id: 'time' }), button('sound'), button('subtitles', { hidden: true }));
   const mode = make('select', { id: 'mode', ariaLabel: t('Eyes'), 'data-tip': t('How both eyes share the screen'), 'data-key': 'M' });
   const tools = make('div', { id: 'tools' }, mode, button('swap'), button('compare', { hidden: true }), button('settings'),
-    button('headset', { hidden: true }), button('fullscreen'), button('device', { hidden: true }), button('help'));
+    button('headset', { hidden: true }), button('system', { hidden: true }), button('fullscreen'), button('device', { hidden: true }), button('help'));
   return make('div', { id: 'bar', role: 'toolbar', ariaLabel: t('Viewer') }, film, tools);
 }
 

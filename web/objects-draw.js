@@ -3,10 +3,9 @@
 //
 // Draws real-time objects into the targets of a layered scene (layered-draw.js), behind and in front of its triangles,
 // with their shadows on these. An object is that of objects.js: file, at, matrix, middle, radius, pose and light.
-import { dot } from './geometry.js';
+import { FACES, dot } from './geometry.js';
 import { cross, plus, scaled } from './headset-room.js';
 import { multiplied } from './glb.js';
-import { FACES } from './layers.js';
 import { LayeredDrawer, NEAR, VERTICES } from './layered-draw.js';
 import { CASTER, CASTER_VERTICES, LIGHT, OBJECT, OBJECT_VERTICES, ROUGHEN, SHADE } from './objects-shaders.js';
 import { compile } from './panorama.js';

@@ -8,9 +8,8 @@
 // A stage gives a picture of picture.js what objects.js needs of a layered scene: about, draw() and more; its own
 // cast() and rayOf() are for drags. Its frame is the camera's: x to the right, y up and z back, from the middle of the
 // viewing circle.
-import { dot, radians } from './geometry.js';
+import { FACES, dot, radians } from './geometry.js';
 import { inverse, plus, scaled, turned } from './headset-room.js';
-import { FACES } from './layers.js';
 import { LayeredDrawer, NEAR } from './layered-draw.js';
 import { Fault, check } from './meshopt.js';
 import { Objects } from './objects.js';

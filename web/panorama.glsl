@@ -6,9 +6,10 @@
 // defines the purpose of each program with macros, because software GPUs execute every branch that is not constant.
 //
 // The filter is that of ods/convert/texel_filter.h: a pixel that covers a texel or less is interpolated by the
-// Catmull-Rom cubic, clamped to the range of its texels. A pixel that covers s texels averages with the variance (s^2 -
-// 1) / 6; here mip levels, which are boxes, supply the variance of the narrow axis, and points along the wide one
-// supply the rest. While the view moves, the GPU filters instead, with the same line of sight.
+// Catmull-Rom cubic, clamped to the range of its texels. A pixel that covers s texels averages under a tent with the
+// variance (s^2 - 1) / 6: here that of the narrow axis, whatever its direction, is summed texel by texel, from three
+// texels on with the help of mip levels, and points along the wide one supply the rest. While the view moves, the GPU
+// filters instead, with the same line of sight.
 precision highp float;
 precision highp int;
 precision highp sampler2DArray;
@@ -249,23 +250,56 @@ vec4 cubic(float t) {
          t * vec4(-0.5, 1.5, -1.5, 0.5)));
 }
 
-vec3 bicubic(int which, Spot spot, int level) {
+const int kMostTaps = 12;
+
+// Weights of the texels from `first` on, for the cubic under a tent of a squared radius. The points and their weights
+// are those of make_tent() in ods/convert/texel_filter.cpp.
+struct Taps {
+  int first;
+  int count;
+  float weights[kMostTaps];
+};
+
+Taps taps_at(float at, float square) {
+  float n = square < 0.0225 ? 1.0 : 1.0 + ceil(2.0 * sqrt(square));
+  bool is_even = mod(n, 2.0) < 0.5;
+  float variance = is_even ? 1.0 + 2.0 / (n * n) : (n * n - 1.0) * (n * n + 3.0) / (n * n * (n * n + 1.0));
+  float radius = n > 1.5 ? sqrt(square / variance) : 0.0;
+  float unit = 2.0 / (is_even ? n * n : n * n + 1.0);
+  Taps taps;
+  float start = at + radius / n - radius;
+  taps.first = int(floor(start)) - 1;
+  taps.count = min(int(floor(at + radius - radius / n)) + 3 - taps.first, kMostTaps);
+  for (int k = 0; k < kMostTaps; k++) taps.weights[k] = 0.0;
+  for (int i = 0; i < int(n); i++) {
+    float point = start + float(i) * 2.0 * radius / n;
+    float whole = floor(point);
+    vec4 four = cubic(point - whole) * unit * float(min(2 * i + 1, 2 * (int(n) - i) - 1));
+    int k = int(whole) - 1 - taps.first;
+    for (int j = 0; j < 4; j++) {
+      if (k + j < kMostTaps) taps.weights[k + j] += four[j];
+    }
+  }
+  return taps;
+}
+
+// The mean under a tent, whose radius is in texels of the level.
+vec3 mean_at(int which, Spot spot, int level, float square) {
   if (kPaged) level = max(level - spot.down, 0);
   float scale = exp2(float(-level));
   vec2 at = spot.at * scale - 0.5;
-  vec2 whole = floor(at);
-  vec4 across = cubic(at.x - whole.x);
-  vec4 down = cubic(at.y - whole.y);
+  Taps across = taps_at(at.x, square);
+  Taps down = taps_at(at.y, square);
   ivec2 high = ivec2(floor(spot.high * scale)) - 1;
   ivec2 low = min(ivec2(ceil(spot.low * scale)), high);
   vec3 sum = vec3(0.0);
   vec3 least = vec3(65504.0);
   vec3 most = vec3(0.0);
-  for (int j = 0; j < 4; j++) {
-    for (int i = 0; i < 4; i++) {
-      ivec3 texel = ivec3(clamp(ivec2(whole) + ivec2(i - 1, j - 1), low, high), spot.layer);
+  for (int j = 0; j < down.count; j++) {
+    for (int i = 0; i < across.count; i++) {
+      ivec3 texel = ivec3(clamp(ivec2(across.first + i, down.first + j), low, high), spot.layer);
       vec3 light = texel_of(which, texel, level, spot.down > 0);
-      sum += light * across[i] * down[j];
+      sum += light * (across.weights[i] * down.weights[j]);
       least = min(least, light);
       most = max(most, light);
     }
@@ -273,19 +307,13 @@ vec3 bicubic(int which, Spot spot, int level) {
   return clamp(sum, least, most);
 }
 
-// The level's box has the variance (4^level - 1) / 12, the pixel needs (square - 1) / 6: two levels are mixed.
+// The pixel needs the variance (square - 1) / 6, and a level's box has (4^level - 1) / 12: a tent has the rest. Up to
+// three texels everything is the tent's; beyond, the level has most of it.
 vec3 averaged(int which, Spot spot, float square) {
-  float boxes = 2.0 * square - 1.0;
-  int level = clamp(int(floor(0.5 * log2(boxes))), 0, kLastLevel - 1 + (kPaged ? spot.down : 0));
-  float box = exp2(2.0 * float(level));
-  float more = clamp((boxes - box) / (3.0 * box), 0.0, 1.0);
-  if (more < 0.01) more = 0.0;
-  vec3 sum = vec3(0.0);
-  for (int i = 0; i < 2; i++) {
-    float weight = i == 0 ? 1.0 - more : more;
-    if (weight > 0.0) sum += weight * bicubic(which, spot, level + i);
-  }
-  return sum;
+  int level = square < 9.0 ? 0 : int(floor(0.5 * log2(square)));
+  level = min(level, kLastLevel + (kPaged ? spot.down : 0));
+  float box = exp2(2.0 * float(max(level, kPaged ? spot.down : 0)));
+  return mean_at(which, spot, level, clamp((square - 0.5 - 0.5 * box) / box, 0.0, 8.5));
 }
 
 // dx, dy: movement of the position from pixel to pixel, in texels.

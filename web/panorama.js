@@ -3,10 +3,12 @@
 //
 // Draws stereo panoramas with WebGL 2. panorama.glsl finds the texels with the formulas of the renderer itself; this
 // file makes a program of it for each projection, sets its uniforms and contains no formulas.
+import { texelAngle } from './form.js';
 import { radians } from './geometry.js';
 import { SHADER } from './shader.js';
 
 const TOE_IN = 1; // number of the kernel's convergence whose lines of sight are not linear across the view
+const REDUCED = 1.2; // texels of a pixel, in the middle, from which mip levels matter
 const CELLS = 16; // cells of the mesh for it, each way
 const VERTICES = `#version 300 es
 out vec2 screen;
@@ -208,6 +210,10 @@ export class Panorama {
     const { gl } = this;
     const shown = show === 'eye' ? [eye, eye] : [0, 1];
     const eyes = shown.map((side) => picture.eyes[swap ? 1 - side : side]);
+    if (picture.prepare) {
+      const pixel = all ? (2 * Math.PI) / box[2] : (2 * Math.hypot(...rays.slice(0, 3))) / box[2]; // radians, in the middle
+      for (const each of eyes) picture.prepare(each, !moves || planet || pixel > REDUCED * texelAngle(picture.camera, each.size[0]));
+    }
     const cells = moves && !all && !planet && picture.camera.convergence === TOE_IN ? CELLS : 0;
     gl.bindFramebuffer(gl.FRAMEBUFFER, target);
     gl.viewport(...box);
@@ -260,9 +266,9 @@ export class Panorama {
     return performance.now() - since;
   }
 
-  clear() {
+  clear(target = null) {
     const { gl } = this;
-    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, target);
     gl.clearColor(0.1, 0.1, 0.1, 1);
     gl.clear(gl.COLOR_BUFFER_BIT);
   }

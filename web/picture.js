@@ -8,7 +8,7 @@
 // hold(), drag(), the `actions` that it adds, and the names of those that it `lacks`; the viewer that has opened it calls
 // enter().
 import { cropOf, formOf, hasOtherLayouts, isRound, same } from './form.js';
-import { EyeTexture, FrameCutter } from './tiles.js';
+import { EyeTexture } from './tiles.js';
 
 const LARGE = 40e6; // texels of both eyes: with mip levels, 213 MB
 
@@ -98,7 +98,7 @@ async function openPreview(panorama, item, form, url, signal, early) {
 async function openImage(panorama, item, form, files, url, { signal, progress, early, paging, ahead }) {
   const crops = item.image ? [form.layout.left, form.layout.right] : [[0, 0, 1, 1], [0, 0, 1, 1]];
   const mono = files.length === 1 ? same(...crops) : files[0].href === files[1].href;
-  const preview = item.preview && early ? openPreview(panorama, item, form, url, signal, early).catch(() => null) : null;
+  const preview = item.preview && early && !ahead?.there.has(files[0].href) ? openPreview(panorama, item, form, url, signal, early).catch(() => null) : null;
   const sources = [];
   let picture = null;
   try {
@@ -133,8 +133,10 @@ async function openLight(panorama, item, form, url, choice, { signal, progress }
   const mono = same(...crops);
   const eyes = crops.slice(mono ? 1 : 0).map(([, , width, height]) => new EyeTexture(gl, width, height, isRound(form.camera), true));
   if (mono) eyes.push(eyes[0]);
+  const { FrameCutter } = await import('./frame-cutter.js');
   const cutter = new FrameCutter(gl, true);
-  cutter.cut(source, eyes, crops);
+  cutter.take(source, eyes);
+  eyes.forEach((eye, i) => cutter.prepare(eye, crops[i], true));
   cutter.free();
   return {
     eyes, camera: form.camera, mono, light: true, changed: null,

@@ -6,6 +6,7 @@ import { ACTIONS, actionOf, applies } from './actions.js';
 import { Controls } from './controls.js';
 import { make } from './elements.js';
 import { clamp } from './geometry.js';
+import { itemName } from './item-name.js';
 import { followPointer } from './look.js';
 import { makeMarkup } from './markup.js';
 import { watchTips } from './tips.js';
@@ -34,7 +35,7 @@ export class Player {
   // that receives keys. isPage: the page has no other content, so the wheel belongs to the picture, too. nameOf(item):
   // its name for users, if any; isSingle(): whether there are no other items to choose. isVisitors: the bar has what
   // visitors need, not the tools of the makers of pictures.
-  constructor(element, root, { view, base, wanted = {}, keys = element, isPage = false, isVisitors = false, nameOf = ({ title, name }) => title ?? name, isSingle = () => false }) {
+  constructor(element, root, { view, base, wanted = {}, keys = element, isPage = false, isVisitors = false, nameOf = itemName, isSingle = () => false }) {
     Object.assign(this, { element, root, wanted, isPage, isVisitors, keys, nameOf, isSingle });
     element.append(...makeMarkup());
     const viewer = new Viewer(this.find('picture'), view, base);
@@ -50,7 +51,9 @@ export class Player {
     watchTips(root);
     hasHeadset().then((has) => {
       root.querySelector('#tools [data-action="headset"]').hidden = !has;
-      if (has) this.loadHeadset().catch(() => {}); // prepares for entering by a click without waiting
+      if (!has) return;
+      this.loadHeadset().catch(() => {}); // prepares for entering by a click without waiting
+      this.showBothEyes().catch(() => {});
     });
   }
 
@@ -86,6 +89,14 @@ export class Player {
   async loadHeadset() {
     const { Headset } = await import('./headset.js');
     return (this.headset ??= new Headset(this.viewer, { layers: this.wanted.layers }));
+  }
+
+  // In a headset's browser, both eyes without entering, where it can do so.
+  async showBothEyes() {
+    const { InlineStereo } = await import('./inline-stereo.js');
+    const flat = this.find('mode').options[0];
+    const { textContent } = flat;
+    this.stereo = new InlineStereo(this.viewer, (is) => (flat.textContent = is ? '3D' : textContent));
   }
 
   async enterHeadset() {

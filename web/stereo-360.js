@@ -31,7 +31,7 @@ const STYLE = `${PLAYER_STYLE}
 #again { display: block; margin: 10px auto 0; background: var(--touch); padding: 0 16px; }
 .waiting :is(#bar, #title, #caption, #spots, #hint), .bare :is(#bar, #title) { display: none; }`;
 const VIDEO = /\.(mp4|m4v|mov|webm|mkv|m3u8)$/i;
-const FILES = ['image', 'fallback', 'left', 'right', 'light', 'preview', 'thumbnail', 'poster'];
+const FILES = ['image', 'system', 'fallback', 'left', 'right', 'light', 'preview', 'thumbnail', 'poster'];
 const NEAR = '300px'; // distance from the window at which it loads
 const FILE = ['src', 'item', 'layout', 'projection', 'fps'];
 const LOOK = ['mode', 'yaw', 'pitch', 'fov'];
@@ -228,7 +228,7 @@ export class Stereo360 extends Base {
   itemOf(image) {
     const { pathname } = new URL(image);
     const kind = /\.glb$/i.test(pathname) ? 'layers' : VIDEO.test(pathname) ? 'video' : 'picture';
-    return { name: decodeURIComponent(image.split('/').pop()), kind, image, layout: 'top-bottom', projection: 'lat-long', video: { fps: this.number('fps', 30) } };
+    return { name: decodeURIComponent(image.split('/').pop()), kind, image, system: this.hasAttribute('tagged') ? image : undefined, layout: 'top-bottom', projection: 'lat-long', video: { fps: this.number('fps', 30) } };
   }
 
   async show() {

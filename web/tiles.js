@@ -3,38 +3,10 @@
 //
 // An eye's picture as a texture: the layers of an array, each a tile with a border of the adjacent parts of the world.
 // So pictures may be larger than the GPU's largest texture, and filters do not meet a seam.
-import { compile } from './panorama.js';
-
 export const BORDER = 16; // texels, as in panorama.glsl: two filter widths at the smallest mip level used close by
-const LEVELS = 6; // number of mip map levels
+export const LEVELS = 6; // number of mip map levels
 const STEP = 1 << (LEVELS - 1); // layers are a multiple of this, so that every level has whole texels
 const LARGEST = 4096 + 2 * STEP; // side of a layer: larger ones have no benefit, and some browsers fail to fill them
-
-// Copies an eye of a video's frame into a layer. Rendering into an sRGB texture encodes, so it decodes first. A frame of
-// light has the high bytes of its halves in its left half, and the low ones in its right half.
-const CUT = `#version 300 es
-precision highp float;
-precision highp int;
-uniform sampler2D frame;
-uniform ivec4 crop;    // the eye's part of the frame: x, y, width, height
-uniform ivec2 origin;  // position of the layer in the eye's picture
-uniform bool wraps;
-uniform bool light;
-in vec2 screen;
-out vec4 color;
-void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy) + origin;
-  at = ivec2(wraps ? (at.x % crop.z + crop.z) % crop.z : clamp(at.x, 0, crop.z - 1), clamp(at.y, 0, crop.w - 1));
-  vec3 s = texelFetch(frame, crop.xy + at, 0).rgb;
-  if (light) {
-    uvec3 high = uvec3(s * 255.0 + 0.5);
-    uvec3 low = uvec3(texelFetch(frame, crop.xy + at + ivec2(textureSize(frame, 0).x / 2, 0), 0).rgb * 255.0 + 0.5);
-    uvec3 bits = high * 256u + low;
-    color = vec4(unpackHalf2x16(bits.r).x, unpackHalf2x16(bits.g).x, unpackHalf2x16(bits.b).x, 1.0);
-    return;
-  }
-  color = vec4(mix(pow((s + 0.055) / 1.055, vec3(2.4)), s / 12.92, vec3(lessThanEqual(s, vec3(0.04045)))), 1.0);
-}`;
 
 const upTo = (size, step) => Math.ceil(size / step) * step;
 
@@ -117,50 +89,5 @@ export class EyeTexture {
 
   free() {
     this.gl.deleteTexture(this.texture);
-  }
-}
-
-// Moves a video's current frame, or a picture of light, into the textures of its eyes without leaving the GPU.
-export class FrameCutter {
-  constructor(gl, light = false) {
-    this.gl = gl;
-    this.light = light;
-    this.program = compile(gl, CUT);
-    this.at = (name) => gl.getUniformLocation(this.program, name);
-    this.frame = gl.createTexture();
-    this.target = gl.createFramebuffer();
-  }
-
-  // eyes: textures, each with its crop [x, y, width, height] of the frame, which is a video or an ImageBitmap.
-  cut(frame, eyes, crops) {
-    const { gl } = this;
-    gl.activeTexture(gl.TEXTURE0);
-    gl.bindTexture(gl.TEXTURE_2D, this.frame);
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, frame);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
-    gl.useProgram(this.program);
-    gl.uniform1i(this.at('light'), this.light);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, this.target);
-    for (const eye of new Set(eyes)) {
-      gl.viewport(0, 0, ...eye.layer);
-      gl.uniform4iv(this.at('crop'), crops[eyes.indexOf(eye)]);
-      gl.uniform1i(this.at('wraps'), eye.wraps);
-      eye.tiles.forEach((origin, layer) => {
-        gl.framebufferTextureLayer(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, eye.texture, 0, layer);
-        gl.uniform2iv(this.at('origin'), origin);
-        gl.drawArrays(gl.TRIANGLES, 0, 3);
-      });
-    }
-    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-    for (const eye of new Set(eyes)) {
-      eye.bind();
-      gl.generateMipmap(gl.TEXTURE_2D_ARRAY);
-    }
-  }
-
-  free() {
-    this.gl.deleteTexture(this.frame);
-    this.gl.deleteFramebuffer(this.target);
-    this.gl.deleteProgram(this.program);
   }
 }

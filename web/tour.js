@@ -5,6 +5,7 @@
 // picture, what they tell, and where they lead. It is viewer.guide, for the desk (notes.js, tour-plan.js) and the headset
 // (tour-worn.js, headset-guide.js). Events: `spots` (another picture has others), `tell` (a card opened or closed).
 import { wrapDegrees } from './geometry.js';
+import { itemName } from './item-name.js';
 import { showNotes } from './notes.js';
 import { showPlan } from './tour-plan.js';
 import { STYLE } from './tour-style.js';
@@ -29,8 +30,7 @@ class Guide extends EventTarget {
   }
 
   titleOf(i) {
-    const { title, name } = this.viewer.view.items[i] ?? {};
-    return title ?? name ?? '';
+    return itemName(this.viewer.view.items[i]);
   }
 
   // The picture is another one, or the same again with another layout or exposure.

@@ -158,6 +158,7 @@ export const TRANSLATIONS = {
   'stick left, right: where the merge starts; up, down: where it ends; trigger: settings A or B': 'Stick links, rechts: wo die Verschmelzung beginnt; auf, ab: wo sie endet; Abzug: Einstellung A oder B',
   'subtitles': 'Untertitel',
   'swap the eyes': 'Augen vertauschen',
+  'the browser’s own player': 'der Player des Browsers',
   'the menu: files, seek bar, exposure, recentre and the rest; a press beside it closes it': 'das Menü: Dateien, Suchleiste, Belichtung, Zentrieren und der Rest; ein Druck daneben schließt es',
   'the menu’s handle: point at it and press, or look at it until its ring is full': 'der Griff des Menüs: darauf zeigen und drücken, oder ansehen, bis sein Ring voll ist',
   'the object’s last place': 'letzter Ort des Objekts',

@@ -158,6 +158,7 @@ export const TRANSLATIONS = {
   'stick left, right: where the merge starts; up, down: where it ends; trigger: settings A or B': 'stick à gauche, à droite : début de la fusion ; en haut, en bas : sa fin ; gâchette : réglages A ou B',
   'subtitles': 'sous-titres',
   'swap the eyes': 'échanger les yeux',
+  'the browser’s own player': 'le lecteur du navigateur',
   'the menu: files, seek bar, exposure, recentre and the rest; a press beside it closes it': 'le menu : fichiers, barre de recherche, exposition, recentrage et le reste ; un appui à côté le ferme',
   'the menu’s handle: point at it and press, or look at it until its ring is full': 'la poignée du menu : la viser et appuyer, ou la regarder jusqu’à ce que son anneau soit plein',
   'the object’s last place': 'place précédente de l’objet',

@@ -4,8 +4,9 @@
 // A video as a picture whose eyes change. The browser decodes; requested times are the middles of frames, so that
 // rounding cannot show an adjacent frame.
 import { cropOf, isRound, same } from './form.js';
+import { FrameCutter } from './frame-cutter.js';
 import { clamp } from './geometry.js';
-import { EyeTexture, FrameCutter } from './tiles.js';
+import { EyeTexture } from './tiles.js';
 
 const SETTLE = 150; // milliseconds
 const REASONS = {
@@ -14,6 +15,8 @@ const REASONS = {
   3: 'is damaged, or its codec is too much for this browser. Try H.264: ods encode --codec h264',
   4: 'has a codec or a container that this browser does not play. Try H.264 in MP4: ods encode --codec h264 -o video.mp4',
 };
+
+const HLS = 'application/vnd.apple.mpegurl'; // .m3u8
 
 function whenLoaded(video, name, signal) {
   return new Promise((done, fail) => {
@@ -31,10 +34,19 @@ async function fromDisk(url, name) {
   return URL.createObjectURL(await answer.blob());
 }
 
-export async function openVideo(gl, item, form, url, signal) {
+// Throws if the browser does not play such files.
+function makeVideo(src, url, name) {
   const video = document.createElement('video');
+  if (/\.m3u8$/i.test(url.pathname) && !video.canPlayType(HLS)) {
+    throw new Error(`${name} is HLS, which this browser does not play. Name an .mp4 of the same film`);
+  }
+  if (url.origin !== location.origin) video.crossOrigin = 'anonymous'; // else WebGL may not show it
+  return Object.assign(video, { src, preload: 'auto', playsInline: true });
+}
+
+export async function openVideo(gl, item, form, url, signal) {
   const src = url.protocol === 'file:' ? await fromDisk(url, item.name) : url.href;
-  Object.assign(video, { src, preload: 'auto', playsInline: true });
+  const video = makeVideo(src, url, item.name);
   const close = () => {
     URL.revokeObjectURL(src);
     video.pause();
@@ -85,15 +97,16 @@ export async function openVideo(gl, item, form, url, signal) {
   }
 
   const picture = {
-    eyes, camera: form.camera, mono, video, fps, frames, loops: true,
+    eyes, camera: form.camera, layout: form.layout, mono, video, fps, frames, loops: true,
     changed: null, // called when there is something new to draw or to report
     frame: () => Math.min(Math.floor(mediaTime * fps + 0.5), frames - 1),
-    // Before drawing: copies a new frame into the textures.
+    // Before drawing: copies a new frame to the GPU; and then for an eye that is drawn, into its texture (FrameCutter).
     refresh() {
       if (!isNew || video.readyState < 2) return;
       isNew = false;
-      cutter.cut(video, eyes, crops);
+      cutter.take(video, eyes);
     },
+    prepare: (eye, isReduced) => cutter.prepare(eye, crops[eyes.indexOf(eye)], isReduced),
     loop(is) {
       picture.loops = is;
       video.loop = is && !video.paused;
@@ -101,6 +114,7 @@ export async function openVideo(gl, item, form, url, signal) {
     },
     toggle: () => (video.paused ? video.play().catch(() => {}) : video.pause()),
     seek(seconds) {
+      if (!Number.isFinite(frames)) return; // a live stream
       wanted = clamp(Math.floor(seconds * fps), 0, frames - 1);
       video.currentTime = (wanted + 0.5) / fps;
     },

@@ -30,6 +30,7 @@ export class Viewer extends EventTarget {
     this.scene = null; // the studio's live scene, shown instead of an item
     this.choice = {}; // layout, projection, exposure, tone, if they differ from the item
     this.pace = null; // since the first panorama
+    this.inline = null; // a session of inline-stereo.js, which draws instead
     this.ahead = null; // ahead.js, once there are pictures to fetch
     this.guide = null; // tour.js, if there are hotspots or a tour
     this.waiting = false;
@@ -75,7 +76,7 @@ export class Viewer extends EventTarget {
     this.slept = video && { time: video.currentTime, playing: !video.paused, muted: video.muted, loops: picture.loops };
     this.loading?.abort();
     clearTimeout(this.rest);
-    this.settling = null;
+    this.settling = this.inline = null;
     this.ahead?.keep([]);
     this.compare?.end();
     if (picture) this.keepFrame();
@@ -109,12 +110,13 @@ export class Viewer extends EventTarget {
     else this.fit();
   }
 
-  // An emulated headset draws into the canvas, whose size must then not change. Returns whether it has changed.
-  fit(part = 1) {
+  // An emulated headset draws into the canvas, whose size must then not change. across: the views beside each other.
+  // Returns whether it has changed.
+  fit(part = 1, across = 1) {
     const { canvas, element } = this;
     if (this.session) return false;
     const scale = part * (window.devicePixelRatio || 1);
-    const size = [element.clientWidth, element.clientHeight].map((pixels) => Math.max(1, Math.round(pixels * scale)));
+    const size = [element.clientWidth * across, element.clientHeight].map((pixels) => Math.max(1, Math.round(pixels * scale)));
     if (canvas.width === size[0] && canvas.height === size[1]) return false;
     [canvas.width, canvas.height] = size;
     return true;
@@ -147,7 +149,7 @@ export class Viewer extends EventTarget {
 
   // Draws quickly, and exactly as soon as nothing moves.
   draw(now) {
-    if (this.session || !this.panorama) return;
+    if (this.session || this.inline || !this.panorama) return;
     this.settling = null;
     clearTimeout(this.rest);
     this.fit(this.pace.how.scale);
@@ -177,8 +179,8 @@ export class Viewer extends EventTarget {
   }
 
   // The options of panorama.draw() for each part of the view; all are as high as the canvas.
-  parts(now) {
-    const { canvas, state } = this;
+  parts(now, canvas = this.canvas) {
+    const { state } = this;
     const shift = radians(state.shift) / 2; // for each eye
     return modeOf(state.mode).parts(now).map(({ at, eye, show }) => {
       const box = boxOf(at, canvas);

@@ -109,7 +109,10 @@ void write_site(const std::vector<ViewItem>& items, const PageTexts& texts, cons
                 const std::string& folder) {
   for (size_t i = 0; i < items.size(); i++) {
     std::vector<std::string> files = item_files(items[i], i);
-    if (items[i].has_own_file) copy_file(items[i].path, folder + "/" + files[0]);
+    if (items[i].has_own_file)
+      copy_file(items[i].path, folder + "/" + files[0]);
+    else if (items[i].is_for_apple)
+      copy_file(items[i].path, folder + "/" + system_file(items[i], i));
     if (!items[i].fallback.empty()) {
       files.push_back(fallback_file(items[i], i));
       copy_file(items[i].fallback, folder + "/" + files.back());

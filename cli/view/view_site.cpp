@@ -139,6 +139,9 @@ WebAnswer ViewSite::item(const std::string& path, const WebRequest& request) {
   if (item.has_own_file && path == item_files(item, *number)[0]) {
     return {.type = std::string(ods::media_type(path)), .file = item.path};
   }
+  if (item.is_for_apple && path == system_file(item, *number)) {
+    return {.type = std::string(ods::media_type(path)), .file = item.path};
+  }
   if (!item.fallback.empty() && path == fallback_file(item, *number)) {
     return {.type = std::string(ods::media_type(path)), .file = item.fallback};
   }

@@ -66,7 +66,8 @@ struct RareScript {
 constexpr RareScript kRareScripts[] = {{"later-tour.js", "tour.js"},
                                        {"later-words.js", kTranslate},
                                        {"later-objects.js", "objects-panorama.js", true},
-                                       {"later-film.js", "layered-film.js", true}};
+                                       {"later-film.js", "layered-film.js", true},
+                                       {"later-layers.js", "layers.js"}};
 static_assert(std::size(kRareScripts) + 1 == std::size(kLaterScripts));
 
 std::vector<std::string> modules_of(const RareScript& script) {
@@ -88,6 +89,30 @@ struct Modules {
   bool has_rare = false;           // among them
 };
 
+// Only ASCII, with \uXXXX for the rest, which strings and regular expressions mean the same by: a classic script has the
+// encoding of the page that loads it, which plain pages do not declare. text: UTF-8.
+std::string ascii(std::string_view text, PageHost host) {
+  if (host != PageHost::kFolder) return std::string(text);  // our server declares it
+  std::string out;
+  for (size_t i = 0; i < text.size();) {
+    const auto lead = static_cast<unsigned char>(text[i++]);
+    if (lead < 0x80) {
+      out += static_cast<char>(lead);
+      continue;
+    }
+    const int more = lead >= 0xf0 ? 3 : lead >= 0xe0 ? 2 : 1;
+    uint32_t code = lead & (0x3fu >> more);
+    for (int k = 0; k < more && i < text.size(); k++)
+      code = code << 6 | (static_cast<unsigned char>(text[i++]) & 0x3fu);
+    if (code > 0xffff) {
+      out += fmt::format("\\u{:04x}\\u{:04x}", 0xd800 + ((code - 0x10000) >> 10), 0xdc00 + (code & 0x3ff));
+    } else {
+      out += fmt::format("\\u{:04x}", code);
+    }
+  }
+  return out;
+}
+
 // After its imports.
 void add(const std::string& name, PageHost host, Modules& modules) {
   if (is_left_out(name, host) || !modules.known.insert(name).second) return;
@@ -107,6 +132,15 @@ void add_later(PageHost host, Modules& modules) {
       add(name, host, modules);
     }
   }
+}
+
+// The scripts of the modules that are in another one than later.js, for web/bundle.js.
+std::string rare_scripts() {
+  Json names = Json::object();
+  for (const RareScript& script : kRareScripts) {
+    for (const std::string& module : modules_of(script)) names[module] = script.name.substr(0, script.name.rfind('.'));
+  }
+  return fmt::format("const $rare = {};\n", names.dump());
 }
 
 // The code for the first view.
@@ -130,10 +164,11 @@ constexpr std::string_view kNotice = "// Made by Omnistereo from its modules.\n"
 std::string bundle(const std::string& entry, PageHost host, ScriptKind kind) {
   Modules all = first_of(entry, host);
   if (host == PageHost::kFolder) add_later(host, all);
-  const std::string script = std::string(find_page_file("bundle.js")->data) + all.script;
+  const std::string script = rare_scripts() + std::string(find_page_file("bundle.js")->data) + all.script;
   if (kind == ScriptKind::kClassic) {
-    return fmt::format("{}(() => {{\n'use strict';\nconst $base = document.currentScript?.src;\n{}}})();\n", kNotice,
-                       script);
+    return ascii(fmt::format("{}(() => {{\n'use strict';\nconst $base = document.currentScript?.src;\n{}}})();\n",
+                             kNotice, script),
+                 host);
   }
   const std::string exported =
       fmt::format("{}", fmt::join(names_in(std::string(find_page_file(entry)->data), kExport, 3), ", "));
@@ -163,8 +198,10 @@ std::string bundle_later(std::string_view name, PageHost host, ScriptKind kind) 
     for (const std::string& module : modules_of(*rare)) add(module, host, modules);
     add_later(host, modules);
   }
-  return fmt::format("{}{} = ($modules, $load, $base, fetch) => {{\n'use strict';\n{}}};\n", kNotice,
-                     kind == ScriptKind::kModule ? "export const later" : "window.omnistereoLater", modules.script);
+  return ascii(
+      fmt::format("{}{} = ($modules, $load, $base, fetch) => {{\n'use strict';\n{}}};\n", kNotice,
+                  kind == ScriptKind::kModule ? "export const later" : "window.omnistereoLater", modules.script),
+      host);
 }
 
 std::string script_of_file(std::string_view name, std::string_view bytes) {

@@ -21,10 +21,10 @@ enum class ScriptKind { kClassic, kModule };
 std::string bundle(const std::string& entry, PageHost host = PageHost::kFolder, ScriptKind kind = ScriptKind::kClassic);
 
 // In a folder, later.js has what only layered scenes need; a server's has all but the code for the first view. The
-// others have hotspots and tours, the texts in other languages than English, objects in pictures, and films of layered
-// scenes. The last two import from the first one, which the page loads before them.
-inline constexpr std::string_view kLaterScripts[] = {"later.js", "later-tour.js", "later-words.js", "later-objects.js",
-                                                     "later-film.js"};
+// others have hotspots and tours, the texts in other languages than English, objects in pictures, films of layered
+// scenes, and the layers of a headset's browser. Objects and films import from later.js, which the page loads first.
+inline constexpr std::string_view kLaterScripts[] = {"later.js",         "later-tour.js", "later-words.js",
+                                                     "later-objects.js", "later-film.js", "later-layers.js"};
 
 // Returns the text of one of kLaterScripts, which the scripts of a host load; empty for any other name.
 std::string bundle_later(std::string_view name, PageHost host, ScriptKind kind = ScriptKind::kClassic);

@@ -54,6 +54,7 @@ std::string_view media_type(std::string_view name) {
       {".jps", "image/jpeg"},
       {".jpeg", "image/jpeg"},
       {".webp", "image/webp"},
+      {".heic", "image/heic"},
       {".glb", "model/gltf-binary"},
       {".mp4", "video/mp4"},
       {".m4v", "video/mp4"},

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -34,10 +35,13 @@ static bool browsers_read(const std::string& path, const StoredPicture& picture)
 
 // Returns whether the sound track that browsers play is ambisonic, with the channels that the page supports
 // (web/ambisonics.js).
-static bool hears_around(const std::string& path) {
-  const std::vector<SoundTrack> sound = read_video_file(path).sound;
+static bool hears_around(const std::vector<SoundTrack>& sound) {
   if (sound.empty() || !sound[0].ambisonics) return false;
   return sound[0].ambisonics->channels == 4 && !sound[0].ambisonics->has_head_locked;
+}
+
+static bool has_vexu(const VideoFile& file) {
+  return std::ranges::any_of(file.tracks, [](const VideoTrack& track) { return track.vexu.has_value(); });
 }
 
 // The picture that is shown outside the box, if there is one that browsers read.
@@ -107,7 +111,9 @@ ViewItem open_view_item(const std::string& path, const FormatHint& known, std::o
     item.has_own_file = true;
     item.picture = video.prototype;
     item.fps = video.fps;
-    item.is_ambisonic = hears_around(path);
+    const VideoFile file = read_video_file(path);
+    item.is_ambisonic = hears_around(file.sound);
+    item.is_for_apple = has_vexu(file);
     item.subtitles = read_subtitles(path);
     return item;
   }
@@ -117,6 +123,7 @@ ViewItem open_view_item(const std::string& path, const FormatHint& known, std::o
   if (!reader) reader.emplace(path, options);
   item.picture = reader->header();
   item.is_light = item.picture.is_float;
+  item.is_for_apple = format_of_path(path) == FileFormat::kHeif && reader->info().is_pair;
   item.has_own_file = !names_files(path) && browsers_read(path, item.picture);
   if (!item.has_own_file && reader->is_decoded()) item.picture = reader->read("");
   return item;
@@ -135,6 +142,11 @@ std::vector<std::string> item_files(const ViewItem& item, size_t index) {
     files.push_back(item_file(index, fmt::format("{}.jpg", eye_name(eye.eye))));
   }
   return files;
+}
+
+std::string system_file(const ViewItem& item, size_t index) {
+  if (item.has_own_file) return item_files(item, index)[0];
+  return item_file(index, "original" + std::filesystem::path(item.path).extension().string());
 }
 
 std::string fallback_file(const ViewItem& item, size_t index) {
@@ -198,6 +210,7 @@ static Json item_json(const ViewItem& item, size_t index, bool is_live) {
     json["left"] = files.front();
     json["right"] = files.back();
   }
+  if (item.is_for_apple) json["system"] = system_file(item, index);
   if (item.kind == ItemKind::kLayers) {
     json["fallback"] = item.fallback.empty() ? Json() : Json(fallback_file(item, index));
     if (!item.scene.empty()) json["scene"] = item.scene;

@@ -44,6 +44,7 @@ struct ViewItem {
   std::string title;          // in a tour, instead of the name
   bool is_light = false;      // scene-linear: shown with an exposure and a tone curve
   bool has_own_file = false;  // browsers read the file itself and divide it into eyes; else each eye is sent as a JPEG
+  bool is_for_apple = false;  // Apple's players show the file in stereo: a video with vexu, or a spatial photo
   FormatHint known;           // the format as far as the caller specified it
   StoredPicture picture;      // its header, or the fallback's; with its pixels only if they were decoded before and the
                               // page needs them
@@ -77,6 +78,9 @@ inline constexpr std::string_view kPreviewFile = "preview.jpg", kThumbnailFile =
 std::vector<std::string> item_files(const ViewItem& item, size_t index);
 
 constexpr int kPreviewWidth = 1024, kThumbnailWidth = 256;  // pixels of an eye, up to twice as many
+
+// The name of the file itself for the browser's own player of an item that is_for_apple: "system" of view.json.
+std::string system_file(const ViewItem& item, size_t index);
 
 // Returns whether there is a preview, which view.json names: a small copy of a file that browsers read, both eyes as
 // they are. is_live: as view_json().

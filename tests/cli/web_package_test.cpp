@@ -136,14 +136,14 @@ console.log(Stereo360.layouts.includes('top-bottom'), Stereo360.projections.incl
 }
 
 TEST_F(InstalledPackage, RunsInAPlainPage) {
-  if (chromium("").empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   EXPECT_EQ(
       browse("<script src=\"report.js\"></script><script src=\"node_modules/stereo-360/stereo-360.js\"></script>"),
       "loaded, true");
 }
 
 TEST_F(InstalledPackage, RunsInABundledPage) {
-  if (chromium("").empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   if (tool("esbuild").empty()) GTEST_SKIP() << "skipped: ODS_NODE_MODULES has no esbuild (npm install esbuild)";
   folder.write("page/main.js", "import 'stereo-360';\nimport './report.js';\n");
   folder.write("page/report.js", kReport);
@@ -185,7 +185,7 @@ console.log(tag, Stereo360.layouts[0], element.screenshot()?.then((blob) => blob
 
 // The mesh shows what the element shows, for each eye.
 TEST_F(InstalledPackage, RunsInThreeJs) {
-  if (chromium("").empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   if (tool("esbuild").empty() || !std::filesystem::exists(std::string(std::getenv("ODS_NODE_MODULES")) + "/three")) {
     GTEST_SKIP() << "skipped: ODS_NODE_MODULES has no esbuild and three (npm install esbuild three)";
   }

@@ -19,6 +19,12 @@
 
 #include "ods/files/atomic_file.h"
 
+// At the start of a test, or of a fixture's SetUp().
+#define NEEDS_CHROMIUM() \
+  if (ods::chromium("").empty()) GTEST_SKIP() << "skipped: there is no chromium"
+#define NEEDS_IWER() \
+  if (!std::getenv("ODS_IWER")) GTEST_SKIP() << "skipped: ODS_IWER does not name iwer.module.js (npm install iwer)"
+
 namespace ods {
 
 inline std::string find_program(const std::vector<std::string>& names) {

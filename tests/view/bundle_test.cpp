@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/view/bundle.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <regex>
 #include <set>
 
@@ -139,6 +141,40 @@ TEST(Bundle, ObjectsInPicturesAreApart) {
     EXPECT_FALSE(later.contains("objects-panorama.js"));
     known.insert(later.begin(), later.end());
     expect_known(script, known, host);
+  }
+}
+
+// A page that does not declare its encoding reads a classic script by another one than UTF-8.
+TEST(Bundle, IsAscii) {
+  for (const std::string& script : {bundle("stereo-360.js"), bundle_later("later-words.js", PageHost::kFolder)}) {
+    EXPECT_TRUE(std::ranges::all_of(script, [](char each) { return static_cast<unsigned char>(each) < 0x80; }));
+  }
+  EXPECT_NE(bundle("stereo-360.js").find("\\u00b0"), std::string::npos) << "degrees";
+  EXPECT_NE(bundle_later("later-words.js", PageHost::kFolder).find("zur\\u00fcck"), std::string::npos);
+}
+
+// Few browsers have layers.
+TEST(Bundle, LayersOfHeadsetsAreApart) {
+  const std::set<std::string> layers = {"layers.js", "media-layer.js"};
+  for (const PageHost host : {PageHost::kFolder, PageHost::kView, PageHost::kStudio}) {
+    const std::string script = bundle_later("later-layers.js", host);
+    EXPECT_EQ(modules_in(script), layers);
+    expect_known(script, layers, host);
+    EXPECT_FALSE(modules_in(bundle_later("later.js", host)).contains("layers.js"));
+  }
+}
+
+// A page finds the script of each module that is not in later.js.
+TEST(Bundle, KnowsTheScriptsOfRareModules) {
+  const std::string script = bundle("main.js");
+  for (const auto& [module, file] : {std::pair{"tour", "later-tour"},
+                                     {"translations-de", "later-words"},
+                                     {"translations-fr", "later-words"},
+                                     {"objects-panorama", "later-objects"},
+                                     {"layered-film", "later-film"},
+                                     {"layers", "later-layers"}}) {
+    const std::regex names(fmt::format(R"(\$rare = \{{[^}}]*"{}\.js": ?"{}")", module, file));
+    EXPECT_TRUE(std::regex_search(script, names)) << module;
   }
 }
 

@@ -231,6 +231,53 @@ async function testVisitors() {
   document.documentElement.lang = 'en';
 }
 
-const TESTS = { translations: testTranslations, visitors: testVisitors, mounted: testMounted, upright: testUpright, many: testMany, grid: testGrid, fullscreen: testFullscreen, lost: testLost, strict: testStrict };
+// Plays Safari on visionOS, whose pictures have controls: a tagged file has a button for them. Elsewhere nothing changes.
+async function testTagged() {
+  const about = { loading: 'eager', src: 'item/0/picture.png', tagged: '' };
+  const open = async (attributes) => {
+    const element = makeElement(attributes, [480, 270]);
+    document.body.append(element);
+    await until(() => element.loaded, 'loads');
+    return [element, element.shadowRoot.querySelector('#bar [data-action="system"]')];
+  };
+  const [other, none] = await open(about);
+  expect(!none.checkVisibility(), 'a browser without such controls offers them');
+  other.remove();
+  Object.defineProperty(HTMLImageElement.prototype, 'controls', { configurable: true, value: false, writable: true });
+  const [untagged, no] = await open({ loading: 'eager', src: about.src });
+  expect(!no.checkVisibility(), 'a file without tags has a button');
+  untagged.remove();
+  const [element, button] = await open(about);
+  expect(button.checkVisibility() && button.ariaLabel, 'a tagged file has no button');
+  button.click();
+  const shown = () => element.shadowRoot.querySelector('#system > img');
+  await until(shown, 'opens');
+  expect(shown().hasAttribute('controls') && shown().src === new URL(about.src, document.baseURI).href, 'another picture, or no controls');
+  element.shadowRoot.querySelector('#system > button').click();
+  expect(!shown() && element.loaded, 'it does not close');
+  element.remove();
+  delete HTMLImageElement.prototype.controls;
+}
+
+// HLS is the browser's: one that does not play it gets one line that says what to do.
+async function testStreams() {
+  const { canPlayType } = HTMLMediaElement.prototype;
+  HTMLMediaElement.prototype.canPlayType = () => '';
+  const element = makeElement({ loading: 'eager', src: 'film.m3u8' });
+  let said = '';
+  element.addEventListener('error', ({ detail }) => (said = detail.message));
+  document.body.append(element);
+  await until(() => said, 'says what is wrong');
+  expect(said === 'film.m3u8 is HLS, which this browser does not play. Name an .mp4 of the same film', said);
+  said = '';
+  HTMLMediaElement.prototype.canPlayType = () => 'maybe'; // now it tries
+  element.startAgain();
+  await until(() => said, 'tries to load it');
+  expect(!/HLS/.test(said), said);
+  HTMLMediaElement.prototype.canPlayType = canPlayType;
+  element.remove();
+}
+
+const TESTS = { tagged: testTagged, streams: testStreams, translations: testTranslations, visitors: testVisitors, mounted: testMounted, upright: testUpright, many: testMany, grid: testGrid, fullscreen: testFullscreen, lost: testLost, strict: testStrict };
 
 export const testElements = (name) => TESTS[name]();

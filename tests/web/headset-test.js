@@ -8,7 +8,7 @@ import { Headset } from './headset.js';
 import { TEXT } from './headset-controls.js';
 import { DISTANCE } from './headset-panel.js';
 import { plus } from './headset-room.js';
-import { Panorama } from './panorama.js';
+import { Panorama, raysOf } from './panorama.js';
 import { placeOf, partsOf } from './places.js';
 import { Share } from './share.js';
 import { Viewer } from './viewer.js';
@@ -690,6 +690,205 @@ async function testLayers() {
   expect(shown() === 'equirect', 'the layer above stays when nothing is there');
 }
 
+// Plays the compositor of a browser that shows a film's halves to the eyes in its own order: left on top, or on the left.
+function composed({ frame, init, transform }, eye, [x, y, z]) {
+  const { canvas } = frame;
+  const { orientation: { y: s, w: c } } = transform;
+  const turn = 2 * Math.atan2(s, c); // of the layer, counter-clockwise from above
+  const theta = Math.atan2(x, -z) + turn;
+  const around = theta - 2 * Math.PI * Math.round(theta / (2 * Math.PI));
+  const u = 0.5 + around / init.centralHorizontalAngle;
+  const v = (init.upperVerticalAngle - Math.asin(y)) / (init.upperVerticalAngle - init.lowerVerticalAngle);
+  const [left, top, width, height] = {
+    mono: [0, 0, 1, 1], 'stereo-top-bottom': [0, eye / 2, 1, 0.5], 'stereo-left-right': [eye / 2, 0, 0.5, 1],
+  }[init.layout];
+  return [...frame.getImageData((left + u * width) * canvas.width, (top + v * height) * canvas.height, 1, 1).data].slice(0, 3);
+}
+
+const far = (a, b) => Math.hypot(...a.map((value, i) => value - b[i]));
+
+// What the shader shows to each eye, in directions in which the eyes differ.
+function drawnLooks({ panorama, picture }) {
+  const { gl } = panorama;
+  const pixel = new Uint8Array(4);
+  const looks = [];
+  for (let yaw = -60; yaw <= 60; yaw += 3) {
+    for (let pitch = -40; pitch <= 40; pitch += 4) {
+      const eyes = [0, 1].map((eye) => {
+        panorama.draw(picture, { rays: raysOf({ yaw, pitch, fov: 4 }, 1), box: [0, 0, 8, 8], eye });
+        gl.readPixels(4, 4, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+        return [...pixel.subarray(0, 3)];
+      });
+      if (far(...eyes) > 30) looks.push({ yaw: (yaw * Math.PI) / 180, pitch: (pitch * Math.PI) / 180, eyes });
+    }
+  }
+  expect(looks.length > 20, `only ${looks.length} directions tell the eyes apart`);
+  return looks;
+}
+
+// How far a layer is from the shader's view on average, code values: of the same eye, and of the other one.
+function misses(layer, looks, turn) {
+  const sums = [0, 0];
+  for (const { yaw, pitch, eyes } of looks) {
+    const heading = yaw - turn; // of the head: lookOf()
+    const ahead = [Math.sin(heading) * Math.cos(pitch), Math.sin(pitch), -Math.cos(heading) * Math.cos(pitch)];
+    for (const eye of [0, 1]) {
+      const seen = composed(layer, eye, ahead);
+      sums[0] += far(seen, eyes[eye]);
+      sums[1] += far(seen, eyes[1 - eye]);
+    }
+  }
+  return sums.map((sum) => sum / (2 * looks.length));
+}
+
+// Plays a browser that shows films by itself. The layer's directions and eyes are those of the shader; whatever such a
+// layer cannot show is the shader's.
+async function testFilms() {
+  const viewer = await makeViewer(SMALL);
+  const { gl } = viewer.panorama;
+  const made = [];
+  window.XRRigidTransform = class {
+    constructor(position, orientation) { Object.assign(this, { position, orientation }); }
+  };
+  window.XRWebGLBinding = class {
+    createEquirectLayer() { throw new Error('a film was drawn'); }
+
+    createProjectionLayer() { return { is: 'above' }; }
+
+    getViewSubImage() { return { colorTexture: null, viewport: { x: 0, y: 0, width: 4, height: 4 } }; }
+  };
+  window.XRMediaBinding = class {
+    createEquirectLayer(video, init) {
+      if (this.refuses) throw new Error('refused');
+      const frame = new OffscreenCanvas(video.videoWidth, video.videoHeight).getContext('2d', { willReadFrequently: true });
+      frame.drawImage(video, 0, 0);
+      made.push({ is: 'film', frame, init });
+      return made.at(-1);
+    }
+  };
+  const { EyeLayers } = await import('./layers.js');
+  let asked = {};
+  const session = { renderState: { baseLayer: 'base' }, updateRenderState: (state) => (asked = state) };
+  const layers = new EyeLayers(session, gl, 'local', false);
+  const show = (turn = 0) => {
+    layers.show(null, viewer, turn);
+    session.renderState = asked;
+    return layers.show(null, viewer, turn);
+  };
+  const { items } = viewer.view;
+  for (const [i, { name }] of items.entries()) {
+    await viewer.open(i);
+    if (viewer.picture?.video) await until(() => viewer.picture.video.readyState >= 2, 'has a frame');
+    viewer.picture?.refresh?.();
+    if (!viewer.picture) return 'no films';
+    if (!/film/.test(name)) {
+      expect(!show() && session.renderState.baseLayer === 'base', `${name} has a layer`);
+      continue;
+    }
+    const looks = drawnLooks(viewer);
+    for (const turn of [0, 0.7]) {
+      expect(show(turn) && session.renderState.layers?.[0] === made.at(-1), `${name} has no layer`);
+      const layer = made.at(-1);
+      expect(layer.init.space === 'local' && layer.init.radius === 0, `${name} is not far away`);
+      const [own, other] = misses(layer, looks, turn);
+      expect(own < 0.6 * other, `${name}, turned by ${turn}: an eye is off by ${own}, from the other one by ${other}`);
+      const [elsewhere] = misses({ ...layer, transform: { orientation: { y: Math.sin(turn / 2 + 0.05), w: Math.cos(turn / 2 + 0.05) } } }, looks, turn);
+      expect(own < 0.6 * elsewhere, `${name}, turned by ${turn}: off by ${own}, in another direction by ${elsewhere}`);
+    }
+    const drawn = [];
+    layers.drawAbove((view) => drawn.push(view), { views: ['left'] });
+    session.renderState = asked;
+    layers.drawAbove((view) => drawn.push(view), { views: ['left'] });
+    expect(asked.layers.map(({ is }) => is).join() === 'film,above' && drawn.length === 1, `the menu is not above ${name}`);
+    for (const changes of [{ swap: true }, { swap: false, grid: true }, { grid: false, worn: 'left' }]) {
+      viewer.set(changes);
+      expect(!show() && session.renderState.baseLayer === 'base', `${name} has a layer with ${JSON.stringify(changes)}`);
+    }
+    viewer.set({ worn: 'stereo' });
+    expect(show(), `${name} has no layer any more`);
+    await viewer.choose({ layout: 'bottom-top' });
+    await until(() => viewer.picture?.video, 'opens it again');
+    expect(!show(), `${name} has a layer of swapped halves`);
+    await viewer.choose({ layout: undefined, projection: 'cube-3x2' });
+    await until(() => viewer.picture?.video, 'opens it again');
+    expect(!show(), `${name} has a layer for a cube`);
+    layers.media.refuses = true;
+    await viewer.choose({ projection: undefined });
+    await until(() => viewer.picture?.video, 'opens it again');
+    expect(!show() && session.renderState.baseLayer === 'base', `${name} has a layer that was refused`);
+    layers.media.refuses = false;
+  }
+  expect(new Set(made.map(({ init: { layout, centralHorizontalAngle } }) => `${layout} ${centralHorizontalAngle.toFixed(2)}`)).size === 2, 'not both formats were shown');
+}
+
+// Plays a browser that shows a page's canvas to both eyes: the right eye's part is beside the left one's.
+async function testInline() {
+  const viewer = await makeViewer(SMALL);
+  const [width, height] = SMALL;
+  const { canvas, gl } = viewer.panorama;
+  const asked = [];
+  let isThere = false;
+  let next = null;
+  const session = Object.assign(new EventTarget(), {
+    renderState: {},
+    updateRenderState: (state) => Object.assign(session.renderState, state),
+    requestReferenceSpace: async (space) => space,
+    requestAnimationFrame: (run) => (next = run),
+    end: async () => session.dispatchEvent(new Event('end')),
+  });
+  Object.defineProperty(navigator, 'xr', { configurable: true, value: {
+    async requestSession(mode, { requiredFeatures }) {
+      asked.push(`${mode} ${requiredFeatures}`);
+      if (!isThere) throw new DOMException('no', 'NotSupportedError');
+      return session;
+    },
+  } });
+  window.XRWebGLLayer = class {
+    framebuffer = null;
+
+    getViewport({ eye }) { return { x: eye === 'right' ? canvas.width / 2 : 0, y: 0, width: canvas.width / 2, height: canvas.height }; }
+  };
+  const { InlineStereo } = await import('./inline-stereo.js');
+  const told = [];
+  new InlineStereo(viewer, (is) => told.push(is)); // eslint-disable-line no-new
+  await viewer.open(0);
+  await sleep(200);
+  expect(asked.join() === 'inline inline-stereo' && !told.length, `asks for ${asked}, and tells ${told}`);
+  await viewer.open(1);
+  await sleep(200);
+  expect(asked.length === 1 && !viewer.inline, 'asks a browser that has refused');
+  isThere = true;
+  const later = await makeViewer(SMALL);
+  Object.assign(later, { panorama: viewer.panorama, canvas });
+  viewer.panorama = null;
+  new InlineStereo(later, (is) => told.push(is)); // eslint-disable-line no-new
+  await later.open(0);
+  await until(() => next, 'begins');
+  const run = () => next(performance.now(), { getViewerPose: () => ({ views: [{ eye: 'right' }, { eye: 'left' }] }) });
+  const pixels = (x) => {
+    const all = new Uint8Array(4 * width * height);
+    gl.readPixels(x, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, all);
+    return all.join();
+  };
+  const expected = (look) => {
+    later.panorama.draw(later.picture, { rays: raysOf(look, width / height), box: [0, 0, width, height], moves: true, ...look });
+    return pixels(0);
+  };
+  for (const look of [{ yaw: 0 }, { yaw: 40, pitch: -10 }]) {
+    later.set(look);
+    run();
+    expect(canvas.width === 2 * width && canvas.height === height, 'an eye has less than the page has');
+    const seen = [0, width].map(pixels);
+    for (const eye of [0, 1]) expect(seen[eye] === expected({ ...later.state, eye }), `eye ${eye} sees something else`);
+    expect(seen[0] !== seen[1], 'both eyes see the same');
+  }
+  later.set({ mode: 'right' });
+  run();
+  expect(pixels(0) === pixels(width), 'one eye is not for both');
+  await session.end();
+  expect(told.join() === 'true,false' && !later.inline && canvas.width === width, `does not end: ${told}, ${canvas.width}`);
+}
+
 async function testPanel() {
   const wearer = await Wearer.create();
   const { viewer } = wearer;
@@ -708,7 +907,7 @@ async function testPanel() {
 
 // Runs one of the tests; each returns whether videos could be tested.
 export async function testHeadset(name) {
-  const tests = { panel: testPanel, studio: testStudio, layers: testLayers, sharing: async () => testSharing((await (await fetch('view.json')).json()).items.length) };
+  const tests = { panel: testPanel, studio: testStudio, layers: testLayers, films: testFilms, inline: testInline, sharing: async () => testSharing((await (await fetch('view.json')).json()).items.length) };
   const film = await tests[name]();
   await fetch('result/said', { method: 'POST', body: film ?? 'ok' });
 }

@@ -208,7 +208,7 @@ StereoCamera camera_of(const ProjectionSetting& projection) {
 // Every projection, in two layouts by turns.
 TEST_F(ViewBrowser, ShowsEveryProjectionAsConvertDoes) {
   const std::vector<std::string> browser = chromium(folder_.path("profile"));
-  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   for (const NamedProjection& named : named_projections()) {
     const Layout layout = items_.size() % 2 ? Layout::kSideBySide : Layout::kTopBottom;
     ask(add(std::string(named.name) + ".png", camera_of(named.setting), layout), looks_in(named.setting));
@@ -223,17 +223,30 @@ TEST_F(ViewBrowser, ShowsEveryProjectionAsConvertDoes) {
 // Rows towards a pole of a lat-long have ever more texels for a pixel, while columns have less than one.
 TEST_F(ViewBrowser, ShowsSharpEdgesAtAPole) {
   const std::vector<std::string> browser = chromium(folder_.path("profile"));
-  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   constexpr Looks kPoles = {{{0, 90, 16}, {30, 88, 16}, {10, 87, 20}, {0, -90, 20}, {-40, -87, 16}}};
   ask(add("poles.png", camera_of(projection_named("lat-long")), Layout::kTopBottom, Edges::kSharp), kPoles);
   ASSERT_EQ(run(browser), "ok");
   expect_looks(0, kPoles, "a pole");
 }
 
+// Sharp edges, where a pixel covers two texels and more, as of an 8K picture on a laptop: at rest.
+TEST_F(ViewBrowser, ShowsWhatIsReducedAsConvertDoes) {
+  NEEDS_CHROMIUM();
+  constexpr Looks kReduced = {{{0, 0, 76}, {100, -20, 76}, {30, 40, 90}, {200, 10, 110}, {-60, 0, 120}}};
+  const size_t item = add("reduced.png", camera_of(projection_named("lat-long")), Layout::kTopBottom, Edges::kSharp);
+  ask(item, kReduced);
+  ASSERT_EQ(run(chromium(folder_.path("profile"))), "ok");
+  for (size_t i = 0; i < kReduced.size(); i++) {
+    const Image got = drawn(folder_.path(name_of(item, i, kLeft, false)));
+    EXPECT_GE(likeness(got, converted(pictures_[item], kLeft, kReduced[i])), kAlike) << "look " << i;
+  }
+}
+
 // Browsers read some layouts themselves; the others come as a JPEG of each eye.
 TEST_F(ViewBrowser, ShowsEveryLayoutAsConvertDoes) {
   const std::vector<std::string> browser = chromium(folder_.path("profile"));
-  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   std::vector<Layout> layouts;
   for (const Layout layout : kLayouts) {
     if (is_anaglyph(layout)) continue;
@@ -249,7 +262,7 @@ TEST_F(ViewBrowser, ShowsEveryLayoutAsConvertDoes) {
 // Large pictures: the tiles that a look needs are brought, others make room; a coarse picture serves what is small.
 TEST_F(ViewBrowser, ShowsLargePicturesByTiles) {
   const std::vector<std::string> browser = chromium(folder_.path("profile"));
-  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   const std::vector<std::string> names = {"lat-long", "cube-3x2"};
   for (const std::string& name : names) {
     ask(add(name + ".png", camera_of(projection_named(name)), Layout::kTopBottom), looks_in(projection_named(name)));
@@ -262,7 +275,7 @@ TEST_F(ViewBrowser, ShowsLargePicturesByTiles) {
 
 TEST_F(ViewBrowser, IsExactAtRestAndQuickBefore) {
   const std::vector<std::string> browser = chromium(folder_.path("profile"));
-  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   const size_t item = add("picture.png", camera_of(projection_named("lat-long")), Layout::kTopBottom);
   jobs_.push_back({{"item", item}, {"rest", true}});
   EXPECT_EQ(run(browser), "ok");
@@ -271,7 +284,7 @@ TEST_F(ViewBrowser, IsExactAtRestAndQuickBefore) {
 // The camera recorded in an EXR: a lens of its own, and eyes that converge.
 TEST_F(ViewBrowser, ShowsTheFilesOwnCamera) {
   const std::vector<std::string> browser = chromium(folder_.path("profile"));
-  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   StereoCamera lens = camera_of(projection_named("fisheye"));
   lens.projection.fov = 220.0f, lens.projection.pan = 15.0f, lens.projection.tilt = 10.0f;
   StereoCamera toe_in = camera_of(projection_named("lat-long"));
@@ -287,7 +300,7 @@ TEST_F(ViewBrowser, ShowsTheFilesOwnCamera) {
 // and divides the file as another layout has it.
 TEST_F(ViewBrowser, DevelopsLightAsTheLibraryDoes) {
   const std::vector<std::string> browser = chromium(folder_.path("profile"));
-  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   const size_t item = add("light.exr", camera_of(projection_named("lat-long")), Layout::kTopBottom);
   ASSERT_TRUE(has_light(items_[item]));
   const Look look = {30, -10, 60};
@@ -317,7 +330,7 @@ TEST_F(ViewBrowser, DevelopsLightAsTheLibraryDoes) {
 // Forwards, backwards, across key frames and by single steps: every frame is as bright as none of its neighbours.
 TEST_F(ViewBrowser, ShowsTheFrameOfAVideo) {
   const std::vector<std::string> browser = chromium(folder_.path("profile"));
-  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   if (!has_encoder("libx264")) GTEST_SKIP() << "skipped: this machine has no libx264";
   const auto code_of = [](int frame, int eye) { return eye == kRight ? 230 - 8 * frame : 20 + 8 * frame; };
   for (int frame = 0; frame < 24; frame++) {
@@ -361,7 +374,7 @@ TEST_F(ViewBrowser, ShowsTheFrameOfAVideo) {
 // The input of a headset's compositor: lat-long pictures of both eyes, whatever the file's projection.
 TEST_F(ViewBrowser, LaysThePictureOutForAHeadsetsCompositor) {
   const std::vector<std::string> browser = chromium(folder_.path("profile"));
-  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   const size_t item = add("picture.png", camera_of(projection_named("cube-3x2")), Layout::kTopBottom);
   jobs_.push_back({{"item", item}, {"layers", "layer"}});
   ASSERT_EQ(run(browser), "ok");
@@ -390,7 +403,7 @@ TEST_F(ViewBrowser, LaysThePictureOutForAHeadsetsCompositor) {
 // If a browser has cube layers, cubes are passed as such; a GPU looks faces up by direction, and interpolates linearly.
 TEST_F(ViewBrowser, LaysACubeOutAsACube) {
   const std::vector<std::string> browser = chromium(folder_.path("profile"));
-  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   const size_t item = add("picture.png", camera_of(projection_named("cube-3x2")), Layout::kTopBottom);
   jobs_.push_back({{"item", item}, {"layers", "layer"}, {"cube", true}});
   ASSERT_EQ(run(browser), "ok");
@@ -443,7 +456,7 @@ TEST_F(ViewBrowser, ShowsTheSameInFirefox) {
 // The studio's page: what it sends, shows and can undo, against a server that the page itself simulates.
 TEST_F(ViewBrowser, KeepsTheStudiosSettings) {
   const std::vector<std::string> browser = chromium(folder_.path("profile"));
-  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   jobs_.push_back({{"studio", true}});
   EXPECT_EQ(run(browser), "ok");
   EXPECT_FALSE(std::filesystem::exists(folder_.path("site/studio.js"))) << "a folder has no server that renders";
@@ -452,9 +465,9 @@ TEST_F(ViewBrowser, KeepsTheStudiosSettings) {
 // The page finds the kernel's numbers of the merges by a list of their names.
 // In an emulated headset: each eye has its own picture in the direction in which its view points, wherever the head is.
 TEST_F(ViewBrowser, ShowsEachEyeItsPictureInAHeadset) {
-  if (!std::getenv("ODS_IWER")) GTEST_SKIP() << "skipped: ODS_IWER does not name iwer.module.js (npm install iwer)";
+  NEEDS_IWER();
   const std::vector<std::string> browser = chromium(folder_.path("profile"));
-  if (browser.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   const size_t item = add("picture.png", camera_of(projection_named("lat-long")), Layout::kTopBottom);
   const Json looks = {{{"name", "ahead"}, {"yaw", 0}, {"pitch", 0}},
                       {{"name", "aside"}, {"yaw", 120}, {"pitch", 0}},

@@ -67,7 +67,7 @@ Compared compare(const Image& got, vec3 eye, float t) {
 using FilmView = Cli;
 
 TEST_F(FilmView, PlaysBetweenItsFrames) {
-  if (chromium("").empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   write_layers(film(), folder.path("film.layers.glb"));
   const std::vector<float> times = {0.0f, 0.25f, 0.6f, 1.0f};
   const vec3 head(0.05f, 0.02f, 0.05f);
@@ -90,6 +90,24 @@ TEST_F(FilmView, PlaysBetweenItsFrames) {
     EXPECT_EQ(compared.wrong, 0) << times[i] << ": of " << compared.on_movers;
     EXPECT_GT(compare(got, eye, 1.0f - times[i]).wrong, 100) << "other times look alike";
   }
+}
+
+// Vision Pro's own player gets the file with Apple's tags itself.
+TEST_F(FilmView, AnExportNamesTaggedFiles) {
+  const std::string card = folder.path("pair_LR.png"), photo = folder.path("photo.heic"), site = folder.path("site"),
+                    film = folder.path("film_360_TB.mp4"), tagged = folder.path("tagged_360_TB.mp4");
+  ASSERT_EQ(run("testcard -q --projection perspective --layout side-by-side --width 128 -o " + card), 0) << err;
+  if (run("convert -q " + card + " --projection perspective --input-fov 70 --ipd 0.06 -o " + photo) != 0) {
+    GTEST_SKIP() << "skipped: " << err;
+  }
+  ASSERT_EQ(run("testcard -q --video --duration 0.2 --width 128 -o " + film), 0) << err;
+  ASSERT_EQ(run("inject -q --apple " + film + " -o " + tagged), 0) << err;
+  ASSERT_EQ(run("view -q " + photo + " " + film + " " + tagged + " --export " + site), 0) << err;
+  const nlohmann::json items = nlohmann::json::parse(folder.read("site/view.json"))["items"];
+  EXPECT_EQ(items[0]["system"], "item/0/original.heic");
+  EXPECT_EQ(folder.read("site/item/0/original.heic"), folder.read("photo.heic"));
+  EXPECT_FALSE(items[1].contains("system"));
+  EXPECT_EQ(items[2]["system"], items[2]["image"]);
 }
 
 }  // namespace ods::view_film_test

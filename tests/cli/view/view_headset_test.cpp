@@ -25,8 +25,8 @@ constexpr auto kPatience = std::chrono::seconds(290);
 class HeadsetBrowser : public Cli {
  protected:
   void SetUp() override {
-    if (!std::getenv("ODS_IWER")) GTEST_SKIP() << "skipped: ODS_IWER does not name iwer.module.js (npm install iwer)";
-    if (chromium("").empty()) GTEST_SKIP() << "skipped: there is no chromium";
+    NEEDS_IWER();
+    NEEDS_CHROMIUM();
   }
 
   void make(const std::string& name, const std::string& how = "") {
@@ -118,6 +118,22 @@ TEST_F(HeadsetBrowser, ThePanelChangesTheStudiosScene) {
 TEST_F(HeadsetBrowser, ThePanelIsAboveThePicturesLayer) {
   make("first_360_TB.png");
   EXPECT_EQ(run_part("layers"), "ok");
+}
+
+// A film is a layer of the browser where that shows the same to each eye, and the shader's otherwise.
+TEST_F(HeadsetBrowser, FilmsAreLayersOfTheBrowserWhereTheseAreTrue) {
+  make("first_360_TB.png");
+  make("film_360_TB.mp4", "--video --duration 1 --fps 10 --width 512");
+  make("film_180_LR.mp4", "--video --duration 1 --fps 10 --width 512 --projection vr180");
+  ASSERT_EQ(run_part("films"), "ok");
+  EXPECT_EQ(folder.read("said"), "ok") << "films were left out";
+}
+
+// Where the browser shows the page itself to each eye.
+TEST_F(HeadsetBrowser, BothEyesSeeThePageWhereTheBrowserCanShowIt) {
+  make("first_360_TB.png");
+  make("second_360_TB.png");
+  EXPECT_EQ(run_part("inline"), "ok");
 }
 
 // The desk's view of the wearer, and the wearer's view of the desk, through the server.

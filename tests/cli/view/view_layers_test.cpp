@@ -146,7 +146,7 @@ nlohmann::json look_of(const Place& place, size_t item, const char* mode = "left
 
 // Parallax, occlusion, the lattice's holes and the sky, at each place of the head; stored in every way.
 TEST_F(LayeredView, EveryPixelIsTheClosedForm) {
-  if (chromium("").empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   add_item(add("floats.layers.glb", Storage::kFloats));
   add_item(add("packed.layers.glb", Storage::kCompressed));
   add_item(add("small.layers.glb", Storage::kQuantized));
@@ -174,7 +174,7 @@ TEST_F(LayeredView, EveryPixelIsTheClosedForm) {
 
 // Both eyes are 63 mm apart; the head stays so far from the edge of the box that both are inside.
 TEST_F(LayeredView, EveryModeHasItsEyesAndTheBoxItsEdge) {
-  if (chromium("").empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   add_item(add("room.layers.glb", Storage::kQuantized));
   const Place place{"right", vec3(0.02f, 0.0f, 0.0f), 10.0f};
   Place side = place, mixed = place, far_away{"far", vec3(9.0f, -9.0f, 9.0f)};
@@ -205,7 +205,7 @@ TEST_F(LayeredView, EveryModeHasItsEyesAndTheBoxItsEdge) {
 }
 
 TEST_F(LayeredView, KeysAndDragsMoveTheHead) {
-  if (chromium("").empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   save_fallback("other_360_TB.png");
   add_item(add("room.layers.glb", Storage::kFloats));
   add_item(folder.path("other_360_TB.png"));
@@ -229,7 +229,7 @@ std::string decoded(const GltfBuilder& file, const nlohmann::json& view) {
 
 // A file with every codec and many sizes of elements, against the library's decoder.
 TEST_F(LayeredView, DecodesWhatMeshoptimizerEncodes) {
-  if (chromium("").empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   GltfBuilder file = make_grid(40);
   std::mt19937 twister(7);
   const auto random = [&twister] { return static_cast<uint32_t>(twister()); };
@@ -283,7 +283,7 @@ TEST_F(LayeredView, DecodesWhatMeshoptimizerEncodes) {
 }
 
 TEST_F(LayeredView, DamagedFilesAreOneLineEach) {
-  if (chromium("").empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   const std::string whole = text_of(layered_room::room_glb(Storage::kQuantized));
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string text = whole;
@@ -314,7 +314,7 @@ TEST_F(LayeredView, DamagedFilesAreOneLineEach) {
 
 // An exported site has the file, its fallback and the code; the element shows it without view.json.
 TEST_F(LayeredView, AnExportedSiteShowsIt) {
-  if (chromium("").empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_CHROMIUM();
   save_fallback("room_360_TB.png");
   const std::string path = add("room.layers.glb", Storage::kQuantized, "room_360_TB.png");
   ASSERT_EQ(run("view " + path + " --export " + folder.path("site")), 0) << err;
@@ -333,8 +333,8 @@ TEST_F(LayeredView, AnExportedSiteShowsIt) {
 
 // Each eye sees the scene from its own place; outside the box, the fallback, or grey, replaces it by and by.
 TEST_F(LayeredView, AHeadsetMovesInIt) {
-  if (!std::getenv("ODS_IWER")) GTEST_SKIP() << "skipped: ODS_IWER does not name iwer.module.js (npm install iwer)";
-  if (chromium("").empty()) GTEST_SKIP() << "skipped: there is no chromium";
+  NEEDS_IWER();
+  NEEDS_CHROMIUM();
   save_fallback("room_360_TB.png");
   add_item(add("room.layers.glb", Storage::kQuantized, "room_360_TB.png"));
   add_item(add("bare.layers.glb", Storage::kQuantized));

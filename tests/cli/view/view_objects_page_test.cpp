@@ -24,9 +24,7 @@ class ObjectsPage : public Cli {
                         std::chrono::seconds(200)});
   }
 
-  void SetUp() override {
-    if (chromium("").empty()) GTEST_SKIP() << "skipped: there is no chromium";
-  }
+  void SetUp() override { NEEDS_CHROMIUM(); }
 };
 
 TEST_F(ObjectsPage, WhatIsNearerHidesThem) {

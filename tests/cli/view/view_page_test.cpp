@@ -35,7 +35,7 @@ class PageBrowser : public ::testing::Test {
  protected:
   void SetUp() override {
     browser_ = chromium(folder_.path("profile"));
-    if (browser_.empty()) GTEST_SKIP() << "skipped: there is no chromium";
+    NEEDS_CHROMIUM();
     save_waves();
   }
 
@@ -149,7 +149,7 @@ TEST_P(ElementBrowser, Shows) {
 
 INSTANTIATE_TEST_SUITE_P(Pages, ElementBrowser,
                          ::testing::Values("translations", "visitors", "mounted", "upright", "many", "grid",
-                                           "fullscreen", "lost", "strict"),
+                                           "fullscreen", "lost", "strict", "tagged", "streams"),
                          [](const auto& each) { return std::string(each.param); });
 
 TEST_F(PageBrowser, TheElementBesideAFrame) {

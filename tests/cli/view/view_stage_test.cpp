@@ -169,9 +169,7 @@ class Stage : public Cli {
             {"looks", looks}};
   }
 
-  void need_browser() {
-    if (chromium("").empty()) GTEST_SKIP() << "skipped: there is no chromium";
-  }
+  void need_browser() { NEEDS_CHROMIUM(); }
 };
 
 struct Counts {
@@ -367,7 +365,7 @@ TEST_F(Stage, TheyAreSeenAsByTheCameraWhereverTheHeadTurns) {
 
 TEST_F(Stage, AHeadsetsEyesSeeThemInTheirPlaces) {
   need_browser();
-  if (!std::getenv("ODS_IWER")) GTEST_SKIP() << "skipped: ODS_IWER is not set";
+  NEEDS_IWER();
   const Json looks = {{{"name", "ahead"}, {"yaw", 0}}, {{"name", "turned"}, {"yaw", 48}}};
   const Extent eye_view{240, 240};
   ASSERT_EQ(browse(looks_job("wear", looks, {480, 240})), "ok");

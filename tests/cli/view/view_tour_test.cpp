@@ -74,9 +74,7 @@ class ViewTour : public Cli {
 
 class ViewTourBrowser : public ViewTour {
  protected:
-  void SetUp() override {
-    if (chromium("").empty()) GTEST_SKIP() << "skipped: there is no chromium";
-  }
+  void SetUp() override { NEEDS_CHROMIUM(); }
 };
 
 TEST_F(ViewTourBrowser, DirectionsFollowFromThePlaces) {
@@ -92,7 +90,7 @@ TEST_F(ViewTourBrowser, TheElementShowsATour) {
 }
 
 TEST_F(ViewTourBrowser, SignsLeadOnInTheHeadset) {
-  if (!std::getenv("ODS_IWER")) GTEST_SKIP() << "skipped: ODS_IWER does not name iwer.module.js (npm install iwer)";
+  NEEDS_IWER();
   EXPECT_EQ(browse("worn"), "ok");
 }
 
