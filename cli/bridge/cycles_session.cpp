@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -52,6 +53,10 @@ json value_or_null(const std::optional<Value>& value) {
   return value ? json(*value) : json();
 }
 
+nlohmann::ordered_json place_of(const CyclesPose& pose) {
+  return {{"position", {pose.position.x, pose.position.y, pose.position.z}}, {"yaw", pose.yaw}};
+}
+
 nlohmann::ordered_json order_of(const CyclesShot& shot, const std::string& path) {
   const ods::StereoCamera& camera = shot.camera;
   const ods::ProjectionSetting& range = camera.projection;
@@ -78,13 +83,16 @@ nlohmann::ordered_json order_of(const CyclesShot& shot, const std::string& path)
       {"bounces", value_or_null(shot.bounces)},
       {"shutter", value_or_null(shot.shutter)},
       {"transparent", shot.transparent},
+      {"statistics", shot.statistics},
       {"threads", shot.threads},
       {"position", nullptr},
+      {"around", nullptr},
       {"merge", nullptr},
       {"light", nullptr},
       {"background", nullptr},
   };
   if (shot.position) order["position"] = {shot.position->x, shot.position->y, shot.position->z};
+  if (shot.before && shot.after) order["around"] = {place_of(*shot.before), place_of(*shot.after)};
   if (camera.top.mode != ods::kMergeNone) order["merge"] = {camera.top.start, camera.top.end};
   return order;
 }
@@ -98,6 +106,14 @@ std::optional<std::pair<double, double>> ratio_after(const std::string& line, co
     return {};
   }
   return all > 0.0 ? std::optional(std::pair(done, all)) : std::nullopt;
+}
+
+// Returns the megabytes in a line of Cycles' progress: "| Mem:1.20M, Peak:3.45M |".
+double peak_in(const std::string& line) {
+  const size_t at = line.rfind("Peak:");
+  double peak = 0.0;
+  if (at == std::string::npos || std::sscanf(line.c_str() + at, "Peak:%lfM", &peak) != 1) return 0.0;
+  return peak;
 }
 
 }  // namespace
@@ -137,6 +153,7 @@ void CyclesSession::take(const std::string& line) {
   const std::lock_guard lock(mutex_);
   const auto is = [&](const char* word) { return line.substr(kOfBridge.size()).starts_with(word); };
   if (!line.starts_with(kOfBridge)) {
+    peak_ = std::max(peak_, peak_in(line));
     const auto samples = ratio_after(line, "Sample ");
     if (!samples) return;
     const auto tiles = ratio_after(line, "Rendered ");
@@ -183,6 +200,11 @@ void CyclesSession::wait(const std::function<bool()>& is_done, const std::functi
 std::string CyclesSession::device() {
   const std::lock_guard lock(mutex_);
   return device_;
+}
+
+double CyclesSession::peak_memory() {
+  const std::lock_guard lock(mutex_);
+  return peak_;
 }
 
 // path: an empty one renders nothing.

@@ -31,15 +31,22 @@ struct CyclesScene {
   std::string camera;  // of the saved frame, by name; empty: it has none
 };
 
+// The place from which a shot is rendered.
+struct CyclesPose {
+  ods::vec3 position{0.0f};
+  float yaw = 0.0f;  // degrees
+};
+
 // One eye's picture, or a part of its samples.
 struct CyclesShot {
   double frame = 0.0;  // of the file
   int eye = ods::kLeft;
   ods::Extent size;
-  ods::StereoCamera camera;           // lat-long, whole or a part; cycles_lacks() is empty
-  std::optional<ods::vec3> position;  // absent: that of the file's camera
-  std::optional<float> yaw;           // degrees; absent: that of the file's camera
-  std::string device;                 // cpu, gpu, auto; empty: the file's
+  ods::StereoCamera camera;                 // lat-long, whole or a part; cycles_lacks() is empty
+  std::optional<ods::vec3> position;        // absent: that of the file's camera
+  std::optional<float> yaw;                 // degrees; absent: that of the file's camera
+  std::optional<CyclesPose> before, after;  // a frame earlier and later, for motion blur; absent: as at the frame
+  std::string device;                       // cpu, gpu, auto; empty: the file's
   uint32_t seed = 0;
   int parts = 1;                 // it gets one of so many shares of the samples
   int samples = 0;               // of all parts; 0: the file's
@@ -48,13 +55,8 @@ struct CyclesShot {
   std::optional<int> bounces;    // absent: the file's
   std::optional<float> shutter;  // angle, degrees; absent: the file's
   bool transparent = false;      // also if the file is not
+  bool statistics = false;       // with the pass of the number of samples
   int threads = 0;
-};
-
-// The place from which a shot was rendered.
-struct CyclesPose {
-  ods::vec3 position{0.0f};
-  float yaw = 0.0f;  // degrees
 };
 
 class CyclesSession {
@@ -70,6 +72,9 @@ class CyclesSession {
 
   // The graphics card that renders; empty: the processor. Known after the first shot.
   std::string device();
+
+  // The most memory that Cycles has used for a shot so far, as it reports it, megabytes.
+  double peak_memory();
 
   // A file in the session's own folder, which is removed with it.
   std::string path(const std::string& name) const { return folder_.path() + "/" + name; }
@@ -102,7 +107,7 @@ class CyclesSession {
   bool is_open_ = false, has_ended_ = false;
   std::string error_, device_, pose_;
   int rendered_ = 0;
-  double share_ = 0.0;
+  double share_ = 0.0, peak_ = 0.0;
   std::optional<ProgramResult> result_;
 
   std::unique_ptr<RunningProgram> blender_;

@@ -28,9 +28,13 @@ constexpr std::string_view kHonoured[] = {
     // the light
     "--env", "--env-turn", "--env-strength", "--background",
     // time
-    "--time", "--frames", "--only", "--fps", "--duration", "--shutter", "--grain", "--skip-existing",
+    "--time", "--frames", "--only", "--fps", "--duration", "--turntable", "--fly-to", "--shutter", "--grain",
+    "--skip-existing",
     // quality
     "--noise", "--samples", "--time-limit", "--denoise", "--bounces", "--seed", "--threads", "--device", "--restart",
+    "--statistics",
+    // parts
+    "--part", "--parts", "--keep-parts",
     // videos
     "--target", "--codec", "--crf", "--bitrate", "--bits", "--chroma", "--encoder", "--preset", "--audio", "--apple",
     "--keep-frames", "--force", "--wait",
@@ -50,13 +54,8 @@ constexpr Remedy kRemedies[] = {
     {"--caustics", "the file sets them (Light Paths)"},
     {"--clamp", "the file sets it (Light Paths, Clamping)"},
     {"--filter", "the file sets it (Film, Pixel Filter)"},
-    {"--turntable", "move the camera in the file"},
-    {"--fly-to", "move the camera in the file"},
-    {"--statistics", "an .exr with the noise of each pixel needs --renderer ods"},
     {"--object-layer", "--renderer ods writes this layer"},
     {"--save-unfinished", "--time-limit makes the best picture of a time"},
-    {"--part", "ods submit splits frames"},
-    {"--parts", "ods submit splits frames"},
     {"--confine", "Blender reads all files that the scene names"},
     {"--animation", "Blender plays the file's own; --frames chooses of it"},
     {"--variant", "a .blend has none; --scene chooses a scene"},

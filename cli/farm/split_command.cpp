@@ -161,12 +161,12 @@ void check_parts(const RenderJob& first, const ods::FrameNames& names) {
   const fs::path folder = fs::path(names.before).parent_path();
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) return;
-  const ods::SequenceOptions of_first = identified(first);
+  RenderJob part = first;
   for (const int number : ods::frames_on_disk(names)) {
     const ods::Settings then = ods::read_part_header(names.path(number)).settings;
-    ods::SequenceOptions part = of_first;
     part.render.part.number = number;
-    const ods::Settings now = sample_identity(part, double{first.time.time.value_or(0.0f)});
+    const ods::Settings now = part.cycles ? cycles_part_identity(part)
+                                          : sample_identity(identified(part), double{part.time.time.value_or(0.0f)});
     expect_same_settings(names.path(number), then, now, "`restart` discards the parts and starts over");
   }
 }

@@ -73,6 +73,12 @@ void add_long_options(Options& options, RenderJob& job) {
   options.flag("--keep-parts", job.keep_parts, "with --parts: keep the parts after they are merged");
 }
 
+// Cycles' samples may be the file's.
+void check_part(const ods::RenderOptions& render) {
+  if (render.part.count <= render.samples) return;
+  throw UsageError(fmt::format("{} samples cannot be split into {} parts", render.samples, render.part.count));
+}
+
 // Parts are exact shares of a fixed number of samples.
 void check_long_job(const Options& options, const RenderJob& job) {
   const std::vector<std::string> own = {"--restart", "--save-unfinished", "--part", "--parts"};
@@ -82,10 +88,7 @@ void check_long_job(const Options& options, const RenderJob& job) {
   options.refuse({"--noise", "--time-limit", "--save-unfinished"}, "cannot be used with --part");
   options.refuse({"--denoise", "--layout"}, "cannot be used with --part: it is for ods merge");
   if (!ods::keeps_layers(job.output)) throw UsageError("--part needs an .exr, which ods merge reads");
-  if (job.render.part.count > job.render.samples) {
-    throw UsageError(
-        fmt::format("{} samples cannot be split into {} parts", job.render.samples, job.render.part.count));
-  }
+  if (job.renderer == Renderer::kOds) check_part(job.render);
 }
 
 // A rig has its own cameras and size.
@@ -168,6 +171,7 @@ RenderJob settled(RenderJob job) {
   if (job.denoise == ods::Denoiser::kOidn) ods::check_oidn();
   if (job.renderer == Renderer::kCycles) {
     open_in_cycles(job);
+    check_part(job.render);
   } else {
     read_foreign(job.scene);
   }

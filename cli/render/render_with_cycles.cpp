@@ -10,6 +10,7 @@
 
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
+#include "cli/cycles/cycles_part.h"
 #include "cli/cycles/cycles_picture.h"
 #include "cli/cycles/surround.h"
 #include "cli/options/disk_room.h"
@@ -17,7 +18,10 @@
 #include "cli/options/waiting.h"
 #include "cli/render/plan.h"
 #include "cli/render/render_frames.h"
+#include "ods/camera/camera_move.h"
 #include "ods/files/private_folder.h"
+#include "ods/picture/metadata/sidecar.h"
+#include "ods/render/part_file.h"
 #include "ods/scene/scene.h"
 #include "ods/sequence/identity.h"
 #include "ods/sequence/shared_frames.h"
@@ -63,18 +67,50 @@ CyclesPicture picture_of(const RenderJob& job) {
   shot.shutter = job.time.given_shutter;
   shot.transparent = job.render.transparent;
   shot.threads = job.render.threads;
+  picture.statistics = job.render.statistics;
+  if (job.part) picture.part = *job.part;
+  check_cycles_picture(picture);
   return picture;
 }
 
 void report_start(const RenderJob& job, const CyclesPicture& picture, size_t frames) {
   const CyclesScene& scene = job.cycles->scene();
   note(fmt::format("Cycles of Blender {} renders {}, {}x{} per eye, at most {} samples per pixel", scene.blender,
-                   frames == 1 ? "a picture" : fmt::format("{} frames", frames), picture.eye.width, picture.eye.height,
-                   picture.shot.samples));
+                   job.part      ? fmt::format("part {} of a picture", ods::part_text(*job.part))
+                   : frames == 1 ? "a picture"
+                                 : fmt::format("{} frames", frames),
+                   picture.eye.width, picture.eye.height, picture.shot.samples / picture.part.count));
   if (job.camera.stereo.lens_radius > 0.0f) note("the lens blurs as Cycles' does, which differs towards the poles");
-  if (picture.denoiser == ods::Denoiser::kNone && !keeps_light(job.output) && !job.denoise) {
+  if (picture.denoiser == ods::Denoiser::kNone && !keeps_light(job.output) && !job.denoise && !job.part) {
     note("not denoised: one sample does not show its noise");
   }
+}
+
+// Cycles' own figures, with --statistics.
+void report_statistics(const RenderJob& job, double seconds, size_t frames) {
+  if (!job.render.statistics) return;
+  note(fmt::format(
+      "Cycles took {} for {}, at most {} samples per pixel, at most {:.4g} MB for the scene and its picture",
+      duration_text(seconds), frames == 1 ? "the picture" : fmt::format("{} frames", frames), job.render.samples,
+      job.cycles->peak_memory()));
+}
+
+// Moves the camera of a shot, and with motion blur its places before and after.
+void move_camera(const RenderJob& job, const ods::CameraMove& move, double seconds, CyclesShot& shot) {
+  if (!ods::moves(move)) return;
+  const double frame = 1.0 / job.cycles->scene().fps;
+  const auto place = [&](double frames) {
+    CyclesShot there = shot;
+    there.frame += frames;
+    const CyclesPose own = job.cycles->pose(there);
+    ods::StereoCamera camera;
+    camera.position = own.position, camera.yaw = own.yaw;
+    camera = ods::moved(camera, move, seconds + frames * frame);
+    return CyclesPose{camera.position, camera.yaw};
+  };
+  const CyclesPose now = place(0.0);
+  if (job.time.shutter > 0.0f) shot.before = place(-1.0), shot.after = place(1.0);
+  shot.position = now.position, shot.yaw = now.yaw;
 }
 
 // The first lines about a frame that is made.
@@ -86,8 +122,11 @@ class FirstFrame {
     if (std::exchange(said_, true)) return;
     const std::string camera = job_.cycles->scene().camera;
     const ods::vec3 at = saved.pose.position;
-    note(fmt::format("camera at {:.4g},{:.4g},{:.4g}, yaw {:.4g} ({})", at.x, at.y, at.z, saved.pose.yaw,
-                     job_.camera.position || camera.empty() ? "--position" : "the scene's camera '" + camera + "'"));
+    const bool is_given = job_.camera.position.has_value();
+    if (is_given ? ::is_given(job_, "--position") : !camera.empty()) {  // our own choice has been noted
+      note(fmt::format("camera at {:.4g},{:.4g},{:.4g}, yaw {:.4g} ({})", at.x, at.y, at.z, saved.pose.yaw,
+                       is_given ? "--position" : "the scene's camera '" + camera + "'"));
+    }
     const std::string device = job_.cycles->device();
     if (!device.empty()) note("Cycles renders on " + device);
     if (!saved.strain.empty()) warn(saved.strain + ", or a smaller --ipd; ods comfort has more");
@@ -104,13 +143,27 @@ std::vector<ods::SequenceFrame> all_frames(const RenderJob& job, const TimeOptio
   return ods::make_frames(plan(job, time).sequence, video_frames(time), job.output);
 }
 
-// One picture: its parts are kept beside it until it is complete.
+// Renders a part of the samples, and saves it for ods merge.
+std::string save_part(const RenderJob& job, const CyclesPicture& picture, const ods::FrameNames& parts,
+                      const std::function<void(double)>& report) {
+  const ods::RenderOptions options = options_of_parts(job.render);
+  const CyclesPart part = make_part(*job.cycles, picture, options, parts, report);
+  ods::StereoCamera camera = picture.camera;
+  camera.position = part.pose.position, camera.yaw = part.pose.yaw;
+  const ods::Sidecar sidecar{camera, picture.eye, picture.save.layout, picture.eyes};
+  const ods::SaveOptions& save = picture.save;
+  return ods::save_part(
+      job.output, {cycles_part_identity(job), write_sidecar(sidecar), save.exposure, save.tone, options}, part.samples);
+}
+
+// One picture, or a part of it: its files are kept beside it until it is complete.
 std::vector<std::string> render_picture(const RenderJob& job, const ods::SequenceFrame& frame,
-                                        const std::function<void(double)>& report) {
+                                        const ods::CameraMove& move, const std::function<void(double)>& report) {
   CyclesPicture picture = picture_of(job);
   picture.shot.frame = file_frame(job, frame.time);
   picture.shot.seed = frame.seed;
-  ods::VideoJournal journal(job.output, cycles_identity(job), job.restart);
+  move_camera(job, move, frame.time, picture.shot);
+  ods::VideoJournal journal(job.output, job.part ? cycles_part_identity(job) : cycles_identity(job), job.restart);
   const std::vector<int> numbers = part_numbers(picture);
   journal.plan(numbers, numbers);
   const ods::FrameNames parts = *ods::frame_names(journal.pattern());
@@ -118,10 +171,16 @@ std::vector<std::string> render_picture(const RenderJob& job, const ods::Sequenc
   const auto there = std::ranges::count_if(numbers, is_there);
   if (there > 0) note(fmt::format("resuming: {} of {} parts exist already", there, numbers.size()));
   report_start(job, picture, 1);
-  const CyclesSaved saved = make_picture(*job.cycles, picture, parts, job.output, [&](double done) {
+  const auto check_and_report = [&](double done) {
     journal.check();
     report(done);
-  });
+  };
+  if (job.part) {
+    const std::string file = save_part(job, picture, parts, check_and_report);
+    journal.remove();
+    return {file};
+  }
+  const CyclesSaved saved = make_picture(*job.cycles, picture, parts, job.output, check_and_report);
   journal.remove();
   FirstFrame(job).say(saved);
   return saved.files;
@@ -168,6 +227,27 @@ void surround_scene(const RenderJob& job, GivenLight given) {
   job.cycles->surround(lit, behind);
 }
 
+// Has the scene converted and measured as for our renderer, and finds what depends on it: the viewer's place in a file
+// without a camera, and the middle of an object for --turntable.
+void measure_scene(RenderJob& job) {
+  ods::CameraMove& move = job.time.move;
+  const bool needs_place = job.cycles->scene().camera.empty() && !job.camera.position && job.camera.file.empty();
+  const bool needs_middle = move.turns != 0.0 && !move.pivot && move.fly_to.empty();
+  if (!needs_place && !needs_middle) return;
+  SceneSource source = job.scene;
+  read_foreign(source);
+  source.foreign->warnings.clear();  // Cycles loses nothing
+  const ods::Scene scene = open_scene(source);
+  if (needs_place) {
+    const ods::StereoCamera placed = place_camera(job.camera, scene);
+    job.camera.position = placed.position, job.camera.yaw = placed.yaw;
+  }
+  if (!needs_middle || !scene.viewing || !scene.viewing->is_object) return;
+  move.pivot = scene.viewing->middle;
+  move.turns = -move.turns;  // an object that turns clockwise is seen as from a viewer who circles counter-clockwise
+  note("the viewer moves around the object: with --renderer cycles it does not turn, and its light stays on it");
+}
+
 }  // namespace
 
 void open_in_cycles(RenderJob& job) {
@@ -185,12 +265,9 @@ void open_in_cycles(RenderJob& job) {
   const GivenLight light = read_light(job);
   job.cycles = std::make_shared<CyclesSession>(blender, job.scene.name, job.camera.view_point);
   const CyclesScene& scene = job.cycles->scene();
-  job.scene.foreign = scene.foreign;
   for (const std::string& warning : scene.foreign.warnings) warn(warning);
-  if (scene.camera.empty() && !job.camera.position) {
-    throw ods::Error(ods::ErrorKind::kInput,
-                     fmt::format("'{}' has no camera: --position X,Y,Z places one", job.scene.name));
-  }
+  measure_scene(job);
+  job.scene.foreign = scene.foreign;
   surround_scene(job, light);
   job.render.samples = job.quality.samples.value_or(std::max(1, scene.samples));
   job.render.noise = job.quality.noise.value_or(0.0f);
@@ -201,19 +278,28 @@ void open_in_cycles(RenderJob& job) {
 
 TimeOptions cycles_time(const RenderJob& job) {
   TimeOptions time = job.time;
-  if (!time.grain) time.grain = Grain::kFixed;
+  if (!time.grain) time.grain = ods::moves(time.move) ? Grain::kChanging : Grain::kFixed;
   ods::Scene nothing;
   start_clock(time, job.camera, nothing);
-  if (time.is_video && time.file.count == 0 && time.frames.empty() && !time.duration) {
-    throw UsageError("nothing moves in the file: add --duration SECONDS or --frames LIST");
+  if (time.is_video && time.file.count == 0 && time.frames.empty() && !time.duration && !ods::moves(time.move)) {
+    throw UsageError("nothing moves in the file: add --duration SECONDS, --frames LIST or --turntable 1");
   }
   return time;
 }
 
-ods::Settings cycles_identity(const RenderJob& job) {
+// What Cycles renders with, and the rest.
+static ods::Settings with_cycles(const RenderJob& job, const ods::Settings& rest) {
   ods::Settings settings = {{"`renderer`", "cycles", ""}, {"Blender", job.cycles->scene().blender, ""}};
-  const ods::Settings rest = frame_identity(identified(job));
   settings.insert(settings.end(), rest.begin(), rest.end());
+  return settings;
+}
+
+ods::Settings cycles_part_identity(const RenderJob& job) {
+  return with_cycles(job, sample_identity(identified(job), double{job.time.time.value_or(0.0f)}));
+}
+
+ods::Settings cycles_identity(const RenderJob& job) {
+  ods::Settings settings = with_cycles(job, frame_identity(identified(job)));
   if (job.time.time) settings.push_back({"`time`", fmt::format("{}", *job.time.time), ""});
   return settings;
 }
@@ -227,6 +313,7 @@ void render_cycles_frames(const RenderJob& job, const CyclesFrames& frames) {
     CyclesPicture picture = usual;
     picture.shot.frame = file_frame(job, frame.time);
     picture.shot.seed = frame.seed;
+    move_camera(job, frames.move, frame.time, picture.shot);
     const ods::PrivateFolder folder;
     const ods::FrameNames parts = *ods::frame_names(folder.path() + "/part.####.exr");
     const ods::FrameAtWork at{static_cast<int>(i) + 1, static_cast<int>(frames.missing.size()), frame.path};
@@ -252,7 +339,7 @@ void render_with_cycles(const RenderJob& job, ProgressLines& lines) {
   std::vector<int> numbers;
   for (const ods::SequenceFrame& frame : all) numbers.push_back(frame.number);
   const std::vector<int> chosen = own_frames(time.only, numbers);
-  CyclesFrames frames{all, ods::choose_frames(all, chosen, time.skip_existing), time.skip_existing, {}, {}};
+  CyclesFrames frames{all, ods::choose_frames(all, chosen, time.skip_existing), time.skip_existing, time.move, {}, {}};
   const bool is_video = makes_video(time);
   if (is_video) note_existing_frames(chosen.size() - frames.missing.size(), chosen.size());
   if (!is_video && frames.missing.empty()) return note(fmt::format("'{}' exists already", all.front().path));
@@ -268,7 +355,10 @@ void render_with_cycles(const RenderJob& job, ProgressLines& lines) {
   if (is_video) {
     render_cycles_frames(job, frames);
   } else {
-    frames.saved(render_picture(job, all.front(), [&](double done) { frames.report(done, {1, 1, job.output}); }));
+    frames.saved(render_picture(job, all.front(), time.move, [&](double done) {
+      frames.report(done, {1, 1, job.output});
+    }));
   }
   note(fmt::format("rendered in {}", duration_text(seconds_since(start))));
+  report_statistics(job, seconds_since(start), frames.missing.size());
 }

@@ -21,12 +21,16 @@ TimeOptions cycles_time(const RenderJob& job);
 // The identity of pictures and frames. Precondition: the job is settled(). Throws as identified() does.
 ods::Settings cycles_identity(const RenderJob& job);
 
+// The identity of one of a picture's parts, job.part. Throws as identified() does.
+ods::Settings cycles_part_identity(const RenderJob& job);
+
 // Renders frames of a job: all, and the indices of those to make. Files that other processes make are left to them if
 // `shared`. saved: gets the names of each frame's files.
 struct CyclesFrames {
   std::vector<ods::SequenceFrame> all;
   std::vector<size_t> missing;
   bool shared = false;
+  ods::CameraMove move{};  // --turntable and --fly-to, with their duration
   std::function<void(double done, const ods::FrameAtWork& at)> report;
   std::function<void(const std::vector<std::string>& files)> saved;
 };

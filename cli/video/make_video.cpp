@@ -159,6 +159,7 @@ void render_in_cycles(const VideoJob& job, ProgressLines& lines) {
   frames.all = ods::make_frames(plan(render, time).sequence, numbers, render.output);
   frames.missing = ods::choose_frames(frames.all, own);
   frames.shared = !time.only.empty();
+  frames.move = time.move;
   frames.report = [&](double done, const ods::FrameAtWork& at) {
     journal.check();
     report_rendering(lines, begin, done, {"render", at.place, at.count, at.path});

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -87,7 +88,32 @@ EyeImage read_part(const std::string& file, const CyclesPasses& passes) {
   return image;
 }
 
+// The most samples that a pixel of the file got: Blender records it as cycles.LAYER.samples.
+float most_samples(const FileInfo& info) {
+  for (const auto& [name, value] : info.text) {
+    if (name.starts_with("cycles.") && name.ends_with(".samples")) return static_cast<float>(std::atof(value.c_str()));
+  }
+  return 0.0f;
+}
+
 }  // namespace
+
+Image read_cycles_counts(std::span<const std::string> files) {
+  Image sum;
+  for (const std::string& file : files) {
+    const FileInfo info = read_info(file);
+    const std::vector<std::string> channels = channels_of(info, "Debug Sample Count", "X");
+    if (channels.empty()) return Image();
+    Image counts = read_channels(file, channels);
+    scale(counts, most_samples(info));  // the pass is 1 where a pixel got all
+    if (sum.pixels.empty()) {
+      sum = std::move(counts);
+    } else if (sum.pixels.size() == counts.pixels.size()) {
+      add(sum, counts);
+    }
+  }
+  return sum;
+}
 
 float along_ray(const StereoCamera& camera, const Ray& ray, float from_center) {
   const vec3 eye = ray.origin - camera.position;

@@ -27,6 +27,10 @@ struct CyclesPasses {
 // Error(kInput): a file cannot be read, lacks the depth, or has another size. Precondition: there is a file.
 EyeImage read_cycles(std::span<const std::string> files, const CyclesPasses& passes);
 
+// Returns the number of samples of each pixel in all of these files, 1 channel, from the pass Debug Sample Count. Empty
+// if one of them does not have it. Throws Error(kInput) as read_cycles().
+Image read_cycles_counts(std::span<const std::string> files);
+
 // The distance along a ray from its own origin of a point of which the distance from the circle's centre is known; both
 // in metres. Returns 0, which is invalid, for a point inside the circle.
 float along_ray(const StereoCamera& camera, const Ray& ray, float from_center);

@@ -249,8 +249,9 @@ class Renderer:
         """Our camera at the order's frame; with motion blur also on its way there and on."""
         frame, ours = order["frame"], self.ours
         ours.animation_data_clear()
-        for near in (frame - 1.0, frame + 1.0) if self.scene.render.use_motion_blur else ():
-            location, rotation, _ = self._pose(order, near)[2].decompose()
+        for i, near in enumerate((frame - 1.0, frame + 1.0) if self.scene.render.use_motion_blur else ()):
+            there = {**order, **order["around"][i]} if order["around"] else order
+            location, rotation, _ = self._pose(there, near)[2].decompose()
             ours.location, ours.rotation_quaternion = location, rotation
             ours.keyframe_insert("location", frame=near)
             ours.keyframe_insert("rotation_quaternion", frame=near)
@@ -309,6 +310,8 @@ class Renderer:
             render.motion_blur_shutter = max(0.01, order["shutter"] / 360.0)
         if order["transparent"]:
             render.film_transparent = True
+        for layer in self.scene.view_layers:
+            layer.cycles.pass_debug_sample_count = order["statistics"]
         if order["threads"] > 0:
             render.threads_mode, render.threads = "FIXED", order["threads"]
 

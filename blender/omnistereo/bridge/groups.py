@@ -73,9 +73,26 @@ def _give(value, socket):
         pass  # text and the like
 
 
+def _start(link):
+    """The link that a link continues, past reroutes; None: nothing leads there. A value cannot be given to a reroute."""
+    while link is not None and not link.is_muted and link.from_node.type == "REROUTE":
+        link = next(iter(link.from_node.inputs[0].links), None)
+    return None if link is None or link.is_muted else link
+
+
+def _ends(socket):
+    """The inputs that an output leads to, past reroutes."""
+    for link in socket.links:
+        if link.to_node.type == "REROUTE":
+            yield from _ends(link.to_node.outputs[0])
+        else:
+            yield link.to_socket
+
+
 def _unpack(tree, group):
     inside = group.node_tree
-    copies = {n.name: _copy(tree, n) for n in inside.nodes if n.type not in ("GROUP_INPUT", "GROUP_OUTPUT", "FRAME")}
+    copies = {n.name: _copy(tree, n) for n in inside.nodes
+              if n.type not in ("GROUP_INPUT", "GROUP_OUTPUT", "FRAME", "REROUTE")}
     output = next((n for n in inside.nodes if n.type == "GROUP_OUTPUT" and n.is_active_output), None)
 
     def connect(link, target):
@@ -93,14 +110,17 @@ def _unpack(tree, group):
 
     for link in inside.links:
         target = _same(link.to_socket, copies[link.to_node.name].inputs) if link.to_node.name in copies else None
-        if target is not None and not link.is_muted:
-            connect(link, target)
+        start = _start(link)
+        if target is not None and start is not None:
+            connect(start, target)
     for socket in group.outputs:
-        ends = [link.to_socket for link in socket.links]
+        ends = list(_ends(socket))
         last = _same(socket, output.inputs) if output else None
         for end in ends:
             if last is not None and last.is_linked:
-                connect(last.links[0], end)
+                start = _start(last.links[0])
+                if start is not None:
+                    connect(start, end)
             elif last is not None:
                 for link in list(end.links):
                     tree.links.remove(link)

@@ -81,7 +81,7 @@ def _name_lost(shown, ledger):
         strands = [s for s in each.particle_systems if s.settings.type == "HAIR" and s.settings.render_type == "PATH"]
         smoke = [m for m in each.modifiers if m.type == "FLUID" and m.fluid_type == "DOMAIN" and m.domain_settings
                  and m.domain_settings.domain_type == "GAS"]
-        what = "hair" if strands else "smoke and fire" if smoke else kinds.get(each.type)
+        what = "hair" if strands else "smoke or fire" if smoke else kinds.get(each.type)
         if what:
             ledger.lose(f"{what} does not come across", "object", each.name, cycles)
         if each.type in MESHES and ledger.read(each, "is_shadow_catcher", False):

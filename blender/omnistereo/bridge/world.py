@@ -169,7 +169,7 @@ def export_world(glb, scene, folder, ledger):
         return _numbers(even_color(world)), None
     output = next((n for n in world.node_tree.nodes if n.type == "OUTPUT_WORLD" and n.is_active_output), None)
     if output is not None and output.inputs["Volume"].is_linked:
-        ledger.lose("the volume does not come across", "world", world.name)
+        ledger.lose("the volume does not come across", "world", world.name, "choose --renderer cycles")
     unpack_groups(world.node_tree)
     nodes = list(world.node_tree.nodes)
     if even_color(world) is None:

@@ -311,11 +311,11 @@ else:
 d = group.nodes.new('ShaderNodeBsdfDiffuse'); g = group.nodes.new('ShaderNodeBsdfGlossy')
 g.inputs['Roughness'].default_value = .25; f = group.nodes.new('ShaderNodeFresnel')
 x = group.nodes.new('ShaderNodeMixShader'); i = group.nodes.new('NodeGroupInput'); o = group.nodes.new('NodeGroupOutput')
-group.links.new(i.outputs[0], d.inputs[0]); group.links.new(f.outputs[0], x.inputs[0])
+v = group.nodes.new('NodeReroute'); group.links.new(i.outputs[0], v.inputs[0]); group.links.new(v.outputs[0], d.inputs[0])
+group.links.new(f.outputs[0], x.inputs[0])
 group.links.new(d.outputs[0], x.inputs[1]); group.links.new(g.outputs[0], x.inputs[2]); group.links.new(x.outputs[0], o.inputs[0])
 paint = material('paint'); t = paint.node_tree; n = t.nodes.new('ShaderNodeGroup'); n.node_tree = group
-n.inputs['Tint'].default_value = (.1, .2, .3, 1)
-t.links.new(n.outputs[0], t.nodes['Material Output'].inputs[0]); use('paint', paint)
+n.inputs['Tint'].default_value = (.1, .2, .3, 1); t.links.new(n.outputs[0], t.nodes['Material Output'].inputs[0]); use('paint', paint)
 pane = material('pane', (1, 1, 1), 'ShaderNodeBsdfGlossy'); t = pane.node_tree; t.nodes['Glossy BSDF'].inputs['Roughness'].default_value = 0
 x = t.nodes.new('ShaderNodeMixShader'); t.links.new(t.nodes.new('ShaderNodeFresnel').outputs[0], x.inputs[0])
 t.links.new(t.nodes.new('ShaderNodeBsdfTransparent').outputs[0], x.inputs[1])

@@ -240,7 +240,7 @@ TEST_F(RenderWithCycles, TheFileStaysAndItsSettingsHold) {
 TEST_F(RenderWithCycles, WhatItCannotDoIsOneLine) {
   const std::string scene = make("bpy.data.objects.remove(o)\n");
   const std::tuple<Words, int, const char*> kCases[] = {
-      {{}, 3, "has no camera: --position"},
+      {{"--position", "0,1,0", "--quality", "final"}, 2, "--quality cannot be used with --renderer cycles"},
       {{"--position", "0,1,0", "--eye-to-neck", "0.1"}, 2, "--eye-to-neck"},
       {{"--position", "0,1,0", "--merge", "auto"}, 2, "--merge auto"},
       {{"--camera", "Bathroom"}, 3, "no camera 'Bathroom'"},
@@ -309,6 +309,92 @@ TEST_F(RenderWithCycles, AVideoIsMadeFrameByFrame) {
     return read_image(folder_.path("a_360_TB.mp4.frames/frame.00000" + std::to_string(n) + ".exr"));
   };
   EXPECT_GT(blob_of(frame(1), 2, 0, 32).y, blob_of(frame(3), 2, 0, 32).y + 2.0) << "the blue lamp rises";
+}
+
+TEST_F(RenderWithCycles, AFileWithoutACameraIsSeenFromWhereOurRendererStands) {
+  const std::string scene = make("bpy.data.objects.remove(o)\n");
+  expect_same_places(render(scene, "ods", {}), render(scene, "cycles", {}), 0.05, "without a camera");
+  EXPECT_NE(err.find("camera at"), std::string::npos) << err;
+  const std::string named = make();
+  const Words none = {"--camera", "none"};
+  expect_same_places(render(named, "ods", none), render(named, "cycles", none), 0.05, "without its camera");
+}
+
+TEST_F(RenderWithCycles, TheCameraMovesAsInOurRenderer) {
+  const std::string scene = make();
+  const auto frame = [&](const std::string& renderer, Words words) {
+    words.insert(words.end(), {"--renderer", renderer, "--frames", "2", "--duration", "0.3", "--width", "256"});
+    if (renderer == "ods") words.insert(words.end(), {"--samples", "64", "--filter", "box", "--noise", "none"});
+    EXPECT_EQ(run("render", scene, renderer + ".#.exr", words), 0) << err;
+    return read_image(folder_.path(renderer + ".2.exr"));
+  };
+  for (const Words& move : {Words{"--turntable", "1,0.2,1,-1"}, Words{"--turntable", "-1"},
+                            Words{"--fly-to", "0.3,1.5,0.6"}, Words{"--turntable", "1", "--fly-to", "0.3,1.5,0.6"}}) {
+    expect_same_places(frame("ods", move), frame("cycles", move), 0.1, move.front() + " " + move.back());
+  }
+}
+
+// A cube in the light of the lamps, which Cycles finds by chance.
+constexpr const char* kNoisy = R"(
+bpy.ops.mesh.primitive_cube_add(size=1.5, location=(0.4, 2.5, 1.2))
+m = bpy.data.materials.new('white'); m.use_nodes = True
+bpy.context.object.data.materials.append(m)
+)";
+
+TEST_F(RenderWithCycles, StatisticsAreTheNoiseAndTheSamples) {
+  const std::string scene = make(kNoisy);
+  const auto shot = [&](const std::string& name, const char* seed) {
+    EXPECT_EQ(run("render", scene, name,
+                  {"--renderer", "cycles", "--width", "128", "--eyes", "left", "--samples", "32", "--statistics",
+                   "--seed", seed}),
+              0)
+        << err;
+    EXPECT_NE(err.find("at most 32 samples per pixel, at most"), std::string::npos) << err;
+    return std::pair(read_image(folder_.path(name)),
+                     read_channels(folder_.path(name), {"variance.R", "variance.G", "variance.B"}));
+  };
+  const auto [a, variance_a] = shot("a.exr", "1");
+  const auto [b, variance_b] = shot("b.exr", "2");
+  double squares = 0.0, expected = 0.0;
+  for (size_t i = 0; i < a.pixels.size(); i++) {
+    const double difference = double{a.pixels[i]} - double{b.pixels[i]};
+    squares += difference * difference;
+    expected += double{variance_a.pixels[i]} + double{variance_b.pixels[i]};
+  }
+  EXPECT_GT(expected, 0.0);
+  EXPECT_NEAR(squares / expected, 1.0, 0.5) << "two pictures differ by the noise that each states";
+  for (const float samples : read_channels(folder_.path("a.exr"), {"samples"}).pixels) ASSERT_EQ(samples, 32.0f);
+}
+
+// The two parts are the halves whose difference is a picture's noise.
+TEST_F(RenderWithCycles, PartsMergeToThePicture) {
+  const std::string scene = make(kNoisy);
+  const auto shot = [&](const std::string& name, const Words& more) {
+    Words words = {"--renderer", "cycles", "--width", "64", "--samples", "8"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run("render", scene, name, words);
+  };
+  ASSERT_EQ(shot("whole.exr", {"--statistics", "--denoise", "none"}), 0) << err;
+  ASSERT_EQ(shot("part_1.exr", {"--part", "1/2"}), 0) << err;
+  ASSERT_EQ(shot("part_2.exr", {"--part", "2/2"}), 0) << err;
+  Ods merge({"merge", folder_.path("part_#.exr"), "-o", folder_.path("merged.exr"), "--denoise", "none"});
+  ASSERT_EQ(merge.finish(), 0) << merge.err;
+  const auto [difference, mean] =
+      mean_difference(read_image(folder_.path("whole.exr")), read_image(folder_.path("merged.exr")));
+  EXPECT_GT(mean, 0.0);
+  EXPECT_LT(difference, 1e-5 * mean);
+  EXPECT_EQ(shot("part_1.exr", {"--part", "1/2", "--projection", "fisheye-equisolid"}), 2);
+  EXPECT_NE(err.find("needs a lat-long"), std::string::npos) << err;
+  EXPECT_EQ(shot("part_1.exr", {"--part", "1/9"}), 2);
+  EXPECT_NE(err.find("8 samples cannot be split into 9 parts"), std::string::npos) << err;
+}
+
+TEST_F(RenderWithCycles, AFarmSplitsAPictureIntoParts) {
+  const std::string scene = make();
+  Ods ods({"submit", "--dry-run", "--to", "slurm", "--", "render", scene, "-o", folder_.path("a.exr"), "--renderer",
+           "cycles", "--width", "64", "--parts", "4"});
+  ASSERT_EQ(ods.finish(), 0) << ods.err;
+  EXPECT_NE((ods.out + ods.err).find("4 parts"), std::string::npos) << ods.out << ods.err;
 }
 
 TEST_F(RenderWithCycles, AFarmSplitsAVideo) {
