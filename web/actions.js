@@ -13,7 +13,7 @@ const turn = (yaw, pitch) => (player, viewer) =>
   viewer.set({ yaw: viewer.state.yaw + yaw, pitch: viewer.state.pitch + pitch });
 const zoom = (by) => (player, viewer) => viewer.set({ fov: viewer.state.fov * by });
 const film = (run) => (player, viewer) => viewer.picture?.video && run(viewer.picture, viewer.picture.video);
-const isFilm = (viewer) => viewer.about?.kind === 'video';
+const isFilm = ({ about, picture }) => about?.kind === 'video' || Boolean(picture?.film);
 const isLive = (viewer) => viewer.about?.live;
 const isPicture = (viewer) => Boolean(viewer.picture) && !viewer.scene;
 const isJudged = (viewer, player) => Boolean(viewer.picture) && viewer.view.live && !isFilm(viewer) && !player.studio?.comparing;
@@ -93,7 +93,7 @@ export const ACTIONS = [
     picture.loop(!picture.loops);
     return t(picture.loops ? 'Loop' : 'Play once');
   }) },
-  { id: 'sound', keys: ['a'], label: 'sound', group: FILM, when: isFilm, run: film((picture, video) => {
+  { id: 'sound', keys: ['a'], label: 'sound', group: FILM, when: ({ about }) => about?.kind === 'video', run: film((picture, video) => {
     video.muted = !video.muted;
     return t(video.muted ? 'No sound' : 'Sound');
   }) },

@@ -199,7 +199,7 @@ export class Controls {
     this.press('compare', Boolean(this.viewer.compare));
     find('shift-row').hidden = Boolean(picture?.mono);
     for (const id of ['layout', 'projection', 'grid', 'planet']) find(`${id}-row`).hidden = Boolean(picture?.lacks?.includes(id));
-    for (const id of ['comfort', 'link', 'compare', 'swap', 'system']) this.button(id).hidden = !applies(ACTIONS.find((action) => action.id === id), player);
+    for (const id of ['comfort', 'link', 'compare', 'swap', 'system', 'sound']) this.button(id).hidden = !applies(ACTIONS.find((action) => action.id === id), player);
     if (picture?.video) this.film(picture);
   }
 

@@ -34,13 +34,26 @@ precision highp float;
 uniform sampler2D page;
 uniform sampler2D next;  // light that follows,
 uniform float part;      // and its share
+uniform sampler2D change;  // of a still layer's light (LightChange in ods/layers/layered_scene.h),
+uniform sampler2D change_next;
+uniform float change_part;
+uniform mat4x2 change_place;  // scale, offset, bounds
+uniform bool is_changed;
 uniform float cutoff;
 uniform bool is_blended;
 in vec2 at;
 out vec4 color;
+vec3 ratio(vec3 code) {
+  return code / (1.0 - min(code, 0.999)) * (127.0 / 128.0);
+}
 void main() {
   color = texture(page, at);
   if (part > 0.0) color = mix(color, texture(next, at), part);
+  if (is_changed) {
+    vec2 p = clamp(at * change_place[0] + change_place[1], change_place[2], change_place[3]);
+    vec3 by = mix(ratio(texture(change, p).rgb), ratio(texture(change_next, p).rgb), change_part);
+    color.rgb = max((color.rgb + 0.01) * by - 0.01, 0.0);
+  }
   if (is_blended) return;
   float edge = fwidth(color.a);
   color.a = cutoff > 0.0 ? clamp((color.a - cutoff) / max(edge, 0.001) + 0.5, 0.0, 1.0) : 1.0;
@@ -172,8 +185,8 @@ export class LayeredDrawer {
     gl.depthFunc(gl.LEQUAL);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ZERO, gl.ONE);
     gl.uniformMatrix3fv(uniforms.to_screen, false, toScreen);
-    gl.uniform1i(uniforms.next, 1);
-    for (const { array, texture, next = texture, part = 0, matrix, cutoff, isBlended, isSky, place, indices: { count, type, offset } } of meshes) {
+    ['next', 'change', 'change_next'].forEach((name, i) => gl.uniform1i(uniforms[name], i + 1));
+    for (const { array, texture, next = texture, part = 0, change, matrix, cutoff, isBlended, isSky, place, indices: { count, type, offset } } of meshes) {
       gl[isSky ? 'disable' : 'enable'](gl.DEPTH_TEST);
       gl[cutoff ? 'enable' : 'disable'](gl.SAMPLE_ALPHA_TO_COVERAGE);
       gl[isBlended ? 'enable' : 'disable'](gl.BLEND);
@@ -185,9 +198,14 @@ export class LayeredDrawer {
       gl.uniform4fv(uniforms.place, place);
       gl.uniformMatrix4fv(uniforms.to_world, false, matrix);
       gl.uniform1f(uniforms.part, part);
-      [next, texture].forEach((each, i) => {
-        gl.activeTexture(gl.TEXTURE1 - i);
-        gl.bindTexture(gl.TEXTURE_2D, each);
+      gl.uniform1i(uniforms.is_changed, Boolean(change));
+      if (change) {
+        gl.uniform1f(uniforms.change_part, change.part);
+        gl.uniformMatrix4x2fv(uniforms.change_place, false, change.place);
+      }
+      [change?.next, change?.now, next, texture].forEach((each, i) => {
+        gl.activeTexture(gl.TEXTURE3 - i);
+        gl.bindTexture(gl.TEXTURE_2D, each ?? null);
       });
       gl.bindVertexArray(array);
       gl.drawElements(gl.TRIANGLES, count, type, offset);

@@ -84,14 +84,14 @@ function readMeshes(glb) {
 }
 
 // A texture of a decoded image.
-export function textureOf(gl, source, { levels: most = LEVELS, wrap = gl.CLAMP_TO_EDGE } = {}) {
+export function textureOf(gl, source, { levels: most = LEVELS, wrap = gl.CLAMP_TO_EDGE, format = gl.SRGB8_ALPHA8 } = {}) {
   const largest = gl.getParameter(gl.MAX_TEXTURE_SIZE);
   check(Math.max(source.width, source.height) <= largest, `its textures are larger than this GPU can hold, ${largest} pixels`);
   const texture = gl.createTexture();
   gl.activeTexture(gl.TEXTURE0);
   gl.bindTexture(gl.TEXTURE_2D, texture);
   const levels = Math.min(most, 1 + Math.floor(Math.log2(Math.max(source.width, source.height))));
-  gl.texStorage2D(gl.TEXTURE_2D, levels, gl.SRGB8_ALPHA8, source.width, source.height);
+  gl.texStorage2D(gl.TEXTURE_2D, levels, format, source.width, source.height);
   gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, source.width, source.height, gl.RGBA, gl.UNSIGNED_BYTE, source);
   gl.generateMipmap(gl.TEXTURE_2D);
   for (const axis of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, axis, wrap);
@@ -116,14 +116,15 @@ class LayeredPicture {
   // Loads the triangles and the textures onto the GPU.
   async fill(glb, meshes, film, { signal }) {
     const { gl } = this;
-    const images = [...new Set(meshes.flatMap(({ image, lights = [] }) => [image, ...lights]))];
+    const changes = film?.changes ?? [];
+    const images = [...new Set(meshes.flatMap(({ image, lights = [] }) => [image, ...lights])), ...changes];
     const decode = (blob) => createImageBitmap(blob, { premultiplyAlpha: 'none' }).catch(() => check(false, `this browser does not read its textures (${blob.type})`));
     const sources = images.map((image) => decode(glb.image(image)));
     for (const source of sources) source.catch(() => {}); // those after the first fault
     for (const [i, image] of images.entries()) {
       const source = await sources[i];
       signal?.throwIfAborted();
-      this.textures.set(image, textureOf(gl, source));
+      this.textures.set(image, textureOf(gl, source, changes.includes(image) ? { levels: 1, format: gl.RGBA8 } : {}));
       source.close();
     }
     if (this.item.objects?.length) this.read = { glb, meshes: meshes.map(({ positions, indices, matrix }) => ({ positions, indices, matrix })) };
@@ -139,9 +140,8 @@ class LayeredPicture {
       this.meshes.push(mesh);
     }
     if (!film) return;
-    this.film = film;
-    film.begin(this.meshes, gl);
-    this.actions = [...film.keys, ...MOVES];
+    film.control(this);
+    film.begin(this.meshes, gl, changes.map((image) => this.textures.get(image)));
   }
 
   // The viewer shows it from now on. Objects come after the scene, which does not wait for them.
@@ -160,7 +160,7 @@ class LayeredPicture {
 
   // Before every picture.
   refresh() {
-    this.film?.refresh(this.viewer);
+    this.film?.refresh();
     this.objects?.refresh();
   }
 

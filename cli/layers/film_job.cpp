@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "cli/console/console.h"
 #include "ods/base/memory.h"
@@ -92,29 +91,4 @@ FilmJob plan_film(const LayersJob& job, ods::Scene& scene, std::vector<ods::Sequ
   film.lights = ods::light_frames(times.size(), light_step(job, film.geometry, times.size(), fps));
   report_film(film);
   return film;
-}
-
-double share_of_film(const FilmJob& film, size_t still_texels) {
-  const double texels = static_cast<double>(film.geometry.texels.size()) * static_cast<double>(film.lights.size());
-  return texels / (texels + static_cast<double>(still_texels) + 1.0);
-}
-
-ods::LayerFilm light_of_film(FilmJob film, ods::Scene& scene, const ods::HeadBox& box, ods::SequenceOptions options,
-                             const ods::LayerLight& light, const ods::Progress& progress) {
-  if (film.movers.empty()) return {};
-  ods::FrameRenderer renderer(std::move(options), scene);
-  const auto set = [&](size_t frame) -> const ods::Renderer& {
-    renderer.set(film.frames[frame]);
-    return renderer.renderer();
-  };
-  return ods::light_film(std::move(film.geometry), scene, box.center, film.lights, set, light, progress);
-}
-
-void remove_unfinished(const std::string& path, const std::vector<size_t>& lights) {
-  std::error_code ignored;
-  std::filesystem::remove(path, ignored);
-  for (const size_t frame : lights) {
-    std::filesystem::remove(ods::unfinished_light(path, frame), ignored);
-    std::filesystem::remove(ods::finished_light(path, frame), ignored);
-  }
 }

@@ -9,7 +9,7 @@
 #include "cli/layers/layers_job.h"
 #include "ods/layers/film/film_geometry.h"
 #include "ods/layers/film/film_light.h"
-#include "ods/layers/light/light_layers.h"
+#include "ods/layers/film/still_light.h"
 #include "ods/sequence/frame_renderer.h"
 
 struct FilmJob {
@@ -17,6 +17,8 @@ struct FilmJob {
   std::vector<ods::Mover> movers;
   ods::FilmGeometry geometry;
   std::vector<size_t> lights;  // the frames at which light is traced, by their index
+  ods::CoarseLayers still;     // of the layers that do not move,
+  ods::Image without;          // and their light without what moves
 };
 
 // The frames that the options name, or the one moment. time: the result of start_clock(). Throws UsageError if they are
@@ -27,13 +29,3 @@ std::vector<ods::SequenceFrame> layer_frames(const LayersJob& job, const TimeOpt
 // light needs too much memory on graphics cards.
 FilmJob plan_film(const LayersJob& job, ods::Scene& scene, std::vector<ods::SequenceFrame> frames,
                   const ods::HeadBox& box, int width);
-
-// The part of the light's time that the film takes, 0..1. still_texels: of the layers that do not move.
-double share_of_film(const FilmJob& film, size_t still_texels);
-
-// The light of what moves. options: of the frames' renderer.
-ods::LayerFilm light_of_film(FilmJob film, ods::Scene& scene, const ods::HeadBox& box, ods::SequenceOptions options,
-                             const ods::LayerLight& light, const ods::Progress& progress);
-
-// Removes the light that is kept in case of an interruption.
-void remove_unfinished(const std::string& path, const std::vector<size_t>& lights);

@@ -11,6 +11,7 @@
 #include "cli/console/console.h"
 #include "cli/console/interrupt.h"
 #include "cli/console/long_job.h"
+#include "cli/layers/film_bake.h"
 #include "cli/layers/film_job.h"
 #include "cli/layers/layer_files.h"
 #include "cli/layers/layers_job.h"
@@ -100,6 +101,7 @@ void bake_layers(const LayersJob& given, ProgressLines& lines) {
     geometry.scene.yaw = shot.camera().yaw;
     geometry.scene.fallback = given.fallback;
     geometry.scene.name = fs::path(job.scene.name).filename().string();
+    if (!film.movers.empty()) film.still = ods::coarse_layers(geometry, width);
     report_geometry(counts, seconds_since(start));
     ods::LayerLight light = light_of(job, shot.options, options);
     if (job.restart) remove_unfinished(unfinished_path(job), film.lights);
@@ -111,6 +113,7 @@ void bake_layers(const LayersJob& given, ProgressLines& lines) {
       ods::LayeredScene lit = ods::light_layers(std::move(geometry), scene, own.renderer(), light,
                                                 ods::part_of(progress, kGeometry, still));
       lit.light.probes = probes_of(scene, box, shot.options);
+      light_without(film, own.renderer(), light, {{}, progress.cancelled});
       return lit;
     });
     const std::vector<size_t> lights = film.lights;

@@ -105,6 +105,24 @@ struct LayerMover {
   std::vector<LayerPose> poses;  // by frame
 };
 
+// The place of a layer's light change in the textures of changes: texture coordinates uv of the layer are at
+// clamp(uv * scale + offset, low, high) of those.
+struct ChangePlace {
+  vec2 scale{0.0f}, offset{0.0f};
+  vec2 low{0.0f}, high{0.0f};
+  bool exists() const { return scale.x > 0.0f; }
+};
+
+// The change of the still layers' light by what moves: shadows, reflections, lamps. A displayed colour in linear light,
+// 0..1, becomes (colour + kDarkLight) * ratio - kDarkLight. A channel of a texture is ratio / (ratio + kRatioUnit), so
+// no change is 128 of 255.
+struct LightChange {
+  std::vector<ChangePlace> places;  // by mesh; absent ones, as of the sky, do not change
+  std::vector<Image> ratios;        // by LayerFilm::light_times, 3 channels, all of one size; empty: nothing changes
+};
+inline constexpr float kDarkLight = 0.01f;
+inline constexpr float kRatioUnit = 127.0f / 128.0f;
+
 // A film of things that move among still layers. Their light changes slower than their place: every texture exists once
 // for each of light_times, and viewers mix two of them.
 struct LayerFilm {
@@ -112,6 +130,7 @@ struct LayerFilm {
   std::vector<float> light_times;          // seconds: ascending, the first is 0, the last at most that of the frames
   std::vector<std::vector<Image>> lights;  // by texture, then by time; as LayerMesh::texture
   std::vector<LayerMover> movers;          // empty: nothing moves
+  LightChange change;                      // of the still layers' light
 };
 
 // The bytes of textures on the graphics card: 4 for each texel, and a third for mipmaps.

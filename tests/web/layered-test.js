@@ -49,8 +49,10 @@ async function open(player, item) {
 async function draw({ looks, ...size }) {
   const player = await makePlayer(size);
   const { viewer } = player;
-  for (const { name, item, ...look } of looks) {
+  for (const { name, item, time, ...look } of looks) {
     if (viewer.item !== item) await open(player, item);
+    viewer.picture.film?.pause();
+    viewer.picture.film?.show(time);
     viewer.set({ yaw: 0, pitch: 0, fov: 90, x: 0, y: 0, z: 0, mode: 'left', shift: 0, ...look });
     viewer.fit();
     viewer.paint(0, {});
@@ -243,6 +245,34 @@ async function film({ item, looks, ...size }) {
   own.show(0.99 * own.end);
   press(' ');
   await until(() => own.time < 0.5 * own.end, 'begins again');
+  await useBar(player, own);
+}
+
+// The bar and the keys of videos.
+async function useBar(player, own) {
+  const { picture } = player.viewer;
+  const is = (id) => player.find(id);
+  const isAt = (frame, what) => expect(Math.abs(own.time - frame / picture.fps) < 1e-6 && is('seek').value === String(frame), `${what}: ${own.time}, ${is('seek').value}`);
+  expect(!is('film').hidden && is('seek').max === String(picture.frames - 1) && picture.frames > 2, 'the bar is not that of a film');
+  expect(player.controls.button('sound').hidden, 'it has no sound');
+  press(' ');
+  expect(own.paused && !player.element.classList.contains('playing'), 'Space does not pause it');
+  Object.assign(is('seek'), { value: '1' }).dispatchEvent(new Event('input'));
+  isAt(1, 'the bar');
+  press('.');
+  isAt(2, 'the next frame');
+  press(',');
+  isAt(1, 'the frame before');
+  press('j');
+  isAt(0, 'the beginning');
+  press('l');
+  expect(!is('loop').checked, 'l does not end the loop');
+  press(' ');
+  await until(() => own.paused && own.time === own.end, 'ends');
+  press(' ');
+  await until(() => !own.paused && own.time > 0 && own.time < own.end, 'begins once more');
+  press('l');
+  expect(is('loop').checked, 'l does not loop');
 }
 
 const PARTS = { film, draw, move, decode: decodeAll, damage, fail, element: useElement, wear };

@@ -12,14 +12,19 @@ namespace ods {
 
 namespace {
 
+std::vector<size_t> add_lights(Glb& glb, const FilmTexture& texture) {
+  std::vector<size_t> lights;
+  for (const std::string& bytes : texture.lights) {
+    lights.push_back(add_texture(glb, texture.name, texture.format, bytes));
+  }
+  return lights;
+}
+
 // Adds the material of each texture; returns the number of the first.
-size_t add_film_materials(Glb& glb, const FilmTextures& textures) {
+size_t add_film_materials(Glb& glb, const std::vector<FilmTexture>& textures) {
   const size_t first = glb.json["materials"].size();
   for (const FilmTexture& texture : textures) {
-    std::vector<size_t> lights;
-    for (const std::string& bytes : texture.lights) {
-      lights.push_back(add_texture(glb, texture.name, texture.format, bytes));
-    }
+    const std::vector<size_t> lights = add_lights(glb, texture);
     Json material = unlit_material(texture.name, lights.front());
     material["extras"]["omnistereo"]["lights"] = lights;
     glb.json["materials"].push_back(material);
@@ -125,8 +130,8 @@ struct FilmAnimation {
 
 }  // namespace
 
-void add_film(Glb& glb, const LayeredScene& scene, const FilmTextures& textures) {
-  const size_t first_material = add_film_materials(glb, textures);
+std::vector<size_t> add_film(Glb& glb, const LayeredScene& scene, const FilmTextures& textures) {
+  const size_t first_material = add_film_materials(glb, textures.moving);
   FilmAnimation animation{glb, scene, {}};
   for (const LayerMover& mover : scene.film.movers) {
     if (mover.meshes.empty()) continue;
@@ -149,8 +154,10 @@ void add_film(Glb& glb, const LayeredScene& scene, const FilmTextures& textures)
     animation.add_poses(node, mover);
     if (frames > 1) animation.add_shapes(node, frames);
   }
-  if (animation.channels.empty()) return;
-  glb.json["animations"] = {{{"name", "film"}, {"samplers", animation.samplers}, {"channels", animation.channels}}};
+  if (!animation.channels.empty()) {
+    glb.json["animations"] = {{{"name", "film"}, {"samplers", animation.samplers}, {"channels", animation.channels}}};
+  }
+  return add_lights(glb, textures.change);
 }
 
 }  // namespace ods

@@ -46,7 +46,10 @@ std::vector<LayerPart> layer_parts(const LayeredScene& scene, FileFormat opaque,
     const int number = numbers[mesh.noun]++;
     const bool is_first_sky = mesh.kind == LayerKind::kSky && number == 0;
     const std::string name = is_first_sky ? "sky" : fmt::format("{} {}", mesh.noun, number);
-    parts.push_back({&mesh, name, has_alpha(mesh.kind) ? alpha : opaque, ""});
+    const std::vector<ChangePlace>& changes = scene.film.change.places;
+    const size_t index = static_cast<size_t>(&mesh - scene.meshes.data());
+    const ChangePlace change = index < changes.size() ? changes[index] : ChangePlace{};
+    parts.push_back({&mesh, name, has_alpha(mesh.kind) ? alpha : opaque, "", change});
   }
   const auto check = [&] {
     if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
@@ -66,20 +69,24 @@ std::vector<LayerPart> layer_parts(const LayeredScene& scene, FileFormat opaque,
 
 FilmTextures film_textures(const LayerFilm& film, FileFormat opaque, FileFormat alpha, int quality,
                            const Progress& progress) {
-  FilmTextures textures(film.lights.size());
-  const size_t lights = film.light_times.size(), all = textures.size() * lights;
-  for (size_t i = 0; i < textures.size(); i++) {
-    textures[i] = {fmt::format("film {}", i), film.lights[i].front().channels == 4 ? alpha : opaque, {}};
-    textures[i].lights.resize(lights);
+  const size_t lights = film.light_times.size(), moving = film.lights.size();
+  const std::vector<Image>& ratios = film.change.ratios;
+  FilmTextures textures;
+  for (size_t i = 0; i < moving; i++) {
+    const FileFormat format = film.lights[i].front().channels == 4 ? alpha : opaque;
+    textures.moving.push_back({fmt::format("film {}", i), format, std::vector<std::string>(lights)});
   }
+  textures.change = {"changes", opaque, std::vector<std::string>(ratios.size())};
   const auto check = [&] {
     if (progress.cancelled && progress.cancelled()) throw Error(ErrorKind::kCancelled, "cancelled");
   };
-  tbb::parallel_for(size_t{0}, all, [&](size_t i) {
-    FilmTexture& texture = textures[i / lights];
-    texture.lights[i % lights] =
-        encoded(film.lights[i / lights][i % lights], texture.format, quality, texture.name, check);
-  });
+  const auto encode = [&](const std::vector<Image>& images, FilmTexture& texture) {
+    tbb::parallel_for(size_t{0}, images.size(), [&](size_t i) {
+      texture.lights[i] = encoded(images[i], texture.format, quality, texture.name, check);
+    });
+  };
+  for (size_t i = 0; i < moving; i++) encode(film.lights[i], textures.moving[i]);
+  encode(ratios, textures.change);
   return textures;
 }
 

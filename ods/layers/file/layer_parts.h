@@ -19,6 +19,7 @@ struct LayerPart {
   std::string name;  // "page 0", "charts 1", "sky"; unique in the scene
   FileFormat format = FileFormat::kJpeg;
   std::string texture;  // the bytes of a file of this format
+  ChangePlace change;   // of its light in a film
 };
 
 // The meshes that have triangles, with encoded textures. opaque, alpha: the format of textures without and with alpha.
@@ -32,7 +33,10 @@ struct FilmTexture {
   FileFormat format = FileFormat::kJpeg;
   std::vector<std::string> lights;
 };
-using FilmTextures = std::vector<FilmTexture>;
+struct FilmTextures {
+  std::vector<FilmTexture> moving;
+  FilmTexture change;  // of the still layers' light; without lights if it does not change
+};
 
 // Encodes the textures of a film, as layer_parts() does those of still layers.
 FilmTextures film_textures(const LayerFilm& film, FileFormat opaque, FileFormat alpha, int quality,

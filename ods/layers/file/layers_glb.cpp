@@ -19,6 +19,11 @@ void add_material(Glb& glb, const LayerPart& part) {
   Json material = unlit_material(part.name, add_texture(glb, part.name, part.format, part.texture));
   if (part.mesh->kind == LayerKind::kMasked) material["alphaMode"] = "MASK", material["alphaCutoff"] = 0.5;
   if (part.mesh->kind == LayerKind::kBlended) material["alphaMode"] = "BLEND";
+  if (part.change.exists()) {
+    const ChangePlace& at = part.change;
+    material["extras"]["omnistereo"]["change"] = {at.scale.x, at.scale.y, at.offset.x, at.offset.y,
+                                                  at.low.x,   at.low.y,   at.high.x,   at.high.y};
+  }
   glb.json["materials"].push_back(material);
 }
 
@@ -71,7 +76,7 @@ void add_extensions(Glb& glb, const std::vector<LayerPart>& parts, const FilmTex
   Json used = {kUnlit}, required = Json::array();
   if (!glb.plain) required.push_back(kMeshopt);
   const auto is_webp = [](const auto& part) { return part.format == FileFormat::kWebp; };
-  if (std::ranges::any_of(parts, is_webp) || std::ranges::any_of(film, is_webp)) {
+  if (std::ranges::any_of(parts, is_webp) || std::ranges::any_of(film.moving, is_webp)) {
     required.push_back(kWebpTexture);
   }
   used.insert(used.end(), required.begin(), required.end());
@@ -92,11 +97,12 @@ std::string layers_glb(const LayeredScene& scene, const std::vector<LayerPart>& 
   const vec3 center = scene.box.center;
   glb.json["nodes"] = {{{"name", "layers"}, {"translation", {center.x, center.y, center.z}}}};
   for (const LayerPart& part : parts) add_part(glb, scene, part);
-  add_film(glb, scene, film);
-  glb.json["asset"]["extras"]["omnistereo"] = layers_metadata(scene, add_probes(glb, scene.light.probes));
+  const std::vector<size_t> changes = add_film(glb, scene, film);
+  Json& about = glb.json["asset"]["extras"]["omnistereo"] = layers_metadata(scene, add_probes(glb, scene.light.probes));
+  if (!changes.empty()) about["film"]["changes"] = changes;
   add_camera(glb, scene);
   for (size_t i = 1; i < glb.json["nodes"].size(); i++) glb.json["nodes"][0]["children"].push_back(i);
-  if (!parts.empty() || !film.empty()) {
+  if (!parts.empty() || !film.moving.empty()) {
     glb.json["samplers"] = {{{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", 33071}, {"wrapT", 33071}}};
   }
   if (!glb.binary.empty()) glb.json["buffers"] = {{{"byteLength", glb.binary.size()}}};

@@ -16,7 +16,10 @@
 //       "tone": "neutral",         // a name of kToneCurveTable: of all textures
 //       "probes": {"origin": [x, y, z], "step": [x, y, z], "count": [nx, ny, nz], "bufferView": 7}  // absent: none
 //     },
-//     "film": {"lights": [0, 0.25, 0.5]}  // seconds: LayerFilm::light_times; absent if nothing moves
+//     "film": {                    // absent if nothing moves
+//       "lights": [0, 0.25, 0.5],  // seconds: LayerFilm::light_times
+//       "changes": [9, 10, 11]     // the numbers of the textures of LightChange::ratios; absent: nothing changes
+//     }
 //   }}}
 //
 // The buffer view has 28 little-endian floats for each of LightProbes::probes, not compressed: its weight, then 9

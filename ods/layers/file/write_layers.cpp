@@ -53,6 +53,7 @@ LayersCost cost_of(const LayeredScene& scene) {
       cost.texture_bytes += texture_bytes(texels_of(light));
     }
   }
+  for (const Image& ratios : scene.film.change.ratios) cost.texture_bytes += texture_bytes(texels_of(ratios));
   return cost;
 }
 

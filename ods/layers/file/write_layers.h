@@ -16,7 +16,9 @@
 // A moving part of a film is a node "mover 0" beside the pages, with an animation: its translation, rotation and scale,
 // linear between frames, and the weights of morph targets if it deforms, one target for each frame after the first. Its
 // materials "film 0" show the first light; their extras, {"omnistereo": {"lights": [4, 5, 6]}}, are the numbers of the
-// textures with the light at each of the metadata's `film.lights`. Something hidden has a scale of 0.
+// textures with the light at each of the metadata's `film.lights`. Something hidden has a scale of 0. Where the light
+// of a still layer changes, the extras of its material are {"omnistereo": {"change": [...]}}, the eight numbers of
+// ChangePlace in their order: their place in the textures of the metadata's `film.changes`.
 //
 // ods/layers/file/layers_info.h has the metadata of the file. By default, meshes are compressed with
 // EXT_meshopt_compression and textures are WebP (EXT_texture_webp). Positions are floats with the filter EXPONENTIAL,

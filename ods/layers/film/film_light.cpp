@@ -2,24 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ods/layers/film/film_light.h"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cstring>
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <utility>
 
-#include "ods/files/atomic_file.h"
-#include "ods/files/md5.h"
-#include "ods/files/read_file.h"
+#include "ods/layers/film/kept_light.h"
 #include "ods/layers/footprint.h"
 #include "ods/layers/light/display.h"
 #include "ods/layers/light/push.h"
 #include "ods/layers/rays/first_hits.h"
-#include "ods/sequence/identity.h"
 
 namespace ods {
 
@@ -90,53 +84,11 @@ struct FilmShooter {
   }
 };
 
-// Identifies a frame's light by all that it depends on.
-std::string key_of(const TexelRays& rays, const BakeOptions& options) {
-  Settings settings = options.scene;
-  const Settings of_samples = render_settings(options.render);
-  settings.insert(settings.end(), of_samples.begin(), of_samples.end());
-  const std::span bytes = std::as_bytes(std::span(rays.rays));
-  return md5(settings_text(settings) + (options.is_denoised ? "denoised" : "") +
-             md5({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
-}
-
-// Reads the light of an earlier run's textures: a key, and the colours of the texels that have rays. Returns whether it
-// is that of this frame.
-bool read_light(const std::string& path, const std::string& key, const std::vector<int>& owners, Image& light) {
-  std::error_code fault;
-  if (!std::filesystem::exists(path, fault)) return false;
-  const size_t lit = static_cast<size_t>(std::ranges::count_if(owners, [](int owner) { return owner >= 0; }));
-  const size_t size = key.size() + lit * 3 * sizeof(float);
-  if (std::filesystem::file_size(path, fault) != size || fault) return false;
-  const std::string bytes = read_text(path, size);
-  if (!bytes.starts_with(key)) return false;
-  size_t at = key.size();
-  for (size_t i = 0; i < owners.size(); i++) {
-    if (owners[i] < 0) continue;
-    std::memcpy(&light.pixels[3 * i], bytes.data() + at, 3 * sizeof(float));
-    at += 3 * sizeof(float);
-  }
-  return true;
-}
-
-void keep_light(const std::string& path, const std::string& key, const std::vector<int>& owners, const Image& light) {
-  std::string bytes = key;
-  for (size_t i = 0; i < owners.size(); i++) {
-    if (owners[i] >= 0) bytes.append(reinterpret_cast<const char*>(&light.pixels[3 * i]), 3 * sizeof(float));
-  }
-  write_file(path, bytes);
-}
-
-// The light of a frame's textures, displayed. kept: the file that has it in case of an interruption; none if empty.
+// The light of a frame's textures, displayed. kept: as for kept_light().
 Image lit_textures(FilmRays film, const Renderer& renderer, const LayerLight& light, const std::string& kept,
                    const Progress& progress) {
   const auto rays = std::make_shared<const TexelRays>(std::move(film.rays));
-  const std::string key = kept.empty() ? "" : key_of(*rays, light.bake);
-  Image all(rays->width, rays->height, 3);
-  if (kept.empty() || !read_light(kept, key, rays->owners, all)) {
-    all = bake(renderer, rays, light.bake, progress);
-    if (!kept.empty()) keep_light(kept, key, rays->owners, all);
-  }
+  Image all = kept_light(renderer, rays, light.bake, kept, progress);
   push_outwards(all, rays->owners, film.claims, kPushedRings);
   return displayed(std::move(all), light.exposure, light.tone);
 }
@@ -220,14 +172,6 @@ FilmRays film_rays(const Scene& scene, const FilmGeometry& geometry, size_t fram
     (is_lit ? film.rays.owners : film.claims)[texel.at] = texel.chart;
   });
   return film;
-}
-
-std::string unfinished_light(const std::string& path, size_t frame) {
-  return fmt::format("{}.{}", path, frame);
-}
-
-std::string finished_light(const std::string& path, size_t frame) {
-  return unfinished_light(path, frame) + ".light";
 }
 
 LayerFilm light_film(FilmGeometry geometry, const Scene& scene, vec3 eye, std::span<const size_t> frames,

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <functional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "ods/base/progress.h"
@@ -37,11 +36,6 @@ FilmRays film_rays(const Scene& scene, const FilmGeometry& geometry, size_t fram
 
 // Sets the scene to a frame and returns its renderer.
 using SetFrame = std::function<const Renderer&(size_t frame)>;
-
-// The files of a frame's light while a film is made: its samples so far, and the whole of it, from which the same call
-// continues. path: BakeOptions::unfinished.
-std::string unfinished_light(const std::string& path, size_t frame);
-std::string finished_light(const std::string& path, size_t frame);
 
 // Returns the film with its lights, at these frames. light: with options as for light_layers(); each frame has
 // files of its own, unless that has none; the finished ones remain. Throws as bake() does.

@@ -113,21 +113,24 @@ vec3 view_direction(vec2 at, float yaw, float pitch, Extent view) {
 
 class Stage : public Cli {
  protected:
+  std::string projection = "lat-long";  // of the picture,
+  Extent size = kEye;                   // and of each eye
+
   // The room as a picture with depth; returns its path.
   std::string save_room(const std::string& name = "room_360_TB.exr", bool has_depth = true) {
-    MadePicture made = make_picture(stereo_of(), kEye, {kLeft, kRight});
-    add_colour(made, [](int eye, vec2 uv, float* to) {
-      static const StereoCamera stereo = stereo_of();
-      const Ray ray = camera_ray(make_camera(stereo), eye, uv);
+    StereoCamera stereo = stereo_of();
+    stereo.projection = projection_named(projection);
+    const Camera camera = make_camera(stereo);
+    MadePicture made = make_picture(stereo, size, {kLeft, kRight});
+    add_colour(made, [camera](int eye, vec2 uv, float* to) {
+      const Ray ray = camera_ray(camera, eye, uv);
       const vec3 at = ray.origin + distance_of(ray) * ray.direction;
       const float tile = std::fmod(std::floor(2.0f * at.x) + std::floor(2.0f * at.y) + std::floor(2.0f * at.z), 2.0f);
       to[0] = to[2] = 0.2f, to[1] = tile == 0.0f ? 0.1f : 0.3f;
     });
     if (has_depth) {
-      add_layer<float>(made, {"Z"}, LayerRule::kNearest, SampleType::kFloat, [](int eye, vec2 uv, float* to) {
-        static const StereoCamera stereo = stereo_of();
-        *to = distance_of(camera_ray(make_camera(stereo), eye, uv));
-      });
+      add_layer<float>(made, {"Z"}, LayerRule::kNearest, SampleType::kFloat,
+                       [camera](int eye, vec2 uv, float* to) { *to = distance_of(camera_ray(camera, eye, uv)); });
     }
     made.picture.is_float = true;
     SaveOptions save;
@@ -179,7 +182,7 @@ struct Counts {
 
 // Compares a sent picture with the rays of an eye. Only pixels beside an edge of the true outline may differ.
 Counts compare_outline(const std::string& path, int column, int eye, float yaw, float pitch, Extent view = kView,
-                       float tangent = 1.0f) {
+                       float tangent = 1.0f, float texel = 1.8f) {
   const Image image = part_of_sent(path, column, view);
   Counts counts;
   const auto kind_at = [&](float x, float y) {
@@ -194,10 +197,10 @@ Counts compare_outline(const std::string& path, int column, int eye, float yaw, 
       const float fx = static_cast<float>(x) + 0.5f, fy = static_cast<float>(y) + 0.5f;
       const char kind = kind_at(fx, fy);
       bool is_edge = false;
-      // Outlines are exact to a pixel; what hides is exact to the picture's own texels, which are 1.2 pixels here.
+      // Outlines are exact to a pixel; what hides is exact to the picture's own texels, by default 1.2 pixels.
       for (const float off : {-1.0f, 1.0f})
         is_edge = is_edge || kind_at(fx + off, fy) != kind || kind_at(fx, fy + off) != kind;
-      for (const float off : {-1.8f, 1.8f}) {
+      for (const float off : {-texel, texel}) {
         is_edge = is_edge || (kind != 'r' && (kind_at(fx + off, fy) != kind || kind_at(fx, fy + off) != kind));
       }
       if (is_edge) continue;
@@ -361,6 +364,34 @@ TEST_F(Stage, TheyAreSeenAsByTheCameraWhereverTheHeadTurns) {
     job["looks"].push_back({{"name", name}, {"yaw", 20}, {"pitch", -30}, {"shade", shade}});
   ASSERT_EQ(browse(job), "ok");
   expect_outlines(folder), expect_sides(folder), expect_shadows(folder), expect_distances(folder);
+}
+
+// A half of the sphere, cubes whose faces meet behind an object, and a picture that is squeezed to half its width.
+struct OtherPicture {
+  const char* projection;
+  Extent size;
+  std::vector<float> yaws;
+  float texel;  // pixels of the view that hide together
+};
+
+TEST_F(Stage, TheyAreSeenInEveryKindOfPicture) {
+  need_browser();
+  for (const OtherPicture& other :
+       {OtherPicture{"vr180", {512, 512}, {0, 40}, 1.8f}, OtherPicture{"cube-3x2", {768, 512}, {0, 48}, 2.5f},
+        OtherPicture{"lat-long", {512, 512}, {0, 48}, 3.6f}}) {
+    projection = other.projection, size = other.size;
+    Json looks = Json::array();
+    for (const float yaw : other.yaws) {
+      looks.push_back({{"name", fmt::format("{}-{}-{}", projection, size.width, yaw)}, {"yaw", yaw}});
+    }
+    ASSERT_EQ(browse(looks_job("looks", looks)), "ok") << projection;
+    for (size_t i = 0; i < other.yaws.size(); i++) {
+      const std::string path = folder.path(looks[i]["name"].get<std::string>());
+      const Counts counts = compare_outline(path, 0, kLeft, other.yaws[i], 0, kView, 1.0f, other.texel);
+      EXPECT_EQ(counts.wrong, 0) << path << ": " << counts.first;
+      EXPECT_GT(counts.seen, 100) << path;
+    }
+  }
 }
 
 TEST_F(Stage, AHeadsetsEyesSeeThemInTheirPlaces) {
