@@ -59,12 +59,14 @@ static EyeMatch compare(const GrayView& left, const GrayView& right) {
 
 // --- eyes that are shifted as a whole ---
 
+namespace {
+
 struct WholeShift {
   int x = 0, y = 0;  // pixels of a view
 };
 
 // The differences of a view's pixels from the mean around them, reduced by kReduced; 0 where the picture ends.
-static Image details_of(const GrayView& view) {
+Image details_of(const GrayView& view) {
   const int width = view.width / kReduced, height = view.height / kReduced;
   Image small(width, height, 1), details(width, height, 1);
   for (int y = 0; y < height; y++) {
@@ -91,7 +93,7 @@ static Image details_of(const GrayView& view) {
   return details;
 }
 
-static double correlation_at(const Image& left, const Image& right, WholeShift by) {
+double correlation_at(const Image& left, const Image& right, WholeShift by) {
   double both = 0.0, one = 0.0, other = 0.0;
   for (int y = std::max(0, -by.y); y < std::min(left.height, left.height - by.y); y++) {
     for (int x = std::max(0, -by.x); x < std::min(left.width, left.width - by.x); x++) {
@@ -103,7 +105,7 @@ static double correlation_at(const Image& left, const Image& right, WholeShift b
 }
 
 // The shift of the right view that makes it most like the left one.
-static WholeShift find_shift(const GrayView& left, const GrayView& right) {
+WholeShift find_shift(const GrayView& left, const GrayView& right) {
   constexpr int kAcross = 12, kDown = 6;  // an eighth and a sixteenth of the width
   const Image one = details_of(left), other = details_of(right);
   WholeShift best;
@@ -117,7 +119,7 @@ static WholeShift find_shift(const GrayView& left, const GrayView& right) {
   return best;
 }
 
-static GrayView shifted(const GrayView& view, WholeShift by) {
+GrayView shifted(const GrayView& view, WholeShift by) {
   GrayView result(view.width, view.height, 1);
   for (int y = 0; y < view.height; y++) {
     for (int x = 0; x < view.width; x++) {
@@ -128,6 +130,8 @@ static GrayView shifted(const GrayView& view, WholeShift by) {
   }
   return result;
 }
+
+}  // namespace
 
 EyeMatch match_eyes(const std::vector<Image>& eyes) {
   const std::vector<GrayView> views = make_gray_views(eyes, ProjectionSetting(), false, kCoarseWidth);

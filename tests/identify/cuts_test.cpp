@@ -17,21 +17,21 @@
 namespace ods {
 namespace {
 
+ProjectionSetting window(Extent size) {
+  ProjectionSetting setting = find_projection("perspective")->setting;
+  setting.aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+  return setting;
+}
+
+Image window_of(World world, int eye, Extent size) {
+  StereoCamera camera;
+  camera.projection = window(size);
+  return seen_in(world, camera, eye, size, eye != kMono);
+}
+
 class Doubtful : public testing::Test {
  protected:
   TemporaryFolder folder;
-
-  static ProjectionSetting window(Extent size) {
-    ProjectionSetting setting = find_projection("perspective")->setting;
-    setting.aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-    return setting;
-  }
-
-  static Image window_of(World world, int eye, Extent size) {
-    StereoCamera camera;
-    camera.projection = window(size);
-    return seen_in(world, camera, eye, size, eye != kMono);
-  }
 
   StoredPicture file_of(const Truth& truth, const TwoEyes& eyes, Extent size) const {
     const std::string path = folder.path(unknown_name(truth));
@@ -113,24 +113,40 @@ TEST_F(Doubtful, AHallThatIsAlikeAheadAndBehindIsOneEye) {
   }
 }
 
+// Windows of two eyes, the right one of which is shifted as a whole, by so many pixels.
+TwoEyes shifted_eyes(World world, Extent size, int across, int down) {
+  return [=](int eye, const ProjectionSetting&, Extent) {
+    const Image image = window_of(world, eye, {size.width + across, size.height + down});
+    Image part(size.width, size.height, 3);
+    for (int y = 0; y < size.height; y++) {
+      for (int x = 0; x < size.width; x++) {
+        const float* from = eye == kLeft ? image.at(x, y) : image.at(x + across, y + down);
+        for (int c = 0; c < 3; c++) part.at(x, y)[c] = from[c];
+      }
+    }
+    return part;
+  };
+}
+
+// As on stereo cards, whose prints were cut by hand.
+TEST_F(Doubtful, EyesThatAreShiftedAsAWholeAreTwoEyes) {
+  const Extent size{720, 480};
+  for (const World world : {World::kField, World::kHall}) {
+    const TwoEyes eyes = shifted_eyes(world, size, 60, 18);
+    const Identity seen = identify(file_of({Layout::kSideBySide, window(size)}, eyes, size));
+    ASSERT_FALSE(seen.readings.empty());
+    ASSERT_TRUE(seen.best().layout) << world_name(world) << ": " << reading_text(seen.best());
+    EXPECT_EQ(arrangement_of(*seen.best().layout).how, EyePacking::kBeside) << reading_text(seen.best());
+  }
+}
+
 // A cube has the shape of a photograph.
 TEST_F(Doubtful, CamerasThatAreNotLevelShowNoCube) {
-  constexpr int kHigher = 12;  // pixels
-  const Extent size{720, 480}, whole{720, 480 + kHigher};
+  const Extent size{720, 480};
   FormatHint pair;
   pair.layout = Layout::kSideBySide;
   for (const World world : {World::kField, World::kHall}) {
-    const TwoEyes eyes = [&](int eye, const ProjectionSetting&, Extent) {
-      const Image image = window_of(world, eye, whole);
-      Image part(size.width, size.height, 3);
-      for (int y = 0; y < size.height; y++) {
-        for (int x = 0; x < size.width; x++) {
-          const float* from = image.at(x, y + (eye == kLeft ? 0 : kHigher));
-          for (int c = 0; c < 3; c++) part.at(x, y)[c] = from[c];
-        }
-      }
-      return part;
-    };
+    const TwoEyes eyes = shifted_eyes(world, size, 0, 12);
     const Identity seen = identify(file_of({Layout::kSideBySide, window(size)}, eyes, size), pair);
     ASSERT_FALSE(seen.readings.empty());
     EXPECT_EQ(seen.best().projection.kind, kPerspective) << world_name(world) << ": " << reading_text(seen.best());
