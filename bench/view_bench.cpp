@@ -181,7 +181,7 @@ class Frames {
     return run(items, "bench.html", kScript, folder);
   }
 
-  // Of files that ods testcard makes.
+  // Measures a page with files that ods testcard makes.
   std::map<std::string, double> measure(const std::vector<std::string>& cards, const std::string& page,
                                         const char* script) {
     const Folder folder;

@@ -43,7 +43,7 @@ function planet(player, viewer) {
   return t(state.planet ? 'Little planet' : 'Panorama');
 }
 
-// Of Safari on visionOS, in which <img> has controls, and <model> is there.
+// Returns whether this is Safari on visionOS, which has controls of <img>, and <model>.
 const hasSystemPlayer = () => 'controls' in HTMLImageElement.prototype || 'HTMLModelElement' in window;
 
 const LOOK = 'Look around';

@@ -250,14 +250,14 @@ vec4 cubic(float t) {
          t * vec4(-0.5, 1.5, -1.5, 0.5)));
 }
 
-const int kMostTaps = 12;
+const int kMaxTaps = 12;
 
 // Weights of the texels from `first` on, for the cubic under a tent of a squared radius. The points and their weights
 // are those of make_tent() in ods/convert/texel_filter.cpp.
 struct Taps {
   int first;
   int count;
-  float weights[kMostTaps];
+  float weights[kMaxTaps];
 };
 
 Taps taps_at(float at, float square) {
@@ -269,15 +269,15 @@ Taps taps_at(float at, float square) {
   Taps taps;
   float start = at + radius / n - radius;
   taps.first = int(floor(start)) - 1;
-  taps.count = min(int(floor(at + radius - radius / n)) + 3 - taps.first, kMostTaps);
-  for (int k = 0; k < kMostTaps; k++) taps.weights[k] = 0.0;
+  taps.count = min(int(floor(at + radius - radius / n)) + 3 - taps.first, kMaxTaps);
+  for (int k = 0; k < kMaxTaps; k++) taps.weights[k] = 0.0;
   for (int i = 0; i < int(n); i++) {
     float point = start + float(i) * 2.0 * radius / n;
     float whole = floor(point);
     vec4 four = cubic(point - whole) * unit * float(min(2 * i + 1, 2 * (int(n) - i) - 1));
     int k = int(whole) - 1 - taps.first;
     for (int j = 0; j < 4; j++) {
-      if (k + j < kMostTaps) taps.weights[k + j] += four[j];
+      if (k + j < kMaxTaps) taps.weights[k + j] += four[j];
     }
   }
   return taps;

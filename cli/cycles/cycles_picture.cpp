@@ -21,7 +21,7 @@
 namespace {
 
 constexpr double kShareOfCycles = 0.97;  // of the time of a picture
-constexpr int kMostWidth = 65536;        // in Blender
+constexpr int kMaxWidth = 65536;        // in Blender
 
 // Two halves of the samples show the noise. A part of a picture has none to show alone.
 size_t parts_of_eye(const CyclesPicture& picture) {
@@ -46,7 +46,7 @@ Rendered rendered_for(const CyclesPicture& picture) {
   source.camera = whole.camera;
   const ods::Extent fitting = fitting_extent(source, picture.camera.projection);
   const double width = 4096.0 * picture.eye.width / fitting.width;
-  whole.eye.width = std::clamp(2 * static_cast<int>(std::ceil(0.5 * width)), 64, kMostWidth);
+  whole.eye.width = std::clamp(2 * static_cast<int>(std::ceil(0.5 * width)), 64, kMaxWidth);
   whole.eye.height = whole.eye.width / 2;
   whole.bands = ods::cycles_bands(whole.camera, whole.eye.height);
   return whole;

@@ -15,7 +15,7 @@
 namespace {
 
 constexpr int kFewer = 4;  // times fewer samples: with and without what moves, noise is much the same
-constexpr size_t kMostChangeBytes = size_t{128} << 20;  // of the still layers' light, on graphics cards
+constexpr size_t kMaxChangeBytes = size_t{128} << 20;  // of the still layers' light, on graphics cards
 
 size_t lit_texels(const ods::CoarseLayers& layers) {
   return static_cast<size_t>(std::ranges::count_if(layers.rays->owners, [](int owner) { return owner >= 0; }));
@@ -51,7 +51,7 @@ ods::LightChange change_of_still(const FilmJob& film, const std::function<const 
                           ods::part_of(progress, static_cast<double>(i) / n, static_cast<double>(i + 1) / n));
     parts.push_back(ods::changed_parts(film.still, film.without, now));
   }
-  return ods::light_change(film.still, parts, kMostChangeBytes);
+  return ods::light_change(film.still, parts, kMaxChangeBytes);
 }
 
 }  // namespace

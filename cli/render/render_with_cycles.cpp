@@ -287,7 +287,7 @@ TimeOptions cycles_time(const RenderJob& job) {
   return time;
 }
 
-// What Cycles renders with, and the rest.
+// The settings of Cycles, before the rest.
 static ods::Settings with_cycles(const RenderJob& job, const ods::Settings& rest) {
   ods::Settings settings = {{"`renderer`", "cycles", ""}, {"Blender", job.cycles->scene().blender, ""}};
   settings.insert(settings.end(), rest.begin(), rest.end());

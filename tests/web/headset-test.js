@@ -707,7 +707,7 @@ function composed({ frame, init, transform }, eye, [x, y, z]) {
 
 const far = (a, b) => Math.hypot(...a.map((value, i) => value - b[i]));
 
-// What the shader shows to each eye, in directions in which the eyes differ.
+// The colours that the shader shows to each eye, in directions in which the eyes differ.
 function drawnLooks({ panorama, picture }) {
   const { gl } = panorama;
   const pixel = new Uint8Array(4);
@@ -726,7 +726,7 @@ function drawnLooks({ panorama, picture }) {
   return looks;
 }
 
-// How far a layer is from the shader's view on average, code values: of the same eye, and of the other one.
+// The mean differences of a layer from the shader's views, code values: of the same eye, and of the other one.
 function misses(layer, looks, turn) {
   const sums = [0, 0];
   for (const { yaw, pitch, eyes } of looks) {

@@ -18,7 +18,7 @@ constexpr float kNeutral = 128.0f / 255.0f;  // no change
 constexpr float kNoise = 2.5f / 255.0f;      // a change of 4 % in linear light
 constexpr int kGrown = 2;                    // texels around a change
 constexpr int kCrowd = 4;                    // of the 9 texels around one that changes: fewer are noise
-constexpr int kMostHalvings = 6;
+constexpr int kMaxHalvings = 6;
 
 // The ray of a block of a texture: that of its lit texel that is nearest to the middle. It covers the block where all of
 // it is lit, on one surface, and flat.
@@ -287,7 +287,7 @@ LightChange light_change(const CoarseLayers& layers, std::span<const std::vector
   int halvings = 0;
   const auto place_all = [&] { return place_cells(cells, border_of(halvings)); };
   glm::ivec2 size = place_all();
-  while (halvings < kMostHalvings && parts.size() * texture_bytes(texels_in(size)) >> (2 * halvings) > most) {
+  while (halvings < kMaxHalvings && parts.size() * texture_bytes(texels_in(size)) >> (2 * halvings) > most) {
     halvings++;
     size = place_all();
   }

@@ -129,7 +129,7 @@ TEST_F(HeadsetBrowser, FilmsAreLayersOfTheBrowserWhereTheseAreTrue) {
   EXPECT_EQ(folder.read("said"), "ok") << "films were left out";
 }
 
-// Where the browser shows the page itself to each eye.
+// A browser that shows the page itself to each eye.
 TEST_F(HeadsetBrowser, BothEyesSeeThePageWhereTheBrowserCanShowIt) {
   make("first_360_TB.png");
   make("second_360_TB.png");

@@ -29,7 +29,7 @@ struct Look {
 
 class ViewTruth : public Cli {
  protected:
-  // What the left eye sees in Chromium.
+  // The view of the left eye in Chromium.
   std::vector<Image> looks(const std::string& path, const std::vector<Look>& all) {
     nlohmann::json list;
     for (size_t i = 0; i < all.size(); i++) {
