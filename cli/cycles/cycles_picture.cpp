@@ -21,7 +21,7 @@
 namespace {
 
 constexpr double kShareOfCycles = 0.97;  // of the time of a picture
-constexpr int kMaxWidth = 65536;        // in Blender
+constexpr int kMaxWidth = 65536;         // in Blender
 
 // Two halves of the samples show the noise. A part of a picture has none to show alone.
 size_t parts_of_eye(const CyclesPicture& picture) {
