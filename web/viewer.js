@@ -66,6 +66,7 @@ export class Viewer extends EventTarget {
     this.picture.loop(slept.loops);
     video.muted = slept.muted;
     if (slept.playing) video.play().catch(() => {});
+    else video.pause(); // a film of layers plays at once
   }
 
   // Frees the picture and returns the panorama, for another viewer.
