@@ -238,11 +238,12 @@ def verdict(ods, truth, path):
     if os.path.exists(made):
         os.remove(made)
     said = done.stderr
-    unsure = "say which with" in said
+    unsure = "specify it with" in said
     if done.returncode != 0:
         if truth.startswith("none") and truth[6:] in said:
             return 0, said
-        return (1 if done.returncode == 3 and "nothing tells" in said else 2), said
+        asks = "is ambiguous" in said or "is not recorded" in said
+        return (1 if done.returncode == 3 and asks else 2), said
     if "two fisheyes that look ahead and back" in said:
         taken = "front and back"
     elif "a pair of fisheyes" in said:
