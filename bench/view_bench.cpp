@@ -30,11 +30,33 @@ using namespace ods;
 constexpr int kMovingFrames = 40, kStillFrames = 2;
 constexpr int kWidth = 640, kHeight = 360;
 
-// Draws frames while the look turns, and reports the start and the end. Each frame is read back, because drivers would
-// defer it.
-constexpr const char* kScript = R"(
+// The start of scripts that measure frames: measure() runs `run` once, then `count` times between reports of the start
+// and the end. Each frame is read back, because drivers would defer it.
+const std::string kMeasure = R"(
 import { Panorama, compile, raysOf } from './panorama.js';
 import { openPicture } from './picture.js';
+const post = (path, body = '') => fetch(path, { method: 'POST', body });
+const [width, height, moving, still] = (await (await fetch('sizes')).text()).split(' ').map(Number);
+const canvas = Object.assign(document.createElement('canvas'), { width, height });
+document.body.append(canvas);
+const view = await (await fetch('view.json')).json();
+const panorama = new Panorama(canvas);
+const { gl } = panorama;
+const pixel = new Uint8Array(4);
+async function measure(name, count, run) {
+  const frame = (i) => {
+    run(i);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+  };
+  frame(0);
+  await post('begin');
+  for (let i = 1; i <= count; i++) frame(i);
+  await post(`end/${name}/${count}`);
+}
+)";
+
+// Draws frames while the look turns.
+const std::string kScript = kMeasure + R"(
 const PLAIN = `#version 300 es
 precision highp float;
 uniform sampler2D picture;
@@ -45,32 +67,15 @@ void main() {
   vec3 d = normalize(rays * vec3(screen, 1.0));
   color = texture(picture, vec2(0.5 + atan(d.x, -d.z) / 6.2831853, 0.5 - asin(d.y) / 3.1415927));
 }`;
-const post = (path, body = '') => fetch(path, { method: 'POST', body });
-const [width, height, moving, still] = (await (await fetch('sizes')).text()).split(' ').map(Number);
-const canvas = Object.assign(document.createElement('canvas'), { width, height });
-document.body.append(canvas);
-const view = await (await fetch('view.json')).json();
-const panorama = new Panorama(canvas);
-const { gl } = panorama;
-const pixel = new Uint8Array(4);
-async function measure(name, count, draw) {
-  const frame = (i) => {
-    draw(raysOf({ yaw: 1.5 * i, pitch: 0.5 * i, fov: 90 }, width / height));
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
-  };
-  frame(0);
-  await post('begin');
-  for (let i = 1; i <= count; i++) frame(i);
-  await post(`end/${name}/${count}`);
-}
+const turned = (i) => raysOf({ yaw: 1.5 * i, pitch: 0.5 * i, fov: 90 }, width / height);
 try {
   const picture = await openPicture(panorama, view, view.items[0], {});
   const box = [0, 0, width, height];
   // As a slow GPU is soon asked to draw, and as others are.
-  await measure('moving', moving, (rays) => panorama.draw(picture, { rays, box, moves: true, cheap: true }));
-  await measure('anaglyph', moving, (rays) => panorama.draw(picture, { rays, box, moves: true, cheap: true, show: 'anaglyph' }));
-  await measure('fine', moving, (rays) => panorama.draw(picture, { rays, box, moves: true }));
-  await measure('still', still, (rays) => panorama.draw(picture, { rays, box }));
+  await measure('moving', moving, (i) => panorama.draw(picture, { rays: turned(i), box, moves: true, cheap: true }));
+  await measure('anaglyph', moving, (i) => panorama.draw(picture, { rays: turned(i), box, moves: true, cheap: true, show: 'anaglyph' }));
+  await measure('fine', moving, (i) => panorama.draw(picture, { rays: turned(i), box, moves: true }));
+  await measure('still', still, (i) => panorama.draw(picture, { rays: turned(i), box }));
   const bitmap = await createImageBitmap(await (await fetch(view.items[0].image)).blob());
   gl.activeTexture(gl.TEXTURE0);
   gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
@@ -78,9 +83,9 @@ try {
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
   const plain = compile(gl, PLAIN);
   gl.viewport(...box);
-  await measure('plain', moving, (rays) => {
+  await measure('plain', moving, (i) => {
     gl.useProgram(plain);
-    gl.uniformMatrix3fv(gl.getUniformLocation(plain, 'rays'), false, rays);
+    gl.uniformMatrix3fv(gl.getUniformLocation(plain, 'rays'), false, turned(i));
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   });
   await post('done', 'ok');
@@ -91,31 +96,11 @@ try {
 
 // Frames of a film: uploaded; the eye that is shown is cut; mip levels are made; and it is drawn, as soon as a slow GPU is
 // asked to. Counts what the page itself does for a frame while the film is magnified.
-constexpr const char* kFilmScript = R"(
-import { Panorama, raysOf } from './panorama.js';
-import { openPicture } from './picture.js';
-const post = (path, body = '') => fetch(path, { method: 'POST', body });
-const [width, height] = (await (await fetch('sizes')).text()).split(' ').map(Number);
-const canvas = Object.assign(document.createElement('canvas'), { width, height });
-document.body.append(canvas);
-const view = await (await fetch('view.json')).json();
-const panorama = new Panorama(canvas);
-const { gl } = panorama;
-const pixel = new Uint8Array(4);
+const std::string kFilmScript = kMeasure + R"(
 const counts = { texImage2D: 0, generateMipmap: 0, drawArrays: 0, drawElements: 0 };
 for (const name of Object.keys(counts)) {
   const own = gl[name].bind(gl);
   gl[name] = (...values) => (counts[name]++, own(...values));
-}
-async function measure(name, count, run) {
-  run();
-  gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
-  await post('begin');
-  for (let i = 0; i < count; i++) {
-    run(i);
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
-  }
-  await post(`end/${name}/${count}`);
 }
 try {
   const picture = await openPicture(panorama, view, view.items[0], {});
@@ -139,7 +124,7 @@ try {
 
 // The next picture of a folder, milliseconds from the key to the picture that has replaced the other one, and the files
 // that are fetched meanwhile.
-constexpr const char* kFolderScript = R"(
+const std::string kFolderScript = R"(
 const post = (path, body = '') => fetch(path, { method: 'POST', body });
 const heard = (viewer, name) => new Promise((done) => viewer.addEventListener(name, done, { once: true }));
 const sleep = (time) => new Promise((done) => setTimeout(done, time));
@@ -183,7 +168,7 @@ class Frames {
 
   // Measures a page with files that ods testcard makes.
   std::map<std::string, double> measure(const std::vector<std::string>& cards, const std::string& page,
-                                        const char* script) {
+                                        const std::string& script) {
     const Folder folder;
     std::vector<ViewItem> items;
     for (const std::string& card : cards) {
@@ -213,8 +198,8 @@ class Frames {
     save_picture(convert(made.picture, same_format(made.picture)).rows, nullptr, options, path);
   }
 
-  std::map<std::string, double> run(const std::vector<ViewItem>& items, const std::string& page, const char* script,
-                                    const Folder& folder) {
+  std::map<std::string, double> run(const std::vector<ViewItem>& items, const std::string& page,
+                                    const std::string& script, const Folder& folder) {
     export_site(items, folder.path("site"));
     script_ = script;
     end_ = run_in_browser({chromium(folder.path("profile")), folder.path("home"), page,
@@ -248,7 +233,7 @@ class Frames {
   }
 
   std::atomic<pid_t> browser_ = -1;
-  const char* script_ = nullptr;
+  std::string script_;
   double begin_ = 0.0;
   std::map<std::string, double> times_;
 };
@@ -269,7 +254,7 @@ void frame(benchmark::State& state, const std::string& projection, Extent eye, b
 }
 
 void of_cards(benchmark::State& state, const std::vector<std::string>& cards, const std::string& page,
-              const char* script) {
+              const std::string& script) {
   if (chromium("").empty()) return state.SkipWithError("there is no chromium");
   for (auto _ : state) {
     Frames frames;

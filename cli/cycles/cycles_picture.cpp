@@ -65,10 +65,10 @@ void append(ods::EyeImage& above, const ods::EyeImage& below) {
   }
 }
 
-// One eye's picture from the files of its parts, each of all bands. counts: gets the number of samples, if any are
-// recorded.
+// One eye's picture from the files of its parts, each of all bands. counts: gets the number of samples, if it is not
+// null.
 ods::EyeImage read_eye(const Rendered& rendered, const ods::FrameNames& names, int first, size_t parts,
-                       ods::CyclesPasses passes, ods::Image& counts) {
+                       ods::CyclesPasses passes, ods::Image* counts) {
   ods::EyeImage eye;
   for (size_t band = 0; band < rendered.bands.size(); band++) {
     std::vector<std::string> files;
@@ -80,9 +80,11 @@ ods::EyeImage read_eye(const Rendered& rendered, const ods::FrameNames& names, i
     passes.camera = rendered.bands[band].camera;
     passes.camera.position = position, passes.camera.yaw = yaw;
     ods::EyeImage rows = read_cycles(files, passes);
-    const ods::Image more = ods::read_cycles_counts(files);
-    counts.pixels.insert(counts.pixels.end(), more.pixels.begin(), more.pixels.end());
-    counts.width = more.width, counts.height += more.height, counts.channels = 1;
+    if (counts) {
+      const ods::Image more = ods::read_cycles_counts(files);
+      counts->pixels.insert(counts->pixels.end(), more.pixels.begin(), more.pixels.end());
+      counts->width = more.width, counts->height += more.height, counts->channels = 1;
+    }
     if (band == 0) {
       eye = std::move(rows);
     } else {
@@ -187,7 +189,7 @@ CyclesRendered render_eyes(CyclesSession& session, const CyclesPicture& picture,
   for (size_t eye = 0; eye < picture.eyes.size(); eye++) {
     const ods::CyclesPasses passes{result.camera, picture.eyes[eye], session.scene().foreign.unit, picture.has_alpha};
     const int first = numbers[eye * parts_each * bands];
-    ods::Image& counts = result.samples.emplace_back();
+    ods::Image* const counts = picture.statistics ? &result.samples.emplace_back() : nullptr;
     result.picture.eyes.push_back(read_eye(rendered, parts, first, parts_each, passes, counts));
   }
   return result;
