@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The bar, the settings and the help: they follow the viewer and control it.
-import { ACTIONS, actionsOf, applies, keysOf } from './actions.js';
+import { ACTIONS, applies, keysOf } from './actions.js';
 import { make } from './elements.js';
 import { angleOf, hasOtherLayouts } from './form.js';
 import { degrees } from './geometry.js';
@@ -14,21 +14,6 @@ import { widest } from './viewer.js';
 import { t } from './translate.js';
 
 const GAP = 8; // pixels
-// The functions of a headset's buttons (headset.js).
-const BUTTONS = [
-  ['Look down', 'the menu’s handle: point at it and press, or look at it until its ring is full'],
-  ['Hold the grip', 'the menu: files, seek bar, exposure, recentre and the rest; a press beside it closes it'],
-  ['Trigger or pinch', 'play or pause; with a picture: next'],
-  ['Hold trigger or pinch', 'recentre'],
-  ['Stick left, right', 'back or ahead by 10 s; with a picture: previous, next'],
-  ['Stick up, down', 'exposure, of HDR and EXR'],
-  ['In the studio', 'stick left, right: where the merge starts; up, down: where it ends; trigger: settings A or B'],
-  ['Press the stick', 'recentre'],
-  ['Grip', 'next; of the left hand: previous'],
-  ['A or X', 'swap the eyes'],
-  ['B or Y', 'leave'],
-];
-const isTouch = () => matchMedia('(pointer: coarse)').matches;
 
 function fill(select, rows) {
   select.replaceChildren(...rows.map(([value, label]) => make('option', { value }, label)));
@@ -36,7 +21,7 @@ function fill(select, rows) {
 
 const signed = (value, digits) => `${value < 0 ? '−' : ''}${Math.abs(value).toFixed(digits)}`;
 const two = (value) => String(Math.floor(value)).padStart(2, '0');
-const titled = (label) => label.charAt(0).toUpperCase() + label.slice(1);
+export const titled = (label) => label.charAt(0).toUpperCase() + label.slice(1);
 
 // Names, tooltips and keys of the buttons in an element, from their actions.
 export function nameButtons(element) {
@@ -232,22 +217,5 @@ export class Controls {
     const clock = (seconds) => `${Math.floor(seconds / 60)}:${two(seconds % 60)}`;
     this.button('subtitles').hidden = !this.viewer.about.video?.subtitles;
     find('time').replaceChildren(clock(at / fps) + (Number.isFinite(frames) ? ` / ${clock(frames / fps)}` : ''), make('span', {}, video.paused ? `  ${t('frame {}', at)}` : ''));
-  }
-
-  // Lists the actions that apply now, with the most common ones first.
-  fillHelp() {
-    const { viewer, find } = this;
-    const rows = actionsOf(this.player).filter(({ label }) => label);
-    const groups = [...new Set(rows.map(({ group }) => group))];
-    const first = viewer.scene ? 'Studio' : viewer.picture?.video ? 'Video' : 'Look around';
-    groups.sort((a, b) => (b === first) - (a === first));
-    const list = (pairs) => make('dl', {}, ...pairs.map(([what, ...does]) => make('div', {}, make('dt', {}, what), make('dd', {}, ...does))));
-    const keys = (action) => keysOf(action).flatMap((text) => [make('kbd', {}, text), ' ']);
-    const section = (title, pairs, className = '') => make('section', { className }, make('h2', {}, title), list(pairs));
-    // Keys are left out on touch devices without a keyboard.
-    find('keys').replaceChildren(...(isTouch() ? [] : groups.map((group) =>
-      section(t(group), rows.filter((row) => row.group === group).map((action) => [titled(t(action.label)), ...keys(action)])))));
-    if (navigator.xr) find('keys').append(section(t('In the headset'), BUTTONS.filter(([what]) => Boolean(viewer.scene) || !/studio/.test(what)).map((pair) => pair.map((text) => t(text))), 'words'));
-    find('gestures').textContent = t(isTouch() ? 'Drag to look around, pinch to zoom' : 'Drag to look around; turn the wheel to zoom.');
   }
 }

@@ -153,10 +153,9 @@ export class Player {
     this.find('settings').togglePopover();
   }
 
-  help() {
-    this.controls.fillHelp();
-    this.find('help').showModal();
-    this.find('help').focus(); // not its button, whose tooltip would appear
+  async help() {
+    const { showHelp } = await import('./help.js');
+    if (!this.find('help').open) showHelp(this);
   }
 
   // Turns slowly to the right, until the user grabs the picture.

@@ -112,7 +112,7 @@ async function move({ item, other, half, ...size }) {
   viewer.set({ x: 0.0525, z: -0.011 });
   const hash = writeState({ item, look: state, choice: {} });
   expect(/&x=0.053&z=-0.011&/.test(hash) && readState(hash).look.z === -0.011, `a link is ${hash}`);
-  player.help();
+  await player.help();
   expect(/Move the head \(Shift: finely\)/.test(document.getElementById('keys').textContent) && !/little planet/i.test(document.getElementById('keys').textContent), 'the help has other keys');
   document.getElementById('help').close();
   const isShown = (id) => !document.getElementById(`${id}-row`).hidden;

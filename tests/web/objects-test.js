@@ -387,7 +387,7 @@ async function keys() {
   expect(object.turn === 10, `undone, it is turned by ${object.turn}`);
   press('Escape');
   expect(!objects.chosen, 'Escape does not leave it');
-  player.help();
+  await player.help();
   expect(/choose an object/i.test(document.getElementById('keys').textContent), 'the help does not name it');
   document.getElementById('help').close();
   const panel = document.getElementById('objects');

@@ -190,7 +190,8 @@ async function testNotes(player) {
 
 async function testHelp(player) {
   press('?');
-  expect(find('help').open && !/frame/i.test(find('keys').textContent), 'the help is not of what is open');
+  await until(() => find('help').open, 'the help does not open');
+  expect(!/frame/i.test(find('keys').textContent), 'the help is not of what is open');
   expect(find('keys').querySelector('h2').textContent === 'Look around', 'the help does not begin with what matters');
   find('help').close();
   expect(find('why').hidden === !find('reason').textContent, 'the reason');
@@ -293,6 +294,7 @@ async function testColors(player) {
   press('o');
   press('x');
   press('?');
+  await until(() => find('help').open, 'the help does not open');
   count += testContrast(document.body);
   find('help').close();
   expect(count > 60, `only ${count} texts`);
@@ -604,6 +606,7 @@ async function testStudioPage() {
   press('x');
   expect(!viewer.compare, 'the comparison does not end');
   press('?');
+  await until(() => find('help').open, 'the help does not open');
   expect(find('keys').querySelector('h2').textContent === 'Studio', 'the help does not begin with the studio');
   find('help').close();
 }
