@@ -232,11 +232,19 @@ int covered_rows(const Image& eye, const Image* other) {
   return 0;
 }
 
+// A black row is not evidence for a pole: it may be a border, or the ground on which a chart is drawn.
+bool is_black(const Image& eye, int y) {
+  for (int x = 0; x < eye.width; x++) {
+    if (value(eye, x, y) >= kDark) return false;
+  }
+  return true;
+}
+
 // Towards a pole, a picture is increasingly stretched along its rows.
 double stretched_at_ends(const Image& eye, bool has_nadir) {
   double maximum = -1e9;
   for (const bool is_top : {true, false}) {
-    if (!is_top && !has_nadir) continue;
+    if ((!is_top && !has_nadir) || is_black(eye, is_top ? 0 : eye.height - 1)) continue;
     const auto at = is_top ? stretch_in_rows(eye, 0.0, 0.06) : stretch_in_rows(eye, 0.94, 1.0);
     const auto off = is_top ? stretch_in_rows(eye, 0.02, 0.12) : stretch_in_rows(eye, 0.88, 0.98);
     if (at && off && *off > 0.0) maximum = std::max(maximum, std::log(*at / *off));
@@ -249,12 +257,13 @@ void find_poles(const Image& eye, bool has_nadir, Marks& marks) {
   marks.spread = 0.0;
   for (const bool is_top : {true, false}) {
     if (!is_top && !has_nadir) continue;
-    const double at_pole = far_apart(eye, is_top ? 0 : eye.height - 1);
+    const int row = is_top ? 0 : eye.height - 1;
+    const double at_pole = far_apart(eye, row);
     const int begin = eye.height / 10, end = eye.height / 4;
     double off = 0.0;
     for (int i = begin; i < end; i += 2) off += far_apart(eye, is_top ? i : eye.height - 1 - i) * 2.0 / (end - begin);
     const double spread = (at_pole + 0.001) / (off + 0.001);
-    const double likely = std::clamp(std::log(0.45 / spread) / std::log(2.0), -1.0, 1.0);
+    const double likely = std::clamp(std::log(0.45 / spread) / std::log(2.0), -1.0, is_black(eye, row) ? 0.0 : 1.0);
     const double weight = enough(std::max(off, at_pole));
     minimum = std::min(minimum, weight * likely);
     both += 0.5 * weight * likely;
