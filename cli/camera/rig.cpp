@@ -101,6 +101,7 @@ std::pair<ods::Sidecar, float> survey(RigJob& job) {
   job.scene.has_places = true;  // the rig is for programs that have the scene in its own size
   job.scene.camera = job.source.camera.view_point;
   ods::Scene scene = open_scene(job.scene);
+  expect_content(scene, job.scene.name);
   file.camera = place_camera(job.source.camera, scene);
   if (const std::optional<float> limit = job.source.camera.changes.merge_limit) {
     ods::Image map = ods::merge_map_of(ods::shares_seen(ods::CpuRenderer(scene), file.camera, *limit));

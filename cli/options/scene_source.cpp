@@ -286,7 +286,7 @@ static void add_objects(Scene& scene, const SceneSource& source) {
   }
 }
 
-static void check_content(const Scene& scene, const std::string& name) {
+void expect_content(const Scene& scene, const std::string& name) {
   const auto nothing = [&](const char* why) {
     return ods::Error(ods::ErrorKind::kInput,
                       fmt::format("'{}' has nothing to render: {} (ods info lists its contents)", name, why));
@@ -337,7 +337,7 @@ Scene open_lit_scene(const SceneSource& given, bool transparent) {
   Scene scene = open_scene(source, nullptr, [&](const ods::SceneRays& rays, const ods::Survey& survey) {
     planned = {survey, ods::plan_light(rays, survey, choices)};
   });
-  check_content(scene, source.name);
+  expect_content(scene, source.name);
   add_objects(scene, source);
   warn_of_invisible(scene);
   note_sheet_glass(scene);

@@ -81,6 +81,9 @@ ods::LightChoices choices_for(SceneSource& source, bool transparent);
 // ods::settle() does (neither for built-in scenes).
 ods::Scene open_scene(const SceneSource& source, ods::Settled* settled = nullptr, const ods::LookAround& look = {});
 
+// Throws Error(kInput) if the scene has nothing to render. Notes that everything is hidden while it is at rest.
+void expect_content(const ods::Scene& scene, const std::string& name);
+
 // Opens a scene for rendering, with light: light_scene(). Notes glass that would look different if it were solid.
 // Throws Error(kInput) if there is nothing to render.
 ods::Scene open_lit_scene(const SceneSource& source, bool transparent);

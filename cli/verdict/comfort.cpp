@@ -22,6 +22,7 @@ namespace {
 
 ods::JudgedPicture judge_scene(const ComfortJob& job) {
   const ods::Scene scene = open_scene(job.scene);
+  expect_content(scene, job.scene.name);
   ods::StereoCamera camera = place_camera(job.camera, scene);
   const ods::CpuRenderer renderer(scene);
   if (job.camera.changes.merge_limit) {

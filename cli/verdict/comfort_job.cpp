@@ -88,12 +88,13 @@ void refuse_camera(const ComfortJob& job) {
   }
 }
 
-// A picture by its name.
+// A picture by its name or its first bytes.
 ComfortInput input_of(const std::string& path) {
-  if (ods::format_of_path(path)) return ComfortInput::kPicture;
+  if (ods::names_picture(path)) return ComfortInput::kPicture;
   std::error_code ignored;
-  const bool is_video = std::filesystem::is_regular_file(path, ignored) && ods::is_video(path);
-  return is_video ? ComfortInput::kVideo : ComfortInput::kScene;
+  if (!std::filesystem::is_regular_file(path, ignored)) return ComfortInput::kScene;
+  if (ods::format_of_file(ods::FileInput(path))) return ComfortInput::kPicture;
+  return ods::is_video(path) ? ComfortInput::kVideo : ComfortInput::kScene;
 }
 
 }  // namespace

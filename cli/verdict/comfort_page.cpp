@@ -267,8 +267,10 @@ void save_page(const ComfortJob& job, const ods::VideoComfort& video) {
   };
   const ods::StrainLimits vertical = ods::strain_limits(ods::Strain::kVertical, job.comfort.viewer);
   add("The nearest thing", "metres", {}, &Moment::nearest, false);
-  add("Maximum convergence", "degrees", {}, &Moment::vergence, false);
-  add("Vertical disparity at its worst", "minutes of arc", vertical, &Moment::vertical, false);
+  if (job.comfort.rules == ods::ComfortRules::kStrain) {
+    add("Maximum convergence", "degrees", {}, &Moment::vergence, false);
+    add("Vertical disparity at its worst", "minutes of arc", vertical, &Moment::vertical, false);
+  }
   for (const auto& [ride, member] : {std::pair{ods::Ride::kTurn, &Moment::turn},
                                      {ods::Ride::kTilt, &Moment::tilt},
                                      {ods::Ride::kSpeed, &Moment::speed},

@@ -57,6 +57,11 @@ Json place_json(const JudgedPicture& judged, const StrainedPlace& place) {
           {"share", place.share}};
 }
 
+// Metres in whole millimetres, rounded down.
+double millimetres(float metres) {
+  return std::floor(1e3 * double{metres}) / 1e3;
+}
+
 }  // namespace
 
 std::string direction_text(const StrainedPlace& place) {
@@ -72,10 +77,9 @@ std::string share_text(double share) {
 }
 
 std::string cure_text(const StrainedPlace& place) {
-  if (place.level < ComfortLevel::kWarning) return "";
-  std::string text = fmt::format("move it to at least {:.2f} m", place.enough);
-  if (place.strain != Strain::kRule) text += fmt::format(", or --ipd {:.3f}", std::floor(1e3 * place.ipd) / 1e3);
-  return text;
+  const std::string move = ods::cure_by_distance(place);
+  if (move.empty() || place.strain == Strain::kRule || !(millimetres(place.ipd) > 0.0)) return move;
+  return move + fmt::format(", or --ipd {:.3f}", millimetres(place.ipd));
 }
 
 std::string measured_text(const ods::MeasuredEyes& eyes) {
@@ -99,9 +103,10 @@ std::vector<std::string> cure_lines(const ComfortJob& job, const JudgedPicture& 
   }
   if (!verdict.worst() || verdict.worst()->level < ComfortLevel::kWarning) return lines;
   const bool is_rule = job.comfort.rules != ComfortRules::kStrain;
-  const double ipd = std::floor(1e3 * double{verdict.largest_ipd}) / 1e3;
-  lines.push_back("move these things, or the camera" +
-                  (is_rule ? "" : fmt::format("; or --ipd {:.3g} instead of {:.3g}", ipd, judged.camera.ipd)));
+  const double ipd = millimetres(verdict.largest_ipd);
+  lines.push_back(
+      "move these things, or the camera" +
+      (is_rule || !(ipd > 0.0) ? "" : fmt::format("; or --ipd {:.3g} instead of {:.3g}", ipd, judged.camera.ipd)));
   if (verdict.max[Strain::kVertical] > ods::strain_limits(Strain::kVertical, job.comfort.viewer).warning) {
     lines.emplace_back("above and below: --merge auto keeps as much stereo as the distances there allow");
   }
@@ -133,9 +138,8 @@ void print_text(const ComfortJob& job, const JudgedPicture& judged) {
   put_out(fmt::format("{} of the picture, by solid angle; where people look: {}\n", shares_text(verdict.share),
                       shares_text(verdict.looked)));
   if (verdict.head_roll > 0.0 && verdict.head_roll < 89.0) {
-    put_out(
-        fmt::format("a head may tilt sideways by {:.2g} degrees before the eyes must turn apart vertically too far\n",
-                    verdict.head_roll));
+    put_out(fmt::format("a head may tilt sideways by {:.2g} degrees before the eyes must diverge vertically too far\n",
+                        verdict.head_roll));
   }
   for (const StrainedPlace& place : verdict.places) print_place(place);
   for (const std::string& cure : cure_lines(job, judged)) put_out(fmt::format("cure: {}\n", cure));
@@ -169,7 +173,7 @@ void print_json(const ComfortJob& job, const JudgedPicture& judged) {
       }
     }
   }
-  json["largest_ipd"] = verdict.largest_ipd;
+  json["largest_ipd"] = job.comfort.rules == ComfortRules::kStrain ? Json(verdict.largest_ipd) : Json();
   json["head_roll"] = verdict.head_roll;
   json["share"] = shares_json(verdict.share);
   json["looked"] = shares_json(verdict.looked);

@@ -16,11 +16,14 @@ using ods::Json;
 
 namespace {
 
-Json moment_json(const ods::VideoMoment& moment) {
-  Json json = {{"seconds", moment.seconds},   {"level", comfort_level_name(moment.level)},
-               {"matched", moment.matched},   {"nearest", ods::json_number(moment.nearest)},
-               {"vergence", moment.vergence}, {"vertical", moment.vertical},
+Json moment_json(const ods::VideoMoment& moment, bool has_strains) {
+  Json json = {{"seconds", moment.seconds},
+               {"level", comfort_level_name(moment.level)},
+               {"matched", moment.matched},
+               {"nearest", ods::json_number(moment.nearest)},
                {"middle", moment.middle}};
+  json["vergence"] = has_strains ? Json(moment.vergence) : Json();
+  json["vertical"] = has_strains ? Json(moment.vertical) : Json();
   if (moment.is_carried) {
     json["turn"] = moment.turn;
     json["tilt"] = moment.tilt;
@@ -76,7 +79,8 @@ void print_json(const ComfortJob& job, const ods::VideoComfort& video) {
                {"seconds", video.seconds},      {"every", video.every},
                {"precision", video.precision},  {"moments", Json::array()},
                {"strains", Json::array()}};
-  for (const ods::VideoMoment& moment : video.moments) json["moments"].push_back(moment_json(moment));
+  const bool has_strains = job.comfort.rules == ods::ComfortRules::kStrain;
+  for (const ods::VideoMoment& moment : video.moments) json["moments"].push_back(moment_json(moment, has_strains));
   for (const ods::VideoStrain& strain : video.strains) {
     Json each = {{"name", strain.name},   {"level", comfort_level_name(strain.level)},
                  {"from", strain.from},   {"to", strain.to},

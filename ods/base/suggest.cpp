@@ -84,7 +84,7 @@ std::string taken_by(std::string_view start) {
   const auto begins = [&](std::string_view bytes) { return start.starts_with(bytes); };
   if (start.size() >= 12 && start.substr(4, 4) == "ftyp") {
     for (const std::string_view brand : {"heic", "heix", "mif1", "msf1", "avif", "avis", "hevc"}) {
-      if (start.substr(8, 4) == brand) return "; it is a picture: ods probe, lint, convert and view take pictures";
+      if (start.substr(8, 4) == brand) return "; it is a picture: ods probe, lint, convert, comfort and view take pictures";
     }
   }
   for (const auto& [bytes, what] : kForeign) {
@@ -94,7 +94,7 @@ std::string taken_by(std::string_view start) {
     if (begins(bytes)) return fmt::format("; it is {}", what);
   }
   if (start.substr(std::min<size_t>(4, start.size())).starts_with("ftyp") || begins("\x1a\x45\xdf\xa3"sv)) {
-    return "; it is a video: ods probe, lint, convert, inject, view and over take videos";
+    return "; it is a video: ods probe, lint, convert, comfort, inject, view and over take videos";
   }
   if (const std::string_view what = foreign_video(start); !what.empty()) {
     return fmt::format(
@@ -102,11 +102,11 @@ std::string taken_by(std::string_view start) {
         "of it, without a loss{}",
         what, what == kTransport ? ", except the right eye of 3D cameras (MVC), which FFmpeg does not decode" : "");
   }
-  if (begins("glTF")) return "; it is a scene: ods render, video, info and view take scenes";
+  if (begins("glTF")) return "; it is a scene: ods render, video, info, comfort and view take scenes";
   const bool is_webp = begins("RIFF") && start.substr(std::min<size_t>(8, start.size())).starts_with("WEBP");
   for (const std::string_view picture :
        {"\x89PNG"sv, "\xff\xd8\xff"sv, "II*\0"sv, "MM\0*"sv, "#?R"sv, "\x76\x2f\x31\x01"sv}) {
-    if (is_webp || begins(picture)) return "; it is a picture: ods probe, lint, convert, inject and view take pictures";
+    if (is_webp || begins(picture)) return "; it is a picture: ods probe, lint, convert, comfort, inject and view take pictures";
   }
   return {};
 }

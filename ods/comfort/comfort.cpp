@@ -213,23 +213,30 @@ double circle_by_steps(const EyeView& eye, const ComfortPoint& point) {
   return share;
 }
 
-// Strains are nearly proportional to the radius, except near the axis, where the elevation changes too.
+// Strains are nearly proportional to the radius, except near the circle, and near the axis, where the elevation
+// changes, too.
 double circle_for(const EyeView& eye, const ComfortPoint& point, size_t pixel) {
   if (point.level < ComfortLevel::kWarning || eye.options.rules != ComfortRules::kStrain) return 1.0;
   const int x = static_cast<int>(pixel) % eye.size.width, y = static_cast<int>(pixel) / eye.size.width;
   const JudgedPlace place = place_at(eye, x, y, sight_at(eye, x, y));
   const double circle = place.across * std::sin(place.half_parallax);
-  double share = 1.0;
-  for (int i = 0; i < 8; i++) {
+  double share = 1.0, low = 0.0, high = 1.0;
+  for (int i = 0; i < 16; i++) {
     const auto [half, elevation] = seen_from_circle(share * circle, place.across, place.height);
     const double near = vergence_dioptres(vergence(half, elevation), eye.options.viewer);
     const double vertical = worst_vertical_disparity(half, elevation, eye.reach) / kArcMinute;
     const double over =
         std::max(near / eye.limits[Strain::kNear].warning, vertical / eye.limits[Strain::kVertical].warning);
-    if (over <= 1.0 && (over > 0.9999 || share == 1.0)) break;
-    share = std::min(1.0, share / over);
+    (over <= 1.0 ? low : high) = share;
+    if (low == 1.0) break;
+    const double next = share / over;
+    if (std::abs(over - 1.0) < 1e-4) {
+      low = std::min(next, 1.0);
+      break;
+    }
+    share = next > low && next < high ? next : 0.5 * (low + high);
   }
-  return std::min(share, circle_by_steps(eye, point));
+  return std::min(low, circle_by_steps(eye, point));
 }
 
 // The pixel for which the eyes converge most. On an even row it has the largest of all strains but steps.

@@ -23,9 +23,10 @@ struct JudgePictureOptions {
 struct JudgedPicture {
   ComfortVerdict verdict;
   StereoCamera camera;                   // as recorded or as measured
-  std::vector<Image> light;              // the colours of each eye, for heat.h: 3 channels, linear; may be empty
+  std::vector<Image> light;              // the colours of each eye, for heat.h: 3 channels, linear. Empty if it has
+                                         // depth, and JudgePictureOptions::wants_light is false
   std::optional<MeasuredEyes> measured;  // set if it has depth, but its metadata lacks the placement of its eyes
-  std::string why_matched;               // why it was matched although it has depth; empty: it was not
+  std::string why_matched;               // why its eyes were matched although it has depth; else empty
   std::vector<std::string> hidden;       // for a scene: things inside the viewing circle, which no ray hits
   std::vector<std::string> notes;        // for messages
   std::vector<std::string> warnings;

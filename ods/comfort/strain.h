@@ -7,7 +7,7 @@
 // picture and at alpha - delta in the right one's, at the same elevation phi in both; delta, the half parallax, is
 // asin(r / rho) for eyes on a circle of radius r and a point at the distance rho from its axis. A pair of eyes fixed to
 // a head would see the point at one height, whatever the head's yaw; the pictures show it at two as soon as the head is
-// turned aside. The eyes must then turn apart vertically: the vertical disparity
+// turned aside. The eyes must then diverge vertically: the vertical disparity
 //
 //   V(beta) = atan2(tan phi, cos(beta + delta)) - atan2(tan phi, cos(beta - delta))
 //
@@ -53,7 +53,7 @@ inline constexpr StrainRow kStrainTable[] = {
     {Strain::kNear, "near", "dioptres", "the eyes converge nearer than they focus",
      "caution: the one-degree rule (provisional); warning: Shibata et al. 2011, The zone of comfort (its numbers "
      "provisional); error: Google's 60 cm"},
-    {Strain::kVertical, "vertical", "minutes of arc", "the eyes must turn apart vertically when the head turns",
+    {Strain::kVertical, "vertical", "minutes of arc", "the eyes must diverge vertically when the head turns",
      "caution: provisional; warning: Qin et al., limits of Panum's area; error: a degree, which is severe"},
     {Strain::kStep, "step", "degrees", "a large step in depth to its neighbour",
      "Nagata 2002, limits of fusion of 392 people"},

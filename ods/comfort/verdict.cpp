@@ -67,7 +67,6 @@ void add_things(std::vector<Thing>& things, const SeenDepth& seen, size_t eye, c
   }
 }
 
-// Strains are nearly proportional to one over the distance.
 StrainedPlace describe(const Thing& thing, const SeenDepth& seen, const Limits& limits) {
   const Camera camera = make_camera(seen.camera);
   const int pixel = static_cast<int>(thing.pixel), width = seen.depth.width;
@@ -81,11 +80,6 @@ StrainedPlace describe(const Thing& thing, const SeenDepth& seen, const Limits& 
   place.azimuth = azimuth_of(direction) / kDegree;
   place.elevation = elevation_of(direction) / kDegree;
   place.distance = double{thing.worst.distance};
-  double over = 0.0;
-  for (const Strain strain : kStrains) {
-    over = std::max(over, double{thing.worst.strains[strain]} / limits[strain].warning);
-  }
-  place.enough = place.distance * over;
   return place;
 }
 
@@ -122,6 +116,9 @@ std::vector<StrainedPlace> places_of(const std::vector<Thing>& things, std::span
     } else if (places.size() < kMaxPlaces) {
       const double circle = comfortable_circle(seen, options, thing.worst, thing.pixel);
       place.ipd = static_cast<float>(double{seen.camera.ipd} * circle);
+      // A thing that is farther away by a factor is seen as from a circle that is smaller by it.
+      place.enough = options.rules == ComfortRules::kStrain ? place.distance / circle
+                                                            : place.distance * worst_strain(thing.worst, limits).ratio;
       places.push_back(std::move(place));
     }
   }
@@ -201,14 +198,20 @@ std::string direction_text(double azimuth, double elevation) {
   return text + ", " + (is_side ? std::to_string(above) : degrees(above)) + (elevation < 0.0 ? " down" : " up");
 }
 
+std::string cure_by_distance(const StrainedPlace& place) {
+  if (place.level < ComfortLevel::kWarning || !std::isfinite(place.enough)) return "";
+  return fmt::format("move it at least {:.2f} m away", std::ceil(100.0 * place.enough) / 100.0);
+}
+
 std::string strain_line(const ComfortVerdict& verdict, ComfortLevel level) {
   const StrainedPlace* const worst = verdict.worst();
   if (!worst || worst->level < level) return "";
   const StrainRow& strain = strain_row(worst->strain);
-  return fmt::format("{}, {:.2f} m away, {}, strains the viewer's eyes: {}, {:.3g} {}; move it to at least {:.2f} m",
-                     worst->name.empty() ? "a thing" : "'" + worst->name + "'", worst->distance,
+  const std::string cure = cure_by_distance(*worst);
+  return fmt::format("{}, {:.2f} m away, {}, strains the viewer's eyes: {}, {:.3g} {}{}",
+                     worst->name.empty() ? "an area" : "'" + worst->name + "'", worst->distance,
                      direction_text(worst->azimuth, worst->elevation), strain.title, worst->value, strain.unit,
-                     worst->enough);
+                     cure.empty() ? "" : "; " + cure);
 }
 
 }  // namespace ods

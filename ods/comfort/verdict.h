@@ -25,7 +25,8 @@ struct StrainedPlace {
   double elevation = 0.0;  // degrees
   double distance = 0.0;   // metres from the circle's centre
   double share = 0.0;      // of the picture, by solid angle: the part of this thing that is not ok
-  double enough = 0.0;     // metres from the circle's centre: at this distance and beyond it is at most a caution
+  double enough = 0.0;     // metres from the circle's centre: there and beyond, its worst point is at most a
+                           // caution; infinite if no distance is known
   float ipd = 0.0f;        // metres: the largest eye distance at which it is at most a caution; meaningless for kRule
 };
 
@@ -57,9 +58,11 @@ struct ComfortVerdict {
   std::vector<StrainedPlace> places;         // worst first, at most ten
   double nearest = 0.0;                      // metres; infinite if there is nothing
   double unknown = 0.0;                      // 0..1 of the pixels, not by solid angle: without a depth
-  float largest_ipd = 0.0f;  // metres, at most the camera's: the largest at which nothing exceeds a caution
-  double head_roll = 0.0;    // degrees that the ears may be out of level before kVertical is a warning anywhere. 0: it
-                             // is one with level ears; 90: no limit
+  float largest_ipd =
+      0.0f;  // metres, at most the camera's: the largest at which nothing exceeds a caution; meaningless for a
+             // rule
+  double head_roll = 0.0;  // degrees that the ears may be out of level before kVertical is a warning anywhere. 0: it
+                           // is one with level ears; 90: no limit
 
   // The worst place; nullptr if nothing strains.
   const StrainedPlace* worst() const { return places.empty() ? nullptr : &places[0]; }
@@ -74,8 +77,11 @@ ComfortVerdict judge_comfort(const SeenDepth& eye, const ComfortOptions& options
 // "23 degrees right, 12 down".
 std::string direction_text(double azimuth, double elevation);
 
+// The cure of a place by its distance: "move it at least 0.75 m away". Empty if it is at most a caution.
+std::string cure_by_distance(const StrainedPlace& place);
+
 // The worst place and its cure in a line, for messages; empty if it is below this level: "'Lamp', 0.41 m away, 23
-// degrees right, 12 down, strains the viewer's eyes: ...; move it to at least 0.75 m".
+// degrees right, 12 down, strains the viewer's eyes: ...; move it at least 0.75 m away".
 std::string strain_line(const ComfortVerdict& verdict, ComfortLevel level);
 
 }  // namespace ods

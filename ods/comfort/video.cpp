@@ -152,9 +152,11 @@ std::optional<VideoMoment> VideoJudge::look_at(double seconds) {
   if (matched.share >= kMinMatched) {
     ComfortVerdict verdict = judge_comfort(matched.seen, options_.comfort, matched);
     moment.nearest = verdict.nearest;
-    moment.vertical = verdict.max[Strain::kVertical];
-    const double dioptres = verdict.max[Strain::kNear];
-    moment.vergence = 2.0 * std::atan(0.5 * dioptres * double{options_.comfort.viewer.ipd}) / kDegree;
+    if (options_.comfort.rules == ComfortRules::kStrain) {
+      moment.vertical = verdict.max[Strain::kVertical];
+      const double dioptres = verdict.max[Strain::kNear];
+      moment.vergence = 2.0 * std::atan(0.5 * dioptres * double{options_.comfort.viewer.ipd}) / kDegree;
+    }
     moment.middle = median_vergence(matched.seen[0]);
     moment.level = verdict.level;
     result_.precision = std::max(result_.precision, matched.precision);
@@ -247,7 +249,8 @@ VideoComfort VideoJudge::run(const Progress& progress) {
   result_.frames = decoder_.stream().count;
   const double fps = video_.fps > 0.0 ? video_.fps : 25.0;
   result_.seconds = result_.frames / fps;
-  const int requested = std::clamp(static_cast<int>(std::ceil(result_.seconds)), kMinMoments, options_.max_moments);
+  const int max = options_.max_moments, seconds = static_cast<int>(std::ceil(result_.seconds));
+  const int requested = std::clamp(seconds, std::min(kMinMoments, max), max);
   const int count = result_.frames > 0 ? std::min(requested, result_.frames) : requested;
   result_.every = result_.seconds > 0.0 ? result_.seconds / count : 1.0;
   for (int i = 0; i < count; i++) {

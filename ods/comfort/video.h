@@ -86,8 +86,8 @@ struct VideoMoment {
   double seconds = 0.0;
   double matched = 0.0;     // share of the picture
   double nearest = 0.0;     // metres; infinite if there is nothing
-  double vergence = 0.0;    // degrees: the maximum
-  double vertical = 0.0;    // minutes of arc: the maximum
+  double vergence = 0.0;    // degrees: the maximum; 0 for a rule, which measures no strain
+  double vertical = 0.0;    // minutes of arc: the maximum; 0 for a rule
   double middle = 0.0;      // degrees: the median vergence within 30 degrees of the horizon
   bool is_carried = false;  // speed, turn and tilt were measured
   double speed = 0.0, turn = 0.0, tilt = 0.0, acceleration = 0.0;  // as Ride
@@ -120,7 +120,7 @@ struct VideoComfort {
 struct VideoComfortOptions {
   ComfortOptions comfort;
   FormatHint format;
-  int max_moments = 90;  // maximum number of judged frames
+  int max_moments = 90;  // maximum number of judged frames, at least 1
 };
 
 // Judges both eyes of a video's frames. Videos whose layout and projection their metadata leave open are identified by

@@ -363,7 +363,13 @@ void refuse_unlikely(const MediaFile& media) {
                           media.path));
 }
 
+void expect_picture(const MediaFile& media) {
+  if (media.reader) return;
+  throw Error(ErrorKind::kInput, fmt::format("'{}' is a video, and a picture is expected", media.path));
+}
+
 PictureReader reader_of(MediaFile media) {
+  expect_picture(media);
   media.reader->set_format(media.hint);
   return std::move(*media.reader);
 }

@@ -54,7 +54,11 @@ std::string reading_fault(const std::string& path, uint64_t track);
 // Throws Error(kInput) if the pixels were needed, and none of their readings is likely.
 void refuse_unlikely(const MediaFile& media);
 
-// The reader of a picture with its format set; it decodes nothing again. Throws like PictureReader.
+// Throws Error(kInput) if the file is a video.
+void expect_picture(const MediaFile& media);
+
+// The reader of a picture with its format set; it decodes nothing again. Throws like PictureReader and
+// expect_picture().
 PictureReader reader_of(MediaFile media);
 
 }  // namespace ods

@@ -83,6 +83,7 @@ static void load(Subject& subject, const LintOptions& options) {
   open.known.lenses = options.lenses;
   open.color_only = open.left_first = true;
   MediaFile media = open_media(path, open);
+  expect_picture(media);
   subject.info = media.reader->info();
   subject.format = judged_format(media, open.known);
   const bool has_lenses = !media.hint.lenses.empty();

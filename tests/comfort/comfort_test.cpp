@@ -48,6 +48,24 @@ SeenDepth see(const StereoCamera& camera, int eye, const std::vector<Ball>& ball
   return seen;
 }
 
+// Strains are not proportional to the distance there: the eyes' lines almost touch the circle.
+TEST(Comfort, AThingBesideTheEyesHasAUsefulCure) {
+  const float radius = 1.0f;  // so large that its edges are no steps
+  const auto judged = [&](const StereoCamera& camera, float away) {
+    return judge_comfort(see(camera, kLeft, {{vec3(0, 0, -away), radius}}));
+  };
+  const ComfortVerdict report = judged({}, 0.04f + radius);
+  ASSERT_EQ(report.level, ComfortLevel::kError);
+  const StrainedPlace& place = report.places[0];
+  EXPECT_LT(place.distance, 0.06);
+  EXPECT_LT(place.enough, 3.0);
+  EXPECT_LE(judged({}, static_cast<float>(place.enough) * 1.02f + radius).level, ComfortLevel::kCaution);
+  StereoCamera closer;
+  closer.ipd = report.largest_ipd * 0.99f;
+  EXPECT_GT(closer.ipd, 0.001f);
+  EXPECT_LE(judged(closer, 0.04f + radius).level, ComfortLevel::kCaution);
+}
+
 TEST(Comfort, AHallIsComfortable) {
   for (const int eye : {kLeft, kRight, kMono}) {
     const ComfortVerdict report = judge_comfort(see(StereoCamera{}, eye, {}));

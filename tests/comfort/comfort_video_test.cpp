@@ -7,8 +7,10 @@
 #include <algorithm>
 
 #include "ods/base/error.h"
+#include "ods/comfort/judge_picture.h"
 #include "ods/comfort/video.h"
 #include "ods/image/tone.h"
+#include "ods/lint/lint.h"
 #include "ods/picture/save.h"
 #include "ods/video/make_video.h"
 #include "tests/support/temporary_folder.h"
@@ -106,7 +108,16 @@ TEST_F(ComfortVideo, AStillCameraCarriesNobody) {
 TEST_F(ComfortVideo, TheNumberOfFramesIsBounded) {
   VideoComfortOptions options;
   options.max_moments = 8;
-  EXPECT_EQ(judge_video(make(20, 20, 0.0f, 0.0f), options).moments.size(), 8u);
+  const std::string path = make(20, 20, 0.0f, 0.0f);
+  EXPECT_EQ(judge_video(path, options).moments.size(), 8u);
+  options.max_moments = 2;
+  EXPECT_EQ(judge_video(path, options).moments.size(), 2u);
+}
+
+TEST_F(ComfortVideo, IsNotAPicture) {
+  const std::string path = make(3, 3, 0.0f, 0.0f);
+  EXPECT_THROW(judge_picture(path), Error);
+  EXPECT_THROW(lint(path), Error);
 }
 
 TEST_F(ComfortVideo, OneEyeTellsNothing) {

@@ -85,7 +85,7 @@ TEST(Verdict, ItsLineNamesTheWorstPlace) {
   const std::vector<SeenDepth> eyes = {seen_by(kLeft, kFarAway, "Lamp"), seen_by(kRight, kTooNear, "Lamp")};
   const std::string line = strain_line(judge_comfort(eyes), ComfortLevel::kError);
   EXPECT_TRUE(line.starts_with("'Lamp', 0.3")) << line;
-  EXPECT_NE(line.find("move it to at least "), std::string::npos) << line;
+  EXPECT_NE(line.find("move it at least "), std::string::npos) << line;
   EXPECT_EQ(strain_line(judge_comfort(eyes[0]), ComfortLevel::kCaution), "");
 }
 

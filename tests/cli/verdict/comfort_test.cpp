@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -158,7 +159,7 @@ TEST_F(ComfortCommand, AMergeThatNobodyWroteDownIsMeasured) {
 TEST_F(ComfortCommand, TextNamesThingsAndWhatWouldDo) {
   EXPECT_EQ(run("comfort room --width 256 --position 1.9,0.5,0.4 --merge none"), 5);
   EXPECT_EQ(err.find("error:"), std::string::npos) << "a verdict is not a failure: " << err;
-  EXPECT_NE(out.find("move it to at least "), std::string::npos) << out;
+  EXPECT_NE(out.find("move it at least "), std::string::npos) << out;
   EXPECT_NE(out.find("cure: move these things"), std::string::npos) << out;
   EXPECT_NE(out.find("by solid angle"), std::string::npos) << out;
   EXPECT_EQ(run("comfort furnace --width 64 --rules safe-sphere:0.1"), 0) << out << err;
@@ -267,7 +268,7 @@ TEST_F(ComfortCommand, AReaderOfTheReportKnowsWhatToMove) {
     ASSERT_TRUE(std::regex_search(
         text, words,
         std::regex("(?:error|warning): 'Sail', ([0-9.]+) m away, (?:([0-9]+) degrees? "
-                   "(left|right)|ahead)(?:, ([0-9]+)(?: degrees?)? (up|down))?.*; move it to at least ([0-9.]+) m")))
+                   "(left|right)|ahead)(?:, ([0-9]+)(?: degrees?)? (up|down))?.*; move it at least ([0-9.]+) m away")))
         << text;
     const auto number = [&](size_t i) { return words[i].matched ? std::stod(words[i]) : 0.0; };
     const double away = number(6) - number(1) + 0.02;
@@ -348,6 +349,21 @@ TEST_F(ComfortCommand, BadInputIsOneLine) {
   ASSERT_EQ(run("render lamp --width 64 --samples 1 -q -o " + folder.path("deep.exr")), 0) << err;
   EXPECT_EQ(run("comfort " + folder.path("deep.exr") + " --ipd 0.03"), 2);
   EXPECT_NE(err.find("--ipd is for scenes"), std::string::npos) << err;
+  folder.write("empty.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": []}], "scene": 0})");
+  for (const std::string& command : {std::string("comfort "), "rig -o " + folder.path("rig.json") + " --scene "}) {
+    EXPECT_EQ(run(command + folder.path("empty.gltf")), 3);
+    EXPECT_NE(err.find("has nothing to render"), std::string::npos) << err;
+  }
+}
+
+// A picture is recognised by its first bytes, too.
+TEST_F(ComfortCommand, TheNameOfAPictureDoesNotMatter) {
+  ASSERT_EQ(run("render lamp --width 64 --samples 1 -q -o " + folder.path("deep.exr")), 0) << err;
+  const int of_picture = run("comfort " + folder.path("deep.exr"));
+  const std::string said = out.substr(out.find(": "));
+  std::filesystem::rename(folder.path("deep.exr"), folder.path("deep.dat"));
+  EXPECT_EQ(run("comfort " + folder.path("deep.dat")), of_picture) << err;
+  EXPECT_EQ(out.substr(out.find(": ")), said);
 }
 
 }  // namespace ods::comfort_command_test
