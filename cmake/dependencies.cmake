@@ -6,7 +6,7 @@ find_package(embree 4 QUIET CONFIG)
 if(NOT embree_FOUND)
   find_package(embree 3.13 REQUIRED CONFIG)
 endif()
-foreach(package TBB draco fmt glm meshoptimizer)  # Debian 13's draco.pc has wrong paths
+foreach(package TBB draco fmt glm meshoptimizer nlohmann_json)  # Debian 13's draco.pc has wrong paths
   find_package(${package} REQUIRED CONFIG)
 endforeach()
 find_package(PkgConfig REQUIRED)
@@ -17,4 +17,4 @@ pkg_check_modules(Formats REQUIRED IMPORTED_TARGET lcms2 libheif libjpeg libpng 
 pkg_check_modules(FFmpeg REQUIRED IMPORTED_TARGET libavcodec>=59.37 libavformat libavutil libswresample)
 pkg_check_modules(Pango REQUIRED IMPORTED_TARGET pangoft2>=1.50)
 set(ods_libraries embree TBB::tbb PkgConfig::Deflate PkgConfig::FFmpeg PkgConfig::OpenEXR PkgConfig::Pango PkgConfig::Formats
-  draco::draco meshoptimizer::meshoptimizer fmt::fmt)
+  draco::draco meshoptimizer::meshoptimizer nlohmann_json::nlohmann_json fmt::fmt)
