@@ -76,7 +76,7 @@ class Frames {
     work.picture.reset();
   }
 
-  // The first of all pictures, whichever process makes it.
+  // The index of a picture among those of all processes.
   int place_of(size_t index) const {
     if (job_.kind == FootageKind::kVideo) return static_cast<int>(index);
     const std::vector<int>& every = job_.every_frame;

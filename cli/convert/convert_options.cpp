@@ -50,7 +50,7 @@ void add_input_options(Options& options, ConvertOptions& given) {
       "a picture (.png .jpg .tif .webp .hdr .exr .heic .avif), frames (#### in the name is the number) or a video "
       "(.mp4 .mov .mkv .webm)");
   add_depth_options(options, given.depth);
-  options.group("Input, if it is not detected");
+  options.group("Input");
   options.custom(
       "--projection", "NAME", "",
       [&](const std::string& name) { given.known.projection = projection_by_name("--projection", name); },

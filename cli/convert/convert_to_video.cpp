@@ -65,7 +65,7 @@ ods::VideoPlan plan_for(ConvertJob& job) {
 void refuse_copy(const ConvertJob& job, const ods::VideoPlan& plan) {
   const auto is_rearranged = [](const ods::Footage& footage) {
     const ods::Views views = footage.video().views;
-    return footage.stream().is_turned || views != ods::Views::kFirst;
+    return footage.stream().is_upside_down || views != ods::Views::kFirst;
   };
   const bool has_layout = plan.layout == job.picture.layout || job.picture.eyes.size() == 1;
   const bool is_same = has_layout && !(job.footage && is_rearranged(*job.footage));

@@ -119,7 +119,7 @@ Conversion convert(const StoredPicture& picture, const ConvertTarget& target) {
   conversion.rows.layers = row_layers(picture);
   std::vector<std::string>& colour = conversion.rows.layers[0].channels;
   conversion.sees_around = sees_around(picture, target);
-  const auto plan = std::make_shared<const ConversionPlan>(make_plan(picture, target));
+  const auto plan = std::make_shared<const SourcePlan>(make_plan(picture, target));
   const bool has_holes =
       conversion.sees_around && (target.holes == Holes::kEmpty || !is_whole(picture.camera.projection));
   const bool adds_alpha = colour.back() != "A" && !plan->is_same && (has_holes || sees_more(plan->mapping));

@@ -31,6 +31,8 @@ inline constexpr NameRow<Holes> kHolesTable[] = {
 };
 static_assert(has_every_member(kHolesTable));
 
+// The picture to make. The eyes of the source are first corrected (`right`), then turned back (`turned`), and then
+// seen by `camera`.
 struct ConvertTarget {
   StereoCamera camera;
   Extent eye;

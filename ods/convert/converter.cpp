@@ -12,11 +12,11 @@ namespace ods {
 
 // --- plans -----------------------------------------------------------------------------------------------------------
 
-ConversionPlan make_plan(const StoredPicture& format, const ConvertTarget& target) {
+SourcePlan make_plan(const StoredPicture& format, const ConvertTarget& target) {
   return {make_mapping(format, target), is_same_picture(format, target), {}};
 }
 
-void remember_rows(ConversionPlan& plan) {
+void remember_rows(SourcePlan& plan) {
   const int height = plan.mapping.size.height, rows = height * static_cast<int>(plan.mapping.eyes.size());
   plan.rows.resize(static_cast<size_t>(rows));
   tbb::parallel_for(0, rows,
@@ -25,7 +25,7 @@ void remember_rows(ConversionPlan& plan) {
 
 // --- rows ------------------------------------------------------------------------------------------------------------
 
-Converter::Converter(const ConversionPlan& plan, const Source& source, bool moves_eyes, bool adds_alpha, Holes holes)
+Converter::Converter(const SourcePlan& plan, const Source& source, bool moves_eyes, bool adds_alpha, Holes holes)
     : plan_(plan),
       mapping_(plan.mapping),
       resampler_(source, adds_alpha),
@@ -161,7 +161,7 @@ class BlockBounds {
 
 }  // namespace
 
-Converter::Converter(const ConversionPlan& plan, const TexelReader& reader)
+Converter::Converter(const SourcePlan& plan, const TexelReader& reader)
     : plan_(plan), mapping_(plan.mapping), resampler_(plan.mapping.source, reader), channels_(resampler_.channels()) {}
 
 // Returns whether every pixel of a row of this width is filled.

@@ -16,18 +16,18 @@
 namespace ods {
 
 // The source positions of a conversion, for pictures of one format.
-struct ConversionPlan {
+struct SourcePlan {
   Mapping mapping;
   bool is_same = false;       // is_same_picture()
   std::vector<RowPlan> rows;  // for all eyes, from top to bottom; if empty, rows are planned when they are filled
 };
 
 // `format`: a picture or its header; it must outlive the plan and must not move.
-ConversionPlan make_plan(const StoredPicture& format, const ConvertTarget& target);
+SourcePlan make_plan(const StoredPicture& format, const ConvertTarget& target);
 
 // Plans all rows at once, for many pictures. Takes about 2 bytes per pixel of the target, and more for slanted views of
 // the picture.
-void remember_rows(ConversionPlan& plan);
+void remember_rows(SourcePlan& plan);
 
 // Pixels without a source pixel.
 struct RowHoles {
@@ -39,9 +39,9 @@ class Converter {
  public:
   // moves_eyes: the target's eyes are at other positions than the picture's. `plan` and `source` must outlive the
   // converter.
-  Converter(const ConversionPlan& plan, const Source& source, bool moves_eyes, bool adds_alpha, Holes holes);
+  Converter(const SourcePlan& plan, const Source& source, bool moves_eyes, bool adds_alpha, Holes holes);
   // For a picture whose texels are computed when read; the plan's eyes do not move.
-  Converter(const ConversionPlan& plan, const TexelReader& reader);
+  Converter(const SourcePlan& plan, const TexelReader& reader);
   Converter(const Converter&) = delete;
   Converter& operator=(const Converter&) = delete;
 
@@ -78,7 +78,7 @@ class Converter {
     return row.pixels.data() + static_cast<size_t>(x) * static_cast<size_t>(channels_);
   }
 
-  const ConversionPlan& plan_;
+  const SourcePlan& plan_;
   const Mapping& mapping_;
   Resampler resampler_;
   std::optional<Reprojection> reprojection_;

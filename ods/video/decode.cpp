@@ -268,7 +268,7 @@ struct VideoDecoder::State {
     const Turn turn = turn_of(*source);
     if (turn == Turn::kOther)
       fail("its pictures are stored rotated; ffmpeg -i VIDEO -c:a copy UPRIGHT turns them upright");
-    stream.is_turned = turn == Turn::kHalf;
+    stream.is_upside_down = turn == Turn::kHalf;
     if (facts.field_order != AV_FIELD_UNKNOWN && facts.field_order != AV_FIELD_PROGRESSIVE)
       fail("its pictures are interlaced; ffmpeg -i VIDEO -vf bwdif=mode=send_frame -c:a copy WHOLE joins their fields");
     std::string fault = read_format(static_cast<AVPixelFormat>(facts.format), stream);
@@ -345,7 +345,7 @@ struct VideoDecoder::State {
       fail(fmt::format("picture {} has eyes of other sizes or formats than the first", count));
     }
     // The eyes of a frame that is turned later are at opposite sides until then.
-    const bool swap = is_left_second(*first, *second, views) != stream.is_turned;
+    const bool swap = is_left_second(*first, *second, views) != stream.is_upside_down;
     put_beside(swap ? *second : *first, swap ? *first : *second, both);
     return true;
   }
@@ -429,7 +429,7 @@ std::optional<DecodedFrame> VideoDecoder::next() {
   if (state.count++ == 0 && !state.has_skipped)
     state.stream.start = static_cast<double>(result.time.start) / state.ticks();
   result.packing = packing_of(*frame);
-  if (state.stream.is_turned) frame = upright(*frame);
+  if (state.stream.is_upside_down) frame = upright(*frame);
   result.planes.bits = state.stream.bits;
   result.planes.chroma = state.stream.chroma;
   for (size_t i = 0; i < 3; i++) {

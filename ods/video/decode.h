@@ -25,10 +25,10 @@ struct VideoStream {
   ColorCode color;
   ColorWords words;
   bool has_alpha = false;
-  bool is_turned = false;   // stored upside down; VideoDecoder turns it upright
-  FrameRate clock;          // ticks per second of FrameTime
-  double start = 0.0;       // time of the first picture, in seconds
-  double file_start = 0.0;  // time of the first picture or sound
+  bool is_upside_down = false;  // stored upside down; VideoDecoder turns it upright
+  FrameRate clock;              // ticks per second of FrameTime
+  double start = 0.0;           // time of the first picture, in seconds
+  double file_start = 0.0;      // time of the first picture or sound
   // Data of the first picture, besides its pixels, that no encoder here keeps, as texts for users. Known once it is
   // decoded.
   std::vector<std::string> unkept;

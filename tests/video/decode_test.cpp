@@ -243,8 +243,8 @@ TEST_F(Decode, PicturesStoredUpsideDownAreTurned) {
   set_matrix(bytes, {0xffff0000, 0, 0, 0, 0xffff0000, 0, 0, 0, 0x40000000});
   folder.write("turned.mp4", bytes);
   VideoDecoder plain(folder.path("video.mp4"), 1), turned(folder.path("turned.mp4"), 1);
-  EXPECT_FALSE(plain.stream().is_turned);
-  ASSERT_TRUE(turned.stream().is_turned);
+  EXPECT_FALSE(plain.stream().is_upside_down);
+  ASSERT_TRUE(turned.stream().is_upside_down);
   const DecodedFrame a = *plain.next(), b = *turned.next();
   const Extent size = plain.stream().size, block = chroma_block(Chroma::k420);
   for (size_t plane = 0; plane < 3; plane++) {

@@ -15,7 +15,7 @@
 
 namespace ods {
 
-static glm::dmat3 frame_of(const ViewAngles& angles) {
+static glm::dmat3 axes_of(const ViewAngles& angles) {
   const auto degrees = [](float value) { return glm::radians(static_cast<double>(value)); };
   const auto [right, up, back] = orientation(degrees(angles.yaw), degrees(angles.pitch), degrees(angles.roll));
   return {right, up, back};
@@ -24,11 +24,11 @@ static glm::dmat3 frame_of(const ViewAngles& angles) {
 // The rotation of the sound with the pictures. Returns no rotation if they do not turn.
 static SoundTurn sound_turn(const Footage& footage, const VideoConversion& conversion) {
   const auto angles = [](const StereoCamera& camera) { return ViewAngles{camera.yaw, camera.pitch, camera.roll}; };
-  const glm::dmat3 before = frame_of(angles(footage.video().prototype.camera));
-  const glm::dmat3 turn = glm::transpose(frame_of(angles(conversion.target.camera))) * before;
+  const glm::dmat3 before = axes_of(angles(footage.video().prototype.camera));
+  const glm::dmat3 turn = glm::transpose(axes_of(angles(conversion.target.camera))) * before;
   if (turn == glm::transpose(before) * before && conversion.turns.empty()) return {};
   return [turn, keys = conversion.turns, start = footage.stream().start](double seconds) {
-    return keys.empty() ? turn : turn * frame_of(turned_at(keys, seconds - start));
+    return keys.empty() ? turn : turn * axes_of(turned_at(keys, seconds - start));
   };
 }
 

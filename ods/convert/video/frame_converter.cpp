@@ -94,7 +94,7 @@ struct FrameConverter::State {
   const VideoStream& stream;
   ConvertTarget target;
   FrameFormat format;
-  std::optional<ConversionPlan> plan;             // the same for all frames; not set if each frame has its own rotation
+  std::optional<SourcePlan> plan;                 // the same for all frames; not set if each frame has its own rotation
   std::optional<std::vector<PixelShift>> shifts;  // set if pixels of frames are copied
   FramePool frames;
 
@@ -139,7 +139,7 @@ FrameConverter::~FrameConverter() = default;
 std::shared_ptr<VideoFrame> FrameConverter::convert(const DecodedFrame& frame, const ViewAngles& turned) const {
   const State& state = *state_;
   if (state.shifts) return state.copy(frame);
-  std::optional<ConversionPlan> own;
+  std::optional<SourcePlan> own;
   if (!state.plan) {
     ConvertTarget target = state.target;
     target.turned = turned;
