@@ -147,7 +147,7 @@ SplitCommand split_video(const Words& words) {
 }
 
 // Options for the use of the samples: the merge gets them.
-const Words kOfMerge = {"--layout", "--sidecar", "--statistics", "--denoise", "--tone"};
+const Words kOfMerge = {"--layout", "--sidecar", "--statistics", "--denoise", "--brighter", "--tone"};
 
 void remove_parts(const ods::FrameNames& names, const std::vector<int>& parts) {
   std::error_code ignored;
@@ -187,8 +187,8 @@ void split_parts(SplitCommand& split, const std::vector<GivenWord>& given, const
   std::iota(parts.begin(), parts.end(), 1);
   count(split, "part", parts);
   const std::string pattern = split.output + ".parts/part_####.exr";
-  std::vector<GivenWord> of_part =
-      without(without(given, kByFarm), {"-o", "--parts", "--layout", "--denoise", "--sidecar", "--keep-parts"});
+  std::vector<GivenWord> of_part = without(
+      without(given, kByFarm), {"-o", "--parts", "--layout", "--denoise", "--sidecar", "--brighter", "--keep-parts"});
   of_part.push_back({"-o", pattern});
   const Words render = command_words("render", of_part, {"--skip-existing"});
   Words first = render;

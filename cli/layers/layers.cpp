@@ -24,6 +24,7 @@
 #include "ods/sequence/frame_renderer.h"
 #include "ods/sequence/identity.h"
 #include "ods/sequence/looks.h"
+#include "ods/stage/exposure.h"
 
 namespace {
 
@@ -84,7 +85,7 @@ void bake_layers(const LayersJob& given, ProgressLines& lines) {
   ods::SequenceOptions options = renderer.options();
   report_look(job, options, look);
   options.finish.save.exposure = look.exposure;
-  if (scene.as_painted && !job.tone) options.finish.save.tone = ods::ToneCurve::kLinear;
+  options.finish.save.tone = job.tone.value_or(ods::usual_tone(scene));
   const ods::Shot shot = renderer.set(frames.front());
   const ods::HeadBox box{shot.camera().position, ods::vec3(given.box)};
   const int width = given.width.value_or(2 * job.render.width);

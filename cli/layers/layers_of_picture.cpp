@@ -14,6 +14,7 @@
 #include "ods/convert/reproject.h"
 #include "ods/files/atomic_file.h"
 #include "ods/layers/depth/picture_layers.h"
+#include "ods/stage/exposure.h"
 
 namespace {
 
@@ -37,7 +38,7 @@ ods::PictureLayersOptions options_of(const LayersJob& job) {
   ods::PictureLayersOptions options;
   options.box = ods::vec3(job.box);
   options.width = job.width;
-  options.exposure = job.render.exposure.value_or(0.0f) + job.render.brighter;
+  options.exposure = ods::brightened(job.render.exposure.value_or(0.0f), job.render.brighter);
   options.tone = job.render.tone.value_or(job.render.save.tone);
   return options;
 }

@@ -14,6 +14,7 @@
 #include "ods/image/format/file_format.h"
 #include "ods/picture/metadata/stereo_format.h"
 #include "ods/picture/stereo_file.h"
+#include "ods/stage/exposure.h"
 
 using ods::Layout;
 
@@ -75,7 +76,7 @@ void use_form(const PictureForm& form, CameraOptions& camera, ods::RenderOptions
 }
 
 void add_display_options(Options& options, DisplayOptions& display) {
-  options.number("--exposure", display.exposure, -30.0f, 30.0f,
+  options.number("--exposure", display.exposure, -ods::kMaxStops, ods::kMaxStops,
                  "exposure in stops; .hdr and .exr stay scene-linear and ignore it", "0");
   options.choice("--tone", display.tone, ods::kToneCurveTable,
                  "tone curve for scene-linear light; .hdr and .exr ignore it",

@@ -55,7 +55,7 @@ bool is_shown_to_viewers(const RenderJob& job) {
 
 void note_unmeasured_light(const RenderJob& job) {
   if (job.exposure || keeps_light(job.output)) return;
-  note("exposure 0: with --rig the light is not measured (--exposure STOPS changes it)");
+  note(fmt::format("exposure {:g}: with --rig the light is not measured (--exposure STOPS changes it)", job.brighter));
 }
 
 void report_viewpoint(const RenderJob& job, ods::FrameRenderer& renderer, const ods::SequenceFrame& first) {
@@ -69,16 +69,17 @@ void report_look(const RenderJob& job, const ods::SequenceOptions& options, cons
   if (options.merge_limit) note(merge_by_depth_text(*options.camera.stereo.merge_map));
   const bool is_shown = is_shown_to_viewers(job);
   switch (look.reason) {
-    case ods::ExposureReason::kGiven:
+    case ods::ExposureReason::kKnown:
       return;
     case ods::ExposureReason::kPainted:
       if (is_shown)
-        note("exposure 0 and no tone curve, since the colours are shown as they are painted (--exposure, --tone)");
+        note(fmt::format("exposure {:g}{}, since the colours are shown as they are painted (--exposure, --tone)",
+                         look.exposure, job.tone ? "" : " and no tone curve"));
       return;
     case ods::ExposureReason::kDark:
       return warn(
           "the picture is black: no light reaches the camera (--env 1 lights the scene, --position X,Y,Z moves it)");
-    case ods::ExposureReason::kFrames:
+    case ods::ExposureReason::kRecorded:
       return note(
           fmt::format("exposure {:+} stops, as in the existing frames (--restart chooses a new one)", look.exposure));
     case ods::ExposureReason::kLight: {

@@ -20,6 +20,7 @@
 #include "ods/picture/save.h"
 #include "ods/render/part_file.h"
 #include "ods/sequence/identity.h"
+#include "ods/stage/exposure.h"
 
 namespace {
 
@@ -149,8 +150,9 @@ void add_options(Options& options, MergeOptions& given) {
   options.flag("--statistics", render.render.statistics,
                "also write each pixel's variance and number of samples (.exr)");
   options.choice("--denoise", render.denoise, ods::kDenoiserTable, "as in ods render");
-  options.number("--exposure", given.display.exposure, -30.0f, 30.0f,
+  options.number("--exposure", given.display.exposure, -ods::kMaxStops, ods::kMaxStops,
                  "exposure in stops, by default as rendered; .hdr and .exr stay scene-linear and ignore it");
+  options.number("--brighter", given.brighter, -ods::kMaxStops, ods::kMaxStops, "stops added to the exposure");
   options.choice("--tone", given.display.tone, ods::kToneCurveTable,
                  "tone curve, by default as rendered; .hdr and .exr ignore it");
   options.group("Console");
@@ -226,7 +228,7 @@ MergeJob open_parts(const MergeOptions& given) {
   finish_options(job, given.layout);
   if (!job.parts.empty()) leave_out_layers(job);
   ods::SaveOptions& save = job.render.save;
-  save.exposure = given.display.exposure.value_or(job.picture.exposure);
+  save.exposure = ods::brightened(given.display.exposure.value_or(job.picture.exposure), given.brighter);
   save.tone = given.display.tone.value_or(job.picture.tone);
   const ods::RenderOptions& picture = job.picture.options;
   const std::vector<int> eyes = ods::eye_list(picture.eyes);

@@ -16,6 +16,7 @@ struct MergeOptions {
   RenderJob render;                // how the picture is finished
   std::optional<ods::Layout> layout;
   DisplayOptions display;
+  float brighter = 0.0f;      // stops, added to the exposure
   bool remove_parts = false;  // when the picture is saved
   bool incomplete = false;    // make the picture even if parts are missing
 };

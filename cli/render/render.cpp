@@ -17,8 +17,9 @@ namespace {
 void render(const RenderJob& given) {
   if (given.parts > 0) throw UsageError("--parts is for ods submit; --part 1/8 renders one of 8 parts");
   if (!given.part && keeps_light(given.output)) {
-    if (given.exposure) note("--exposure does not change .exr and .hdr, which are scene-linear");
-    if (given.brighter != 0.0f) note("--brighter does not change .exr and .hdr, which are scene-linear");
+    const std::string use = given.render.noise > 0.0f ? ": only noise is judged at it" : "";
+    if (given.exposure) note("--exposure does not change .exr and .hdr, which are scene-linear" + use);
+    if (given.brighter != 0.0f) note("--brighter does not change .exr and .hdr, which are scene-linear" + use);
   }
   const RenderJob job = settled(given);
   run_long_job(job.progress, job.render.threads, [&](ProgressLines& lines) {

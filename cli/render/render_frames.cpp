@@ -19,6 +19,7 @@
 #include "ods/camera/layout.h"
 #include "ods/files/frames.h"
 #include "ods/sequence/shared_frames.h"
+#include "ods/stage/exposure.h"
 
 using Frame = ods::SequenceFrame;
 
@@ -55,16 +56,19 @@ void report_speed(const RenderJob& job, size_t frames, const std::string& file, 
     warn("few samples fit into --time-limit: expect specks; more time or a smaller --width makes a cleaner picture");
 }
 
-// The settings that the scene determines before its first picture: the merge, the exposure, the tone curve.
-void look_first(const RenderJob& job, ods::FrameRenderer& renderer, const std::vector<Frame>& all) {
+// Finds, prints and sets what the scene determines before its first picture: the merge, the exposure, the tone curve.
+void set_by_first_look(const RenderJob& job, ods::FrameRenderer& renderer, const std::vector<Frame>& all,
+                       bool has_existing) {
   report_viewpoint(job, renderer, all.front());
   const ods::FirstLook look = ods::look_first(renderer, all);
   ods::SequenceOptions options = renderer.options();
   report_look(job, options, look);
+  if (has_existing && look.reason == ods::ExposureReason::kLight && is_shown_to_viewers(job))
+    note("the existing frames keep theirs, which may differ if they were chosen from other frames: see docs/place.md");
   warn_of_strain(job, renderer, all);
   ods::SaveOptions& save = options.finish.save;
   save.exposure = look.exposure;
-  if (renderer.scene().as_painted && !job.tone) save.tone = ods::ToneCurve::kLinear;
+  save.tone = job.tone.value_or(ods::usual_tone(renderer.scene()));
   renderer.set_options(std::move(options));
 }
 
@@ -100,7 +104,7 @@ void render_frames(const RenderJob& job, const TimeOptions& time, ods::Scene& sc
   const std::vector<size_t> missing = choose_frames(time, all);
   if (missing.empty()) return;
   if (is_video) note_disk_space(job.output, missing.size(), largest_frame(job.output, job.render, job.save));
-  look_first(job, renderer, all);
+  set_by_first_look(job, renderer, all, missing.size() < all.size() && time.only.empty());
   const auto start = std::chrono::steady_clock::now();
   std::string first;
   double samples = 0.0;

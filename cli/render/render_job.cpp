@@ -31,7 +31,8 @@ std::optional<float> parse_exposure(const std::string& word) {
   if (word == "auto") return std::nullopt;
   const std::vector<float> numbers = parse_numbers(word);
   if (numbers.size() == 1 && numbers[0] >= -ods::kMaxStops && numbers[0] <= ods::kMaxStops) return numbers[0];
-  throw UsageError(fmt::format("--exposure is auto or a number of stops from -30 to 30, not '{}'", word));
+  throw UsageError(fmt::format("--exposure is auto or a number of stops from {} to {}, not '{}'", -ods::kMaxStops,
+                               ods::kMaxStops, word));
 }
 
 void add_picture_options(Options& options, RenderJob& job) {

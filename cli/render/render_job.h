@@ -34,8 +34,8 @@ struct RenderJob {
   std::string device = kCpu;              // on_device() sets the card in `render`
   ods::SaveOptions save;                  // its layout after settled()
   std::optional<ods::Denoiser> denoise;   // absent: the default for all files but those that keep the scene's light
-  std::optional<float> exposure;          // stops; none: ods::look_first() chooses
-  float brighter = 0.0f;                  // stops, added to the chosen exposure
+  std::optional<float> exposure;          // stops, without `brighter`; none: known for the scene (plan()), or chosen
+  float brighter = 0.0f;                  // stops, added to the exposure, given or chosen
   std::optional<ods::ToneCurve> tone;     // none: the usual curve, or none for a scene shown as painted
   bool object_layer = false;              // an .exr gets the names of the objects that its pixels show
   std::string output;

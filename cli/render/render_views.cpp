@@ -30,6 +30,7 @@ void render_views(const RenderJob& job, ProgressLines& lines) {
   note_unmeasured_light(job);
   save.attributes.push_back({ods::kRigMarkAttribute, ods::rig_mark(rig)});
   ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);
+  save.tone = job.tone.value_or(ods::usual_tone(scene));
   TimeOptions time = job.time;
   start_clock(time, job.camera, scene);
   ods::set_time(scene, static_cast<double>(time.time.value_or(0.0f)));

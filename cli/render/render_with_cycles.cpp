@@ -299,7 +299,9 @@ ods::Settings cycles_part_identity(const RenderJob& job) {
 }
 
 ods::Settings cycles_identity(const RenderJob& job) {
-  ods::Settings settings = with_cycles(job, frame_identity(identified(job)));
+  ods::SequenceOptions sequence = identified(job);
+  sequence.exposure = sequence.brighter = 0.0f;  // Cycles judges noise without them
+  ods::Settings settings = with_cycles(job, frame_identity(sequence));
   if (job.time.time) settings.push_back({"`time`", fmt::format("{}", *job.time.time), ""});
   return settings;
 }

@@ -127,6 +127,7 @@ void render_scene(const VideoJob& job, ProgressLines& lines) {
 struct EncodingJob {
   const VideoJob& video;
   const RenderJob& render;  // its exposure and tone curve
+  ods::ToneCurve usual_tone;
   const ods::EncodeOptions& options;
   Clock::time_point begin;  // of the whole command
 };
@@ -135,7 +136,7 @@ struct EncodingJob {
 void encode_all(const EncodingJob& job, ods::VideoJournal& journal, const std::vector<int>& frames,
                 ProgressLines& lines) {
   const ods::DisplayTransform display{ods::brightened(job.render.exposure.value_or(0.0f), job.render.brighter),
-                                      job.render.tone.value_or(ods::DisplayTransform().tone)};
+                                      job.render.tone.value_or(job.usual_tone)};
   const ods::VideoPlan plan = ods::encode_frames(journal, frames, display, job.options, job.video.keep_frames,
                                                  {report_encoding(job.video, lines, job.begin, frames.size()), {}});
   lines.clear();
@@ -177,7 +178,7 @@ void render_in_cycles(const VideoJob& job, ProgressLines& lines) {
   render_cycles_frames(render, frames);
   if (frames.shared) return lines.clear();
   note_sound_length(options, numbers.size());
-  encode_all({job, render, options, begin}, journal, numbers, lines);
+  encode_all({job, render, ods::DisplayTransform().tone, options, begin}, journal, numbers, lines);
 }
 
 // Stitches the frames from the views of a rig.
@@ -209,7 +210,8 @@ void stitch_views(const VideoJob& job, ProgressLines& lines) {
   if (!stitch.only.empty()) return lines.clear();
   note_sound_length(options, frames.size());
   note_unmeasured_light(render);
-  encode_all({job, render, options, begin}, journal, frames, lines);
+  const ods::ToneCurve usual_tone = show_light(stitch, rig) ? ods::DisplayTransform().tone : ods::ToneCurve::kLinear;
+  encode_all({job, render, usual_tone, options, begin}, journal, frames, lines);
 }
 
 }  // namespace

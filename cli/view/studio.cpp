@@ -171,7 +171,7 @@ Studio::Settings Studio::suiting(const SceneSource& source, const ods::Scene& sc
   settings.live.exposure = needs_none ? 0.0f : rounded(usual_exposure(scene, settings.live.camera), 100.0);
   const bool has_merge = source.foreign && source.foreign->has_stereo;
   if (!has_merge) settings.live.merge_limit = static_cast<float>(ods::kFusionLimit);
-  if (scene.as_painted) settings.live.tone = ods::ToneCurve::kLinear;
+  settings.live.tone = ods::usual_tone(scene);
   const std::optional<ods::SkyOptions> sky = described_sky("--env", source.light.environment);
   settings.sky = sky.value_or(ods::SkyOptions());
   settings.environment = sky ? "sky" : source.light.environment.empty() ? "auto" : source.light.environment;

@@ -8,6 +8,7 @@
 #include "cli/view/render_arguments.h"
 #include "cli/view/studio.h"
 #include "ods/comfort/strain.h"
+#include "ods/stage/exposure.h"
 
 // The camera as options say it: a merge by depth is one of them, and has no map there.
 ods::StereoCamera Studio::command_camera() const {
@@ -50,8 +51,7 @@ std::vector<std::string> Studio::words(const std::string& maps, bool is_shown) c
   if (layout != default_layout(settings_.live.camera.projection)) add("--layout", std::string(layout_name(layout)));
   if (duration_ > 0.0) add("--time", fmt::format("{}", settings_.live.time));
   add("--exposure", fmt::format("{}", settings_.live.exposure));
-  const ods::ToneCurve usual_tone = scene_->as_painted ? ods::ToneCurve::kLinear : ods::ToneCurve::kNeutral;
-  if (settings_.live.tone != usual_tone) add("--tone", std::string(tone_curve_name(settings_.live.tone)));
+  if (settings_.live.tone != ods::usual_tone(*scene_)) add("--tone", std::string(tone_curve_name(settings_.live.tone)));
   add("--width", fmt::format("{}", settings_.width));
   return words;
 }

@@ -13,6 +13,7 @@
 #include "cli/options/layout_options.h"
 #include "cli/options/projection_options.h"
 #include "ods/camera/file_names.h"
+#include "ods/stage/exposure.h"
 #include "ods/view/bundle.h"
 #include "ods/view/page.h"
 
@@ -34,7 +35,7 @@ std::optional<float> number_of(const WebRequest& request, const std::string& nam
 
 ods::EyeOptions read_eye_options(const WebRequest& request) {
   ods::EyeOptions options;
-  options.exposure = number_of(request, "exposure", -30.0f, 30.0f).value_or(0.0f);
+  options.exposure = number_of(request, "exposure", -ods::kMaxStops, ods::kMaxStops).value_or(0.0f);
   options.max_width = static_cast<int>(number_of(request, "width", 1.0f, 32768.0f).value_or(0.0f));
   options.tone = ods::find_in(ods::kToneCurveTable, value_of(request, "tone")).value_or(options.tone);
   return options;

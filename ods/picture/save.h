@@ -38,7 +38,7 @@ namespace ods {
 
 struct SaveOptions {
   Layout layout = Layout::kTopBottom;  // for two eyes; %V or %v in the name overrides it with kSeparate
-  float exposure = 0.0f;               // EV: the light is multiplied by 2^exposure
+  float exposure = 0.0f;               // stops: the light is multiplied by 2^exposure
   ToneCurve tone = ToneCurve::kNeutral;
   int jpeg_quality = 95;              // jpg, webp and heic, 1..100
   bool rows_alone = false;            // exr: compresses each row separately, not 16 together

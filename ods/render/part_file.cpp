@@ -30,6 +30,7 @@ namespace {
 constexpr const char* kPart = "ods:part";
 constexpr const char* kSamples = "ods:samples";
 constexpr const char* kExposure = "ods:exposure";
+constexpr const char* kTone = "ods:tone";
 constexpr const char* kSettings = "ods:settings";
 constexpr const char* kSidecar = "ods:sidecar";
 
@@ -156,11 +157,10 @@ std::string save_part(const std::string& path, const SampledPicture& picture, co
   };
   SaveOptions options;
   if (samples.eyes.size() == 2) options.layout = Layout::kMultiview;
-  options.attributes = {{kPart, part_text(picture.options.part)},
-                        {kSamples, picture.options.samples},
-                        {kExposure, fmt::format("{}", picture.exposure)},
-                        {kSettings, settings_text(picture.settings)},
-                        {kSidecar, picture.camera}};
+  options.attributes = {
+      {kPart, part_text(picture.options.part)},         {kSamples, picture.options.samples},
+      {kExposure, fmt::format("{}", picture.exposure)}, {kTone, std::string(tone_curve_name(picture.tone))},
+      {kSettings, settings_text(picture.settings)},     {kSidecar, picture.camera}};
   options.rows_alone = true;    // rows are so long that combining several saves nothing
   options.has_checksum = true;  // a checksum of the header
   return save_picture(rows, &camera, options, path).front();
@@ -192,6 +192,7 @@ SampledPicture read_part_header(const std::string& path) {
   picture.camera = text(kSidecar);
   const float exposure = std::strtof(text(kExposure).c_str(), nullptr);
   if (std::isfinite(exposure)) picture.exposure = exposure;
+  picture.tone = find_in(kToneCurveTable, text(kTone)).value_or(picture.tone);
   RenderOptions& options = picture.options;
   const std::optional<Part> part = parse_part(text(kPart));
   options.samples = samples == info.numbers.end() ? 0 : static_cast<int>(samples->second.front());

@@ -4,8 +4,8 @@
 // A part of a picture's samples (RenderOptions::part) as an EXR. Every program shows it as a noisy picture: two views,
 // linear light. Other layers contain the exact sums: layer `sum.light` has the channels R0 R1 R2 G0 ... B2, the 64 bits
 // of each number as three whole numbers of at most 22 bits, which floats represent exactly; sums of 32 bits have two.
-// Layer `sum.check` has each row's CRC-32. Header: ods:part "3/8", ods:samples (of the whole picture), ods:settings,
-// ods:sidecar.
+// Layer `sum.check` has each row's CRC-32. Header: ods:part "3/8", ods:samples (of the whole picture), ods:exposure
+// (stops), ods:tone, ods:settings, ods:sidecar.
 #pragma once
 #include <string>
 #include <vector>

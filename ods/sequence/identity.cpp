@@ -84,7 +84,8 @@ Field(Member Struct::*, Rest...) -> Field<Struct, Member>;
 
 constexpr std::string_view kAim = "aims the rays", kPaths = "other paths", kPixels = "which pixels there are";
 constexpr std::string_view kCount = "how many there are", kSums = "which sums are kept", kSameBits = "the same bits";
-constexpr std::string_view kRows = "its members have rows", kVideo = "frames are scene-linear: the video's alone";
+constexpr std::string_view kRows = "its members have rows",
+                           kVideo = "affects only the video: its frames are scene-linear";
 
 bool judges_noise(const SequenceOptions& all) {
   return all.render.noise > 0.0f;
@@ -102,7 +103,7 @@ constexpr std::tuple kSequenceFields = {
     Field{&SequenceOptions::first_frame, "first frame", kSamples, "when a frame is"},
     Field{&SequenceOptions::shutter, "`shutter`", kSamples, "when samples are"},
     Field{&SequenceOptions::changing_grain, "`grain`", kSamples, "the seed of a frame", "by default"},
-    // Blocks of pixels stop by it. Those of a still picture are judged again.
+    // Blocks of pixels stop sampling according to it. Those of a still picture are judged again.
     Field{&SequenceOptions::exposure, kExposureSetting, kFile, "noise is judged at it", kByFirstLook, judges_noise},
     Field{&SequenceOptions::brighter, "`brighter`", kFile, "noise is judged at it", "", judges_noise},
     Field{&SequenceOptions::render, "", kNothing, kRows},

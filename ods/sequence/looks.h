@@ -18,17 +18,17 @@ std::set<size_t> sampled_frames(const std::vector<SequenceFrame>& frames, size_t
 inline constexpr size_t kLooks = 5;
 
 enum class ExposureReason {
-  kGiven,    // SequenceOptions::exposure
-  kPainted,  // Scene::as_painted: the colours are shown as they are
-  kLight,    // chosen for the light of all frames (ods/stage/exposure.h)
-  kDark,     // no light reaches the camera
-  kFrames,   // render_video(): frames exist that were made with it
+  kKnown,     // SequenceOptions::exposure: given, or known for the scene
+  kPainted,   // Scene::as_painted: the colours are shown as they are
+  kLight,     // chosen for the light of all frames (ods/stage/exposure.h)
+  kDark,      // no light reaches the camera
+  kRecorded,  // render_video(): recorded when its first frames were made
 };
 
 struct FirstLook {
   float chosen = 0.0f;    // stops, without SequenceOptions::brighter
   float exposure = 0.0f;  // stops, with it
-  ExposureReason reason = ExposureReason::kGiven;
+  ExposureReason reason = ExposureReason::kKnown;
 };
 
 // Finds the exposure and the merge if the options leave them open. Sets noise_exposure and the camera's merge map in

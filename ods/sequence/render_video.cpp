@@ -64,9 +64,17 @@ SequenceOptions as_recorded(SequenceOptions options, const VideoJournal& journal
   return options;
 }
 
-void record(VideoJournal& journal, const SequenceOptions& options, float exposure) {
-  journal.record(kExposureSetting, fmt::format("{}", exposure));
+// Looks first, and then takes what is recorded: another process, on another device, may have found other values first.
+FirstLook look_and_record(FrameRenderer& renderer, const std::vector<SequenceFrame>& all, VideoJournal& journal) {
+  const FirstLook look = look_first(renderer, all);
+  SequenceOptions options = renderer.options();
+  journal.record(kExposureSetting, fmt::format("{}", look.chosen));
   if (options.merge_limit) journal.record(kMergeSetting, map_text(*options.camera.stereo.merge_map));
+  options.exposure = look.chosen, options.merge_limit.reset();
+  renderer.set_options(as_recorded(std::move(options), journal));
+  FirstLook recorded = look_first(renderer, all);  // costs nothing: both are given
+  recorded.reason = look.reason;
+  return recorded;
 }
 
 SequenceProgress progress_of_frames(const VideoJournal& journal, const VideoProgress& progress) {
@@ -102,16 +110,14 @@ std::optional<VideoPlan> render_video(VideoJournal& journal, Scene& scene, Seque
   wait_for_frames(files, video.wait, progress.late);
   const bool is_found = !options.exposure && journal.found(kExposureSetting);
   FrameRenderer renderer(as_recorded(std::move(options), journal), scene);
-  FirstLook look = look_first(renderer, all);
-  if (is_found) look.reason = ExposureReason::kFrames;
-  record(journal, renderer.options(), look.chosen);
+  FirstLook look = look_and_record(renderer, all, journal);
+  if (is_found) look.reason = ExposureReason::kRecorded;
   const VideoStart start{renderer, all, choose_frames(all, own), look};
   if (progress.start) progress.start(start);
   const Sink sink = video.raw ? Sink::kRaw : video.only ? Sink::kShared : Sink::kFiles;
   render_sequence(renderer, all, start.missing, sink, progress_of_frames(journal, progress));
   if (video.only) return std::nullopt;
-  const ToneCurve usual = scene.as_painted ? ToneCurve::kLinear : DisplayTransform{}.tone;
-  const DisplayTransform display{look.exposure, video.tone.value_or(usual)};
+  const DisplayTransform display{look.exposure, video.tone.value_or(usual_tone(scene))};
   return encode_frames(journal, video.frames, display, video.encode, video.keep_frames,
                        {progress.encoding, progress.cancelled});
 }

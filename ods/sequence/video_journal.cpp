@@ -92,10 +92,7 @@ void VideoJournal::begin(bool restart) {
     }
     return;
   }
-  for (Setting& setting : settings_) {
-    const Setting* was = setting.value == kByFirstLook ? find_setting(then, setting.name) : nullptr;
-    if (was) setting.value = was->value;
-  }
+  take_found(then);
   if (restart || (!has_frames() && !settings_difference(then, settings_).empty())) {
     remove();
     frames_.clear();
@@ -103,6 +100,13 @@ void VideoJournal::begin(bool restart) {
     expect_same_settings(folder_, then, settings_);
   }
   if (restart || (claim_ && !has_frames())) settings_ = given_;  // shared frames may be at work already
+}
+
+void VideoJournal::take_found(const Settings& then) {
+  for (Setting& setting : settings_) {
+    const auto was = std::ranges::find(then, setting.name, &Setting::name);
+    if (setting.value == kByFirstLook && was != then.end()) setting.value = was->value;
+  }
 }
 
 std::optional<std::string> VideoJournal::found(std::string_view setting) const {
@@ -114,6 +118,7 @@ std::optional<std::string> VideoJournal::found(std::string_view setting) const {
 }
 
 void VideoJournal::record(std::string_view setting, const std::string& value) {
+  if (Settings then; !claim_ && read_note(then)) take_found(then);  // another process may have been first
   Setting* now = find_setting(settings_, setting);
   if (!now || now->value != kByFirstLook) return;
   now->value = value;
@@ -155,7 +160,8 @@ bool VideoJournal::read_note(Settings& settings) {
   return true;
 }
 
-void VideoJournal::write_note() const {
+void VideoJournal::write_note() {
+  if (Settings then; !claim_ && read_note(then)) take_found(then);
   const std::string frames = frames_text({frames_.begin(), frames_.end()});
   Settings all = {{kFrames, frames, ""}};
   all.insert(all.end(), settings_.begin(), settings_.end());

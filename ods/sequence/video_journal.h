@@ -50,8 +50,8 @@ class VideoJournal {
   // already recorded, only the own ones are checked.
   void plan(const std::vector<int>& frames, const std::vector<int>& own);
 
-  // Returns the value, for the existing frames, of a setting that was given as kByFirstLook; nullopt if there are no
-  // frames. record() stores it for later frames.
+  // Returns the recorded value of a setting that was given as kByFirstLook; nullopt if none is recorded. record()
+  // stores it for later frames, unless another process that shares them has stored one: then that one remains.
   std::optional<std::string> found(std::string_view setting) const;
   void record(std::string_view setting, const std::string& value);
 
@@ -67,7 +67,8 @@ class VideoJournal {
   std::set<std::string> frame_files() const;  // file names in the folder
   bool has_frames() const;
   bool read_note(Settings& settings);
-  void write_note() const;
+  void take_found(const Settings& then);
+  void write_note();
   std::string note_path() const;
   void begin(bool restart);
 

@@ -124,6 +124,10 @@ std::optional<float> suitable_exposure(std::span<const Picture> looks) {
   return static_cast<float>(std::round(10.0 * std::clamp(stops, -limit, limit)) / 10.0) + 0.0f;
 }
 
+ToneCurve usual_tone(const Scene& scene) {
+  return scene.as_painted ? ToneCurve::kLinear : ToneCurve::kNeutral;
+}
+
 float brightened(float exposure, float brighter) {
   const double sum = std::clamp(double{exposure} + double{brighter}, -double{kMaxStops}, double{kMaxStops});
   return static_cast<float>(std::round(1e4 * sum) / 1e4);

@@ -7,13 +7,16 @@
 #include <span>
 
 #include "ods/camera/stereo_camera.h"
+#include "ods/image/tone.h"
 #include "ods/picture/picture.h"
 #include "ods/render/render_options.h"
+#include "ods/scene/scene.h"
 
 namespace ods {
 
 // The options and the camera of the picture that measures the light: small, one eye between the two, a few samples, all
-// directions around the camera. It has the same bits in every run, independent of the size of the final picture.
+// directions around the camera. It has the same bits in every run on one device, independent of the size of the final
+// picture.
 RenderOptions metering_options(const RenderOptions& options);
 StereoCamera metering_camera(const StereoCamera& camera);
 
@@ -22,11 +25,15 @@ StereoCamera metering_camera(const StereoCamera& camera);
 // sky at most half as much as surfaces. The exposure is lower if more than kHighlightShare of the sphere would be
 // brighter than kHighlight; the sky through windows is exempt if it is less than kWindowShare of the sphere. Returns
 // nullopt if everything is black. Light is first averaged over 4 x 4 pixels, because single pixels of so few samples
-// are noise.
+// are noisy.
 std::optional<float> suitable_exposure(std::span<const Picture> looks);
 
 // Adds stops to an exposure, within kMaxStops. Rounds the result, so that it equals the printed number.
 float brightened(float exposure, float brighter);
+
+// The tone curve of a scene's display-referred pictures, if none is given: linear if its colours are shown as painted
+// (Scene::as_painted).
+ToneCurve usual_tone(const Scene& scene);
 
 inline constexpr float kExposedMean = 0.18f;  // middle grey
 inline constexpr float kHighlight = 1.5f;     // PBR Neutral shows it at 0.93

@@ -47,7 +47,7 @@ class FramePool {
 
 // The conversion of scene-linear light for display. Only float pictures need it; others are already display-referred.
 struct DisplayTransform {
-  float exposure = 0.0f;  // EV
+  float exposure = 0.0f;  // stops
   ToneCurve tone = ToneCurve::kNeutral;
 };
 

@@ -163,7 +163,7 @@ TEST(RenderVideo, AddedFramesAreMadeWithWhatTheFirstLookHasFound) {
   struct Found {
     float exposure = 0.0f;
     std::vector<float> merge;
-    ExposureReason reason = ExposureReason::kGiven;
+    ExposureReason reason = ExposureReason::kKnown;
     bool operator==(const Found&) const = default;
   };
   const auto make = [&] {
@@ -182,7 +182,7 @@ TEST(RenderVideo, AddedFramesAreMadeWithWhatTheFirstLookHasFound) {
   Found first = make();
   EXPECT_EQ(first.reason, ExposureReason::kLight);
   film.video.frames = {0, 10};
-  first.reason = ExposureReason::kFrames;
+  first.reason = ExposureReason::kRecorded;
   EXPECT_EQ(make(), first);
   film.video.restart = true;
   const Found both = make();
@@ -191,6 +191,20 @@ TEST(RenderVideo, AddedFramesAreMadeWithWhatTheFirstLookHasFound) {
 }
 
 // Noise, shutter and the neighbours of a frame are the same for the library and the command.
+// Two processes that share the frames opened the journal before either had looked.
+TEST(RenderVideo, TheFirstOfTwoProcessesDecides) {
+  const TemporaryFolder folder;
+  const Settings settings = {{"`exposure`", std::string(kByFirstLook), ""}};
+  VideoJournal first(folder.path("a.mp4"), settings, false, JournalUse::kShared);
+  VideoJournal second(folder.path("a.mp4"), settings, false, JournalUse::kShared);
+  first.record("`exposure`", "1.5");
+  second.plan({1, 2}, {1});
+  EXPECT_EQ(second.found("`exposure`"), "1.5");
+  second.record("`exposure`", "1.4");
+  const VideoJournal third(folder.path("a.mp4"), settings, false, JournalUse::kShared);
+  EXPECT_EQ(third.found("`exposure`"), "1.5");
+}
+
 TEST(RenderVideo, AFrameAloneIsThatOfTheWholeSequence) {
   Film film;
   const auto render = [&](const std::string& name, const std::vector<size_t>& missing) {

@@ -8,9 +8,11 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "ods/image/image_file.h"
 #include "ods/picture/load_eyes.h"
 #include "ods/video/container/video_file.h"
 #include "tests/support/cli_runner.h"
+#include "tests/support/pictures.h"
 
 namespace ods::cli_stitch_test {
 
@@ -158,6 +160,9 @@ TEST_F(StitchCommand, FramesBecomeAVideo) {
   ASSERT_EQ(video.tracks.size(), 1u);
   EXPECT_EQ(video.tracks[0].size.height, 64);
   EXPECT_EQ(metadata_text(*video.tracks[0].v2), "top-bottom, lat-long");
+  ASSERT_EQ(run("convert " + folder.path("video_360_TB.mkv") + " -q -o " + folder.path("seen.#.png")), 0) << err;
+  const auto mean = [&](const char* name) { return ods::mean_of(ods::read_image(folder.path(name))).value(); };
+  EXPECT_NEAR(mean("seen.1.png"), mean("shot.1.png"), 0.01) << "these views are display-referred already";
   EXPECT_EQ(run("video " + of + "--rig " + rig + " -q -o " + folder.path("b.mkv")), 2);
 }
 

@@ -90,7 +90,7 @@ TEST_F(SubmitCommand, ATaskOfAVideoNamesTheFramesThatItMakes) {
 }
 
 TEST_F(SubmitCommand, APictureInPartsHasTheBitsOfOneMachine) {
-  const std::string still = " toys --width 32 --samples 16 --exposure 1 -o ";
+  const std::string still = " toys --width 32 --samples 16 --exposure 1 --brighter -0.5 --tone linear -o ";
   ASSERT_EQ(run("submit --to openjd -- render" + still + folder.path("p.png") + " --parts 5 --denoise own"), 0) << err;
   const json made = plan("p");
   EXPECT_EQ(made["groups"][0]["option"], "--part");

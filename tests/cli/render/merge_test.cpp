@@ -116,7 +116,7 @@ class MergeCommand : public Cli {
     }
   }
   std::string render(const std::string& file, const std::string& more) const {
-    return "render toys -q --width 48 --samples 20 -o " + folder.path(file) + " " + more;
+    return "render toys -q --width 48 --samples 20 --tone linear -o " + folder.path(file) + " " + more;
   }
   std::string parts() const { return folder.path("part_#.exr"); }
 };
@@ -128,6 +128,10 @@ TEST_F(MergeCommand, GivesTheBitsOfOneRendering) {
     ASSERT_EQ(run("merge " + parts() + " -o " + folder.path(file)), 0) << err;
     EXPECT_EQ(folder.read(file), whole) << file;
   }
+  ASSERT_EQ(run(render("a.png", "--noise none --brighter 1")), 0) << err;
+  const std::string brighter = folder.read("a.png");
+  ASSERT_EQ(run("merge " + parts() + " --brighter 1 -o " + folder.path("a.png")), 0) << err;
+  EXPECT_EQ(folder.read("a.png"), brighter);
   ASSERT_EQ(run(render("a.exr", "--noise none --statistics --denoise own")), 0) << err;
   const std::string whole = folder.read("a.exr");
   ASSERT_EQ(run("merge " + parts() + " --statistics --denoise own -o " + folder.path("a.exr")), 0) << err;
