@@ -17,4 +17,4 @@ pkg_check_modules(Formats REQUIRED IMPORTED_TARGET lcms2 libheif libjpeg libpng 
 pkg_check_modules(FFmpeg REQUIRED IMPORTED_TARGET libavcodec>=59.37 libavformat libavutil libswresample)
 pkg_check_modules(Pango REQUIRED IMPORTED_TARGET pangoft2>=1.50)
 set(ods_libraries embree TBB::tbb PkgConfig::Deflate PkgConfig::FFmpeg PkgConfig::OpenEXR PkgConfig::Pango PkgConfig::Formats
-  draco::draco meshoptimizer::meshoptimizer nlohmann_json::nlohmann_json fmt::fmt)
+  draco::draco meshoptimizer::meshoptimizer fmt::fmt)

@@ -391,7 +391,8 @@ TEST(Architecture, TestsAreWhereTheirSourcesAre) {
       EXPECT_TRUE(begins_with_any(name, names[folder])) << source.path << " begins with no source of " << folder;
     } else {
       std::erase_if(folders[name], [](const std::string& of) { return of.starts_with("cli/"); });
-      EXPECT_TRUE(folders[name].empty() || folders[name].contains("ods/" + folder)) << source.path;
+      EXPECT_TRUE(folders[name].empty() || folders[name].contains("ods/" + folder))
+          << source.path << " has the name of " << *folders[name].begin() << "/" << name << ": move or rename one";
     }
   }
 }
