@@ -10,6 +10,7 @@
 
 #include "cli/console/print.h"
 #include "cli/options/eye_options.h"
+#include "ods/base/decimal.h"
 #include "ods/base/json_reader.h"
 
 using ods::ComfortLevel, ods::ComfortRules, ods::JudgedPicture, ods::Strain, ods::StrainedPlace;
@@ -53,7 +54,7 @@ Json place_json(const JudgedPicture& judged, const StrainedPlace& place) {
           {"elevation", place.elevation},
           {"distance", place.distance},
           {"enough", place.enough},
-          {"ipd", place.ipd},
+          {"ipd", ods::decimal(place.ipd)},
           {"share", place.share}};
 }
 
@@ -148,10 +149,13 @@ void print_text(const ComfortJob& job, const JudgedPicture& judged) {
 void print_json(const ComfortJob& job, const JudgedPicture& judged) {
   const ods::ComfortVerdict& verdict = judged.verdict;
   const ods::Viewer& viewer = job.comfort.viewer;
-  Json json = {{"path", job.scene.name},      {"level", comfort_level_name(verdict.level)},
-               {"ipd", judged.camera.ipd},    {"viewer_ipd", viewer.ipd},
-               {"gaze", viewer.gaze_degrees}, {"roll", viewer.roll_degrees}};
-  json["focus"] = std::isfinite(viewer.focus) ? Json(viewer.focus) : Json("infinity");
+  Json json = {{"path", job.scene.name},
+               {"level", comfort_level_name(verdict.level)},
+               {"ipd", ods::decimal(judged.camera.ipd)},
+               {"viewer_ipd", ods::decimal(viewer.ipd)},
+               {"gaze", viewer.gaze_degrees},
+               {"roll", viewer.roll_degrees}};
+  json["focus"] = std::isfinite(viewer.focus) ? Json(ods::decimal(viewer.focus)) : Json("infinity");
   json["nearest"] = ods::json_number(verdict.nearest);
   json["unknown"] = verdict.unknown;
   for (const ods::EyeComfort& eye : verdict.per_eye)
@@ -173,7 +177,7 @@ void print_json(const ComfortJob& job, const JudgedPicture& judged) {
       }
     }
   }
-  json["largest_ipd"] = job.comfort.rules == ComfortRules::kStrain ? Json(verdict.largest_ipd) : Json();
+  json["largest_ipd"] = job.comfort.rules == ComfortRules::kStrain ? Json(ods::decimal(verdict.largest_ipd)) : Json();
   json["head_roll"] = verdict.head_roll;
   json["share"] = shares_json(verdict.share);
   json["looked"] = shares_json(verdict.looked);

@@ -10,6 +10,7 @@
 
 #include "cli/console/print.h"
 #include "cli/verdict/comfort_report.h"
+#include "ods/base/decimal.h"
 #include "ods/base/json_reader.h"
 
 using ods::Json;
@@ -74,10 +75,14 @@ void print_text(const ComfortJob& job, const ods::VideoComfort& video) {
 }
 
 void print_json(const ComfortJob& job, const ods::VideoComfort& video) {
-  Json json = {{"path", job.scene.name},        {"level", comfort_level_name(video.level)},
-               {"ipd", video.worst.camera.ipd}, {"frames", video.frames},
-               {"seconds", video.seconds},      {"every", video.every},
-               {"precision", video.precision},  {"moments", Json::array()},
+  Json json = {{"path", job.scene.name},
+               {"level", comfort_level_name(video.level)},
+               {"ipd", ods::decimal(video.worst.camera.ipd)},
+               {"frames", video.frames},
+               {"seconds", video.seconds},
+               {"every", video.every},
+               {"precision", video.precision},
+               {"moments", Json::array()},
                {"strains", Json::array()}};
   const bool has_strains = job.comfort.rules == ods::ComfortRules::kStrain;
   for (const ods::VideoMoment& moment : video.moments) json["moments"].push_back(moment_json(moment, has_strains));

@@ -43,7 +43,7 @@ CameraChoice camera_choice(std::string_view words);
 
 struct SettleOptions {
   std::optional<float> metres_per_unit{};  // guess_unit() if not set
-  bool shows_models = true;                // as in guess_unit()
+  bool shows_models = true;                // as in guess_unit(): false if a position is given, in the file's units
   TakenFor taken_for = TakenFor::kAuto;
   CameraChoice camera = CameraChoice::kFirst;
 };
@@ -56,8 +56,9 @@ using LookAround = std::function<void(const SceneRays& rays, const Survey& surve
 // sets Scene::viewing. A scene without visible surfaces is not changed, except by a given unit. An object seen by a
 // camera of the file keeps its size. look: called once at the end. Throws Error(kInput) as scale_scene().
 //
-// The commands open a file with load_scene(); if why_on_its_back(), they load it again with SceneOptions::z_up; then
-// they settle it, and place the camera with camera_in() (ods/sequence/scene_camera.h). Built-in scenes are not settled.
+// The commands open a file with load_scene(); if why_on_its_back(), they load it again with SceneOptions::z_up; they
+// call make_sheets_thin() and mark_outlines(), which say what real-time programs mean by some surfaces; then they settle
+// it, and place the camera with camera_in() (ods/sequence/scene_camera.h). Built-in scenes are not settled.
 Settled settle(Scene& scene, const SettleOptions& options = {}, const LookAround& look = {});
 
 // A note for a scene of uncertain kind: the alternative, and the option for it.
