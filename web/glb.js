@@ -108,7 +108,7 @@ export class Glb {
     const waiting = (this.of('scenes', this.json.scene ?? 0).nodes ?? []).map((index) => [index, IDENTITY]);
     while (waiting.length) {
       const [index, above] = waiting.pop();
-      check(!seen.has(index) && seen.add(index).size <= MAX_NODES, 'its nodes are no tree');
+      check(!seen.has(index) && seen.add(index).size <= MAX_NODES, 'its nodes are not a tree');
       const node = this.of('nodes', index);
       const matrix = multiplied(above, matrixOf(node));
       check(matrix.length === 16 && matrix.every(Number.isFinite), `it has a damaged nodes[${index}]`);

@@ -231,7 +231,7 @@ class LayeredPicture {
     drawer.showEyes({ box, clip, target, show: ['eye', 'anaglyph', 'difference'].indexOf(show), cover, grey: this.fallback ? 0 : GREY * fade });
   }
 
-  // Of the picture outside the box, while it is visible.
+  // The pager of the picture outside the box, while that is visible.
   get pager() {
     return this.isFading ? this.fallback?.pager : undefined;
   }

@@ -53,7 +53,7 @@ function watchServer(player) {
     if (there.pages || player.viewer.session) player.sharing ??= import('./share.js').then(({ Share }) => (player.share = new Share(player)));
     if (player.viewer.view.studio) return;
     if (there && lost) location.reload();
-    if (!there && !lost) player.fail('ods view has ended. Start it again, and this page goes on by itself.');
+    if (!there && !lost) player.fail('ods view has ended. Start it again, and this page continues by itself.');
     lost = !there;
   }, 2000);
 }

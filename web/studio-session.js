@@ -10,7 +10,7 @@ const PAUSE = 30; // milliseconds between two messages
 const PATIENCE = 400; // milliseconds that a drag waits for a picture of its last message, so that one appears at all
 const HISTORY = 200;
 
-export const ENDED = 'ods view has ended. Start it again, and this page goes on by itself.';
+export const ENDED = 'ods view has ended. Start it again, and this page continues by itself.';
 
 export const sleep = (time) => new Promise((done) => setTimeout(done, time));
 const copy = (value) => structuredClone(value);

@@ -137,7 +137,7 @@ export function readTour(tour, address, itemOf) {
   const names = panoramas.map(({ name }) => name);
   panoramas.forEach(({ name, links, place, on_plan: pixel }, i) => {
     if (names.indexOf(name) !== i) fail(`two panoramas are called '${name}'`);
-    for (const link of links ?? []) if (!names.includes(link.to ?? link)) fail(`panoramas.${i} leads to '${link.to ?? link}', which is no panorama's name`);
+    for (const link of links ?? []) if (!names.includes(link.to ?? link)) fail(`panoramas.${i} leads to '${link.to ?? link}', which is not the name of a panorama`);
     if (!links && names.length > 1 && !place && !(pixel && tour.plan)) fail(`panoramas.${i} ('${name}') has neither a place nor links`);
   });
   const url = (file) => new URL(file, address).href;

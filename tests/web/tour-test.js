@@ -184,7 +184,7 @@ async function testElement() {
   for (const [name, value] of Object.entries({ tour: 'files/broken-tour.json', loading: 'eager' })) broken.setAttribute(name, value);
   const said = new Promise((done) => broken.addEventListener('error', ({ detail }) => done(detail.message)));
   document.body.append(broken);
-  expect((await said) === "broken-tour.json: panoramas.0 leads to 'cellar', which is no panorama's name", await said);
+  expect((await said) === "broken-tour.json: panoramas.0 leads to 'cellar', which is not the name of a panorama", await said);
 }
 
 // --- the headset ----------------------------------------------------------------------------------------------------

@@ -18,7 +18,7 @@ namespace ods {
 struct StereoJpeg {
   FileRange right;     // the right eye's JPEG within the file; size 0: the file has only one picture
   std::string layout;  // the name of the layout (layout.h) of both eyes in one picture, or mono; empty if unspecified
-  int others = 0;      // further pictures that its list (MPF) has, which are no eyes: gain maps, depth maps, previews
+  int others = 0;      // further pictures that its list (MPF) has, which are not eyes: gain maps, depth maps, previews
   std::string fault;   // message about damaged metadata; empty for valid metadata
 };
 
