@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Exports a scene for Omnistereo: scene.glb, world.exr if the world is a picture, and bridge.json with all else.
 
-Started by the command as `blender --background ... --python run.py -- SCENE FOLDER [--bake N] [--scene NAME]`.
+Started by the command as `blender --background ... --python run.py -- SCENE FOLDER [--bake N] [--scene NAME]
+[--beginning FRAMES [--first N --last N]]`.
 Changes the open scene in memory and saves nothing.
 """
 import json
@@ -10,7 +11,7 @@ import os
 
 import bpy
 
-from . import bake, camera, library, lights, materials, means, motion, opening, pictures, prepare, unroll, world
+from . import bake, beginning, camera, library, lights, materials, means, motion, opening, pictures, prepare, unroll, world
 from .glb import FLOAT, Glb
 from .ledger import Ledger, some
 from .places import local_place, parts
@@ -225,13 +226,13 @@ def _make_own(context, ledger):
     prepare.modify_as_rendered(scene)
 
 
-def _follow(context, ledger):
+def _follow(context, ledger, start):
     """What changes from frame to frame; None: nothing does. Leaves the scene in its saved frame."""
     scene, saved = context.scene, context.scene.frame_current
     if not motion.is_animated(scene):
         return None
     step("following what moves", 0.05)
-    samples = motion.sample(context, materials.constants_of, ledger)
+    samples = motion.sample(context, materials.constants_of, ledger, start)
     scene.frame_set(saved)
     return samples
 
@@ -268,7 +269,7 @@ def _describe(scene, samples, ledger):
         "unit": scene.unit_settings.scale_length,
     }
     if samples:
-        result["frames"] = {"first": scene.frame_start, "count": len(samples.times), "saved": scene.frame_current}
+        result["frames"] = {"first": scene.frame_start, "count": samples.count, "saved": scene.frame_current}
     if seer:
         result["camera"] = camera.describe(scene, seer, seer.matrix_world, ledger)
     if ledger.read(render, "use_motion_blur"):
@@ -279,11 +280,12 @@ def _describe(scene, samples, ledger):
     return result
 
 
-def export_scene(context, folder, size=0):
-    """Writes the files for the context's scene. size: of the pictures of computed materials; 0: none are made."""
+def export_scene(context, folder, size=0, start=None):
+    """Writes the files for the context's scene. size: of the pictures of computed materials; 0: none are made.
+    start: the Beginning of the film, if only that is needed."""
     ledger, scene, reads = Ledger(), context.scene, _reads()
     _make_own(context, ledger)
-    samples = _follow(context, ledger)
+    samples = _follow(context, ledger, start)
     prepared = prepare.prepare(context, samples, ledger)
     if samples:
         prepare.number_points(context, [each for each, frames in samples.points.items() if frames is not None])
@@ -314,15 +316,21 @@ def export_scene(context, folder, size=0):
     return result
 
 
+def _beginning(options):
+    if "--beginning" not in options:
+        return None
+    return beginning.Beginning(*(int(options[k]) for k in ("--beginning", "--first", "--last") if k in options))
+
+
 def main(arguments):
-    """arguments: SCENE FOLDER [--bake N] [--scene NAME]. The exit code."""
+    """arguments: as above, from SCENE on. The exit code."""
     path, folder = arguments[0], arguments[1]
     options = dict(zip(arguments[2::2], arguments[3::2]))
     size = int(options.get("--bake", 0))
     try:
         opening.repair_numpy()
         opening.open_scene(path, options.get("--scene", ""))
-        export_scene(bpy.context, folder, size)
+        export_scene(bpy.context, folder, size, _beginning(options))
     except Failure as failure:
         say("error", failure)
         return 3
