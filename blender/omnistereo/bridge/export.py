@@ -211,6 +211,17 @@ def _reads():
     return files
 
 
+def _join_sets(scene):
+    """Blender renders the objects of a background set, which is another scene, with the scene's own."""
+    joined, own = {scene}, scene.collection
+    while (other := scene.background_set) and other not in joined:
+        joined.add(other)
+        for mine, theirs in ((own.children, other.collection.children), (own.objects, other.collection.objects)):
+            for each in [each for each in theirs if each.name not in mine]:
+                mine.link(each)
+        scene.background_set = other.background_set if other.background_set not in joined else None
+
+
 def _make_own(context, ledger):
     """Leaves the scene in object mode, with datablocks of its own and the render's settings."""
     scene = context.scene
@@ -220,6 +231,10 @@ def _make_own(context, ledger):
     if tuple(bpy.data.version[:2]) > tuple(bpy.app.version[:2]):
         made, own = (".".join(map(str, v[:2])) for v in (bpy.data.version, bpy.app.version))
         ledger.say(f"it was saved by Blender {made} and opened by {own}: what is new there is missing")
+    layers = [each.name for each in scene.view_layers if each.use and each != context.view_layer]
+    if layers:
+        ledger.say(f"only the view layer '{context.view_layer.name}' comes across, not {some(layers)}")
+    _join_sets(scene)
     others = [each.name for each in bpy.data.scenes if each != scene]
     if others:
         ledger.say(f"the file has {len(others) + 1} scenes; this is '{scene.name}', --scene shows {some(others, 20)}")
