@@ -15,12 +15,14 @@ class Beginning:
     def __init__(self, frames, first=None, last=None):
         self.frames, self.first, self.last = frames, first, last
 
-    def needed(self, start, count, saved, step):
+    def needed(self, start, count, saved, step, simulated):
         """The numbers of the frames to evaluate, of `count` from 0 on. step: of the points, every n-th frame is kept.
-        The second result: those up to which a simulation must run through all frames."""
+        The second result: those up to which a simulation must run through all frames. Later it stands still, so one
+        frame after another is not asked for there: Blender would compute it."""
         first = min(max((start if self.first is None else self.first) - start, 0), count - 1)
         last = min(max((start + count - 1 if self.last is None else self.last) - start, first), count - 1)
         looks = {first + (2 * i + 1) * (last - first + 1) // (2 * LOOKS) for i in range(LOOKS)}
         shown = {n for n in range(first - 1, first + self.frames + REACH) if 0 <= n < count}
-        kept = {n for each in shown | looks for n in (each // step * step, min(-(-each // step) * step, count - 1))}
+        between = shown if simulated else shown | looks
+        kept = {n for each in between for n in (each // step * step, min(-(-each // step) * step, count - 1))}
         return shown | looks | kept | {0, saved, count - 1}, max(*shown, saved)

@@ -130,8 +130,9 @@ def _frames_of(scene, samples, deforming, beginning):
             slowness.judge(number + 1)
     if beginning is not None:
         step = _step_of(deforming.values(), samples.count)
-        needed, through = beginning.needed(scene.frame_start, samples.count, samples.saved, step)
-        through = through if simulates(scene) else 0
+        simulated = simulates(scene)
+        needed, through = beginning.needed(scene.frame_start, samples.count, samples.saved, step, simulated)
+        through = through if simulated else 0
         for number in sorted(needed.union(range(through)) - {0}):
             scene.frame_set(scene.frame_start + number)
             if number in needed:
