@@ -36,13 +36,15 @@ void write_exporter(const std::string& folder) {
 
 // The reports of our scripts on stderr, where Blender prints other lines, too.
 struct Report {
-  std::string error;  // the first one
+  std::function<void()> slow{};
+  std::string error{};  // the first one
   bool is_done = false;
 
   void take(const std::string& line) {
     if (!line.starts_with(kOurs)) return;
     const std::string rest = line.substr(kOurs.size());
     is_done |= rest.starts_with("done ");
+    if (rest.starts_with("slow ") && slow) slow();
     if (rest.starts_with("error ") && error.empty()) error = ods::one_line(rest.substr(6, kMaxError));
   }
 };
@@ -94,28 +96,39 @@ Program blender_program(const BlenderOptions& options, const std::vector<std::st
 
 // Runs one of our scripts in Blender to its end. what: begins the message of an error. folder: of ours.
 static void run_script(const BlenderOptions& options, const std::vector<std::string>& flags, const char* script,
-                       const std::vector<std::string>& arguments, const std::string& folder, const std::string& what) {
+                       const std::vector<std::string>& arguments, const std::string& folder, const std::string& what,
+                       const ConversionWatch& watch = {}) {
   const ods::PrivateFolder scripts;
-  Report report;
+  Report report{.slow = watch.slow};
   Program blender = blender_program(options, flags, scripts.path(), script, arguments);
   blender.folder = folder;
   blender.take_error = [&](const std::string& line) { report.take(line); };
-  const auto result = run_program(blender);
-  if (!result || result->code == 127) fail_in_blender(what, "Blender cannot be started");
-  if (!result->in_time) fail_in_time("Blender", what, options.seconds);
+  if (blender.words.front().empty()) fail_in_blender(what, "Blender cannot be started");
+  RunningProgram running(blender);
+  const std::stop_callback ending(watch.stop, [&running] { running.end(); });
+  const ProgramResult result = running.finish();
+  if (result.code == 127) fail_in_blender(what, "Blender cannot be started");
+  if (!result.in_time) fail_in_time("Blender", what, options.seconds);
   if (!report.error.empty()) fail_in_blender(what, report.error);
   if (report.is_done) return;
   const std::string how =
-      result->code > 128 ? fmt::format("Blender crashed (signal {}); --blender PATH tries another", result->code - 128)
-                         : "Blender ended before it was done";
-  fail_in_blender(what, result->last_line.empty() ? how : fmt::format("{}; its output: {}", how, result->last_line));
+      result.code > 128 ? fmt::format("Blender crashed (signal {}); --blender PATH tries another", result.code - 128)
+                        : "Blender ended before it was done";
+  fail_in_blender(what, result.last_line.empty() ? how : fmt::format("{}; its output: {}", how, result.last_line));
 }
 
-void run_blender(const BlenderOptions& options, const std::string& scene, const std::string& folder) {
+void run_blender(const BlenderOptions& options, const std::string& scene, const std::string& folder,
+                 const ConversionWatch& watch, const std::optional<FilmBeginning>& beginning) {
   std::vector<std::string> arguments = {fs::absolute(scene).native(), folder};
-  if (options.bake > 0) arguments.insert(arguments.end(), {"--bake", std::to_string(options.bake)});
+  const auto add = [&](const char* name, int value) {
+    arguments.insert(arguments.end(), {name, std::to_string(value)});
+  };
+  if (options.bake > 0) add("--bake", options.bake);
   if (!options.scene.empty()) arguments.insert(arguments.end(), {"--scene", options.scene});
-  run_script(options, {"--factory-startup"}, "run.py", arguments, folder, scene);
+  if (beginning) add("--beginning", beginning->count);
+  if (beginning && beginning->frames)
+    add("--first", beginning->frames->first), add("--last", beginning->frames->second);
+  run_script(options, {"--factory-startup"}, "run.py", arguments, folder, scene, watch);
   if (!fs::exists(fs::path(folder) / "bridge.json")) fail_in_blender(scene, "Blender ended before it was done");
 }
 

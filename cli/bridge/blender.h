@@ -3,7 +3,11 @@
 //
 // Blender, started to convert a scene. No Python of the scene runs there.
 #pragma once
+#include <functional>
+#include <optional>
+#include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/console/programs.h"
@@ -29,9 +33,22 @@ std::string find_blender(const BlenderOptions& options);
 Program blender_program(const BlenderOptions& options, const std::vector<std::string>& flags,
                         const std::string& scripts, const char* script, const std::vector<std::string>& arguments);
 
-// Leaves scene.glb, bridge.json and perhaps world.exr in the folder. Throws Error(kInput) if Blender reports an error,
-// fails, ends early or takes too long.
-void run_blender(const BlenderOptions& options, const std::string& scene, const std::string& folder);
+// The beginning of a film: its first frames alone, for rendering before the rest is converted.
+struct FilmBeginning {
+  int count = 0;                              // of frames
+  std::optional<std::pair<int, int>> frames;  // the first and the last of the film; absent: all of the file
+};
+
+// A conversion, seen from another thread.
+struct ConversionWatch {
+  std::function<void()> slow;  // called when following what moves is found to take long; may be empty
+  std::stop_token stop;        // ends Blender; the conversion throws Error(kInput)
+};
+
+// Leaves scene.glb, bridge.json and perhaps world.exr in the folder. beginning: convert this alone. Throws Error(kInput)
+// if Blender reports an error, fails, ends early or takes too long.
+void run_blender(const BlenderOptions& options, const std::string& scene, const std::string& folder,
+                 const ConversionWatch& watch = {}, const std::optional<FilmBeginning>& beginning = {});
 
 // Installs and enables our add-on in the user's Blender. Throws as run_blender() does.
 void install_add_on(const BlenderOptions& options);

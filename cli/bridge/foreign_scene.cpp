@@ -66,7 +66,7 @@ void check_blend(const std::string& path) {
 
 // Assimp converts the formats that it reads if Blender is missing, or cannot read the file.
 void convert(const std::string& path, const ForeignFormat& format, const BlenderOptions& options,
-             const std::string& kept) {
+             const std::string& kept, const ConversionWatch& watch) {
   const ods::PrivateFolder folder(cache_folder() + "/.new-");
   const bool can_blender = format.blender && !find_blender(options).empty();
   const bool can_assimp = format.assimp && has_assimp();
@@ -75,7 +75,7 @@ void convert(const std::string& path, const ForeignFormat& format, const Blender
     note(fmt::format("Blender converts '{}'; the result is kept in '{}' until the file changes", path,
                      fs::path(kept).parent_path().native()));
     try {
-      run_blender(options, path, folder.path());
+      run_blender(options, path, folder.path(), watch);
       return keep_scene(folder.path(), kept);
     } catch (const ods::Error& error) {
       if (error.kind() != ods::ErrorKind::kInput || !format.assimp) throw;
@@ -131,14 +131,15 @@ bool is_foreign_scene(const std::string& path) {
   return format_of(path) != nullptr;
 }
 
-ForeignScene convert_foreign_scene(const std::string& path, const BlenderOptions& options) {
+ForeignScene convert_foreign_scene(const std::string& path, const BlenderOptions& options,
+                                   const ConversionWatch& watch) {
   const ForeignFormat& format = *format_of(path);
   const std::string kept = kept_scene(path, describe(options));
   const bool is_blender_file = is_blend(path);
   if (is_blender_file) check_blend(path);
   if (!is_kept(kept)) {
     const auto claim = ods::claim(kept, kPatience);
-    if (!is_kept(kept)) convert(path, format, options, kept);
+    if (!is_kept(kept)) convert(path, format, options, kept, watch);
   }
   ForeignScene scene = read_bridge(kept);
   scene.is_blender_file = is_blender_file;

@@ -43,4 +43,5 @@ ForeignScene read_bridge(const std::string& folder);
 
 // Converts it with a note, or returns the kept conversion. Two processes convert it once. Throws Error(kInput) if there
 // is no program for it, or the program fails; Error(kOutput).
-ForeignScene convert_foreign_scene(const std::string& path, const BlenderOptions& options);
+ForeignScene convert_foreign_scene(const std::string& path, const BlenderOptions& options,
+                                   const ConversionWatch& watch = {});

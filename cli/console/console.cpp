@@ -12,6 +12,8 @@
 #include <mutex>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
 #include <string_view>
 #include <system_error>
 
@@ -142,14 +144,32 @@ std::string with_options(const std::string& text) {
   return result + text.substr(done);
 }
 
+static std::mutex said_mutex;
+static std::optional<std::set<std::string>> said;  // absent: no SaidOnce
+
+SaidOnce::SaidOnce() {
+  const std::lock_guard lock(said_mutex);
+  said.emplace();
+}
+
+SaidOnce::~SaidOnce() {
+  const std::lock_guard lock(said_mutex);
+  said.reset();
+}
+
+static bool is_said(const std::string& text) {
+  const std::lock_guard lock(said_mutex);
+  return said && !said->insert(text).second;
+}
+
 void note(const std::string& text) {
-  if (console.quiet) return;
+  if (console.quiet || is_said(text)) return;
   if (console.json) return print_json({{"note", with_options(text)}});
   put_error("ods: ", ods::one_line(with_options(text)) + "\n");
 }
 
 void warn(const std::string& text) {
-  if (console.quiet) return;
+  if (console.quiet || is_said(text)) return;
   if (console.json) return print_json({{"warning", with_options(text)}});
   put_error("ods: warning: ", ods::one_line(with_options(text)) + "\n");
 }

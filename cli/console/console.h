@@ -39,6 +39,16 @@ void note(const std::string& text);
 // "ods: warning: text" or {"warning":"text"}, unless quiet.
 void warn(const std::string& text);
 
+// While one of these exists, note() and warn() leave out what they have printed since it was made: a command does its
+// work twice. At most one at a time.
+class SaidOnce {
+ public:
+  SaidOnce();
+  ~SaidOnce();
+  SaidOnce(const SaidOnce&) = delete;
+  SaidOnce& operator=(const SaidOnce&) = delete;
+};
+
 // Prints the name of a written file on stdout, unless quiet.
 void announce_file(const std::string& file);
 

@@ -99,8 +99,8 @@ void render_scene(const VideoJob& job, ProgressLines& lines) {
   ods::Scene& scene = *opened;
   const TimeOptions time = video_time(render, scene);
   video.frames = video_frames(time);
-  const std::vector<int> own = own_frames(time.only, video.frames);
-  if (!time.only.empty()) video.only = own;
+  const std::vector<int> own = job.early.empty() ? own_frames(time.only, video.frames) : job.early;
+  if (!time.only.empty() || !job.early.empty()) video.only = own;
   video.raw = render.raw;
   video.tone = render.tone;
   video.keep_frames = job.keep_frames;
@@ -112,10 +112,11 @@ void render_scene(const VideoJob& job, ProgressLines& lines) {
     if (!video.only) note_sound_length(video.encode, video.frames.size());
   };
   progress.frames.report = [&](double done, const ods::FrameAtWork& at) {
-    report_rendering(lines, begin, done, {"render", at.place, at.count, at.path});
+    const double share = static_cast<double>(own.size()) / static_cast<double>(video.frames.size());
+    report_rendering(lines, begin, job.early.empty() ? done : share * done, {"render", at.place, at.count, at.path});
   };
   progress.frames.saved = [&](const ods::Rendered& frame) {
-    if (video.only) std::ranges::for_each(frame.files, announce_file);
+    if (!time.only.empty()) std::ranges::for_each(frame.files, announce_file);
   };
   progress.frames.waiting = note_waiting("frame");
   progress.encoding = report_encoding(job, lines, begin, video.frames.size());

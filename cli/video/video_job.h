@@ -4,6 +4,7 @@
 // The options of ods video.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "cli/options/video_options.h"
 #include "cli/render/render_job.h"
@@ -13,6 +14,7 @@ struct VideoJob {
   VideoChoices video;
   std::string rig;  // a slit rig: stitch its views instead of rendering
   bool keep_frames = false, restart = false;
+  std::vector<int> early;  // frames to render now, as the rest of the scene is not there yet: no video; empty: all
 };
 
 VideoJob parse_video(Options& options);

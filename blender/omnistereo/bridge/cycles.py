@@ -18,6 +18,7 @@ from . import camera, motion, opening
 from .ledger import Ledger, some
 from .places import FROM_GLTF, TO_GLTF
 from .report import Failure, say
+from .simulation import simulates
 
 GPUS = ("OPTIX", "CUDA", "HIP", "ONEAPI", "METAL")
 EYES = {0: "left", 1: "right"}  # kLeft and kRight; any other number is the middle
@@ -220,8 +221,13 @@ class Renderer:
         self.clip_end = max([10000.0 / self.unit] + [each.clip_end for each in bpy.data.cameras])
         self.ours = _prepare(scene)
         self.frame = self.device = self.around = None
+        self.simulated = scene.frame_start - 1 if simulates(scene) else math.inf  # the last frame that is computed
 
     def _go_to(self, frame):
+        """Through all frames before it, where a simulation needs them: a farm or a still may ask for any."""
+        while self.simulated < min(math.floor(frame), self.scene.frame_end):
+            self.simulated += 1
+            self.scene.frame_set(self.simulated)
         if frame != self.frame:
             self.scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
             self.frame = frame

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Exports a scene for Omnistereo: scene.glb, world.exr if the world is a picture, and bridge.json with all else.
 
-Started by the command as `blender --background ... --python run.py -- SCENE FOLDER [--bake N] [--scene NAME]`.
+Started by the command as `blender --background ... --python run.py -- SCENE FOLDER [--bake N] [--scene NAME]
+[--beginning FRAMES [--first N --last N]]`.
 Changes the open scene in memory and saves nothing.
 """
 import json
@@ -10,7 +11,7 @@ import os
 
 import bpy
 
-from . import bake, camera, library, lights, materials, means, motion, opening, pictures, prepare, unroll, world
+from . import bake, beginning, camera, library, lights, materials, means, motion, opening, pictures, prepare, unroll, world
 from .glb import FLOAT, Glb
 from .ledger import Ledger, some
 from .places import local_place, parts
@@ -210,6 +211,17 @@ def _reads():
     return files
 
 
+def _join_sets(scene):
+    """Blender renders the objects of a background set, which is another scene, with the scene's own."""
+    joined, own = {scene}, scene.collection
+    while (other := scene.background_set) and other not in joined:
+        joined.add(other)
+        for mine, theirs in ((own.children, other.collection.children), (own.objects, other.collection.objects)):
+            for each in [each for each in theirs if each.name not in mine]:
+                mine.link(each)
+        scene.background_set = other.background_set if other.background_set not in joined else None
+
+
 def _make_own(context, ledger):
     """Leaves the scene in object mode, with datablocks of its own and the render's settings."""
     scene = context.scene
@@ -219,19 +231,23 @@ def _make_own(context, ledger):
     if tuple(bpy.data.version[:2]) > tuple(bpy.app.version[:2]):
         made, own = (".".join(map(str, v[:2])) for v in (bpy.data.version, bpy.app.version))
         ledger.say(f"it was saved by Blender {made} and opened by {own}: what is new there is missing")
+    layers = [each.name for each in scene.view_layers if each.use and each != context.view_layer]
+    if layers:
+        ledger.say(f"only the view layer '{context.view_layer.name}' comes across, not {some(layers)}")
+    _join_sets(scene)
     others = [each.name for each in bpy.data.scenes if each != scene]
     if others:
         ledger.say(f"the file has {len(others) + 1} scenes; this is '{scene.name}', --scene shows {some(others, 20)}")
     prepare.modify_as_rendered(scene)
 
 
-def _follow(context, ledger):
+def _follow(context, ledger, start):
     """What changes from frame to frame; None: nothing does. Leaves the scene in its saved frame."""
     scene, saved = context.scene, context.scene.frame_current
     if not motion.is_animated(scene):
         return None
     step("following what moves", 0.05)
-    samples = motion.sample(context, materials.constants_of, ledger)
+    samples = motion.sample(context, materials.constants_of, ledger, start)
     scene.frame_set(saved)
     return samples
 
@@ -268,7 +284,7 @@ def _describe(scene, samples, ledger):
         "unit": scene.unit_settings.scale_length,
     }
     if samples:
-        result["frames"] = {"first": scene.frame_start, "count": len(samples.times), "saved": scene.frame_current}
+        result["frames"] = {"first": scene.frame_start, "count": samples.count, "saved": scene.frame_current}
     if seer:
         result["camera"] = camera.describe(scene, seer, seer.matrix_world, ledger)
     if ledger.read(render, "use_motion_blur"):
@@ -279,11 +295,12 @@ def _describe(scene, samples, ledger):
     return result
 
 
-def export_scene(context, folder, size=0):
-    """Writes the files for the context's scene. size: of the pictures of computed materials; 0: none are made."""
+def export_scene(context, folder, size=0, start=None):
+    """Writes the files for the context's scene. size: of the pictures of computed materials; 0: none are made.
+    start: the Beginning of the film, if only that is needed."""
     ledger, scene, reads = Ledger(), context.scene, _reads()
     _make_own(context, ledger)
-    samples = _follow(context, ledger)
+    samples = _follow(context, ledger, start)
     prepared = prepare.prepare(context, samples, ledger)
     if samples:
         prepare.number_points(context, [each for each, frames in samples.points.items() if frames is not None])
@@ -314,15 +331,21 @@ def export_scene(context, folder, size=0):
     return result
 
 
+def _beginning(options):
+    if "--beginning" not in options:
+        return None
+    return beginning.Beginning(*(int(options[k]) for k in ("--beginning", "--first", "--last") if k in options))
+
+
 def main(arguments):
-    """arguments: SCENE FOLDER [--bake N] [--scene NAME]. The exit code."""
+    """arguments: as above, from SCENE on. The exit code."""
     path, folder = arguments[0], arguments[1]
     options = dict(zip(arguments[2::2], arguments[3::2]))
     size = int(options.get("--bake", 0))
     try:
         opening.repair_numpy()
         opening.open_scene(path, options.get("--scene", ""))
-        export_scene(bpy.context, folder, size)
+        export_scene(bpy.context, folder, size, _beginning(options))
     except Failure as failure:
         say("error", failure)
         return 3

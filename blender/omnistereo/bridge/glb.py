@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Omnistereo authors
 # SPDX-License-Identifier: Apache-2.0
-"""A binary glTF file, read whole and changed in place."""
+"""A binary glTF file, read whole and added to."""
+import bisect
 import json
 import struct
 
@@ -19,7 +20,7 @@ class Glb:
     def __init__(self, path):
         with open(path, "rb") as file:
             data = file.read()
-        self.json, self.binary = {}, bytearray()
+        self.json, self.pieces, self.size = {}, [], 0  # pieces: of its buffer, of this size together
         at = 12
         while at < len(data):
             size, kind = struct.unpack_from("<II", data, at)
@@ -27,7 +28,7 @@ class Glb:
             if kind == _JSON:
                 self.json = json.loads(chunk)
             if kind == _BIN:
-                self.binary = bytearray(chunk)
+                self._add_bytes(chunk)
             at += 8 + size
 
     def list(self, name):
@@ -42,11 +43,14 @@ class Glb:
         if extension not in used:
             used.append(extension)
 
+    def _add_bytes(self, data):
+        """A multiple of four. What is there stays where it is: an animation may have gigabytes."""
+        self.pieces.append((self.size, data + b"\0" * (-len(data) % 4)))
+        self.size += len(self.pieces[-1][1])
+
     def add_view(self, data):
-        while len(self.binary) % 4:
-            self.binary.append(0)
-        view = {"buffer": 0, "byteOffset": len(self.binary), "byteLength": len(data)}
-        self.binary += data
+        view = {"buffer": 0, "byteOffset": self.size, "byteLength": len(data)}
+        self._add_bytes(data)
         return self.append("bufferViews", view)
 
     def add_accessor(self, values, kind, component=FLOAT):
@@ -69,7 +73,8 @@ class Glb:
         start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
         width = _WIDTHS[accessor["type"]]
         count = accessor["count"] * width
-        return np.frombuffer(self.binary, "<f4", count, start).reshape(-1, width).copy()
+        at, piece = self.pieces[bisect.bisect_right(self.pieces, start, key=lambda p: p[0]) - 1]
+        return np.frombuffer(piece, "<f4", count, start - at).reshape(-1, width).copy()
 
     def add_root(self, node):
         index = self.append("nodes", node)
@@ -78,17 +83,17 @@ class Glb:
         return index
 
     def save(self, path):
-        while len(self.binary) % 4:
-            self.binary.append(0)
-        if self.binary:
-            self.json["buffers"] = [{"byteLength": len(self.binary)}]
+        if self.size:
+            self.json["buffers"] = [{"byteLength": self.size}]
         for name in [key for key, value in self.json.items() if value == []]:
             del self.json[name]
         text = json.dumps(self.json, separators=(",", ":"), allow_nan=False).encode()
         text += b" " * (-len(text) % 4)
-        size = 12 + 8 + len(text) + (8 + len(self.binary) if self.binary else 0)
+        size = 12 + 8 + len(text) + (8 + self.size if self.size else 0)
         with open(path, "wb") as file:
             file.write(struct.pack("<III", _MAGIC, 2, size))
             file.write(struct.pack("<II", len(text), _JSON) + text)
-            if self.binary:
-                file.write(struct.pack("<II", len(self.binary), _BIN) + self.binary)
+            if self.size:
+                file.write(struct.pack("<II", self.size, _BIN))
+            for _, piece in self.pieces:
+                file.write(piece)

@@ -4,12 +4,16 @@
 
 Constraints, drivers without Python and simulations are in it. Skins and shape keys come from Blender's own exporter.
 """
+import time
+
 import bpy
 import numpy as np
 from mathutils import Matrix
 
 from . import lights
 from .places import TO_GLTF, local_place, parts, smooth_rotations
+from .report import say
+from .simulation import simulates
 
 MOST_FRAMES = 20000
 MOST_POINTS = 20_000_000  # of all frames together; beyond this, only every n-th frame is kept
@@ -50,10 +54,13 @@ def camera_at(scene, frame):
 
 
 class Samples:
-    """By frame, for what changes: matrices, whether it is rendered, power of lights, looks of materials, points."""
+    """By frame, for what changes: matrices, whether it is rendered, power of lights, looks of materials, points.
+    The frames are those with these numbers, counted from 0, of all."""
 
     def __init__(self, scene):
-        self.times = []
+        self.fps = scene.render.fps / scene.render.fps_base
+        self.count = min(scene.frame_end - scene.frame_start + 1, MOST_FRAMES)
+        self.numbers, self.times = [], []
         self.matrices, self.shown, self.powers, self.shapes, self.cameras = {}, {}, {}, {}, []
         self.looks = {}  # by material's name: dictionaries of constants
         self.points = {}  # by object: (points, normals), arrays; None: their number changes
@@ -62,10 +69,10 @@ class Samples:
 
     def just_before(self, time):
         """What changes at once does so a little earlier: times in the file are rounded."""
-        return max(0.0, time - 0.01 * self.times[1])
+        return max(0.0, time - 0.01 / self.fps)
 
     def at_saved(self, values):
-        return values[min(self.saved, len(values) - 1)]
+        return values[self.numbers.index(min(self.saved, self.numbers[-1]))]
 
 
 def _points(each, depsgraph):
@@ -92,22 +99,60 @@ def _may_deform(each):
     return bool(kinds) or (each.type != "MESH" and (moves(each.data) or keyed))
 
 
-def sample(context, looks_of, ledger):
-    """looks_of: material -> the constants of its look now."""
+def _step_of(moving, count):
+    """Of the points of moving meshes, those of every n-th frame are kept. moving: the frames of each mesh."""
+    return max(1, -(-count * sum(len(frames[0][0]) // 3 for frames in moving if frames) // MOST_POINTS))
+
+
+class _Slowness:
+    """Tells the program that started us, once, when following what moves takes long."""
+
+    PATIENCE, LONG = 1.0, 8.0  # seconds: before it judges, and of the rest
+
+    def __init__(self, count):
+        self.count, self.start, self.said = count, time.monotonic(), False
+
+    def judge(self, done):
+        taken = time.monotonic() - self.start
+        rest = taken / done * (self.count - done)
+        if not self.said and taken > self.PATIENCE and rest > self.LONG:
+            self.said = True
+            say("slow", f"{rest:.0f}")
+
+
+def _frames_of(scene, samples, deforming, beginning):
+    """Yields the numbers of the frames to read, after Blender has evaluated them."""
+    slowness = _Slowness(samples.count)
+    for number in range(samples.count) if beginning is None else (0,):
+        scene.frame_set(scene.frame_start + number)
+        yield number
+        if beginning is None:
+            slowness.judge(number + 1)
+    if beginning is not None:
+        step = _step_of(deforming.values(), samples.count)
+        simulated = simulates(scene)
+        needed, through = beginning.needed(scene.frame_start, samples.count, samples.saved, step, simulated)
+        through = through if simulated else 0
+        for number in sorted(needed.union(range(through)) - {0}):
+            scene.frame_set(scene.frame_start + number)
+            if number in needed:
+                yield number
+
+
+def sample(context, looks_of, ledger, beginning=None):
+    """looks_of: material -> the constants of its look now. beginning: of the film, if that is all to read."""
     scene = context.scene
     samples = Samples(scene)
-    fps = scene.render.fps / scene.render.fps_base
-    last = min(scene.frame_end, scene.frame_start + MOST_FRAMES - 1)
-    if last < scene.frame_end:
+    if scene.frame_end - scene.frame_start >= MOST_FRAMES:
         ledger.say(f"the animation ends after {MOST_FRAMES} frames")
     keyed = [m for m in bpy.data.materials if m.users and m.node_tree and any(
         moves(tree) for tree in (m, *(n.node_tree for n in m.node_tree.nodes if n.type == "GROUP" and n.node_tree)))]
     deforming = {each: None for each in scene.objects if _may_deform(each)}
-    for frame in range(scene.frame_start, last + 1):
-        scene.frame_set(frame)
+    for number in _frames_of(scene, samples, deforming, beginning):
         depsgraph = context.evaluated_depsgraph_get()
-        samples.times.append((frame - scene.frame_start) / fps)
-        samples.cameras.append(camera_at(scene, frame))
+        samples.numbers.append(number)
+        samples.times.append(number / samples.fps)
+        samples.cameras.append(camera_at(scene, scene.frame_start + number))
         for each in scene.objects:
             evaluated = each.evaluated_get(depsgraph)
             samples.matrices.setdefault(each, []).append(evaluated.matrix_world.copy())
@@ -319,15 +364,15 @@ def add_points(clip, glb, nodes, samples, ledger):
     moving = {each: frames for each, frames in samples.points.items() if frames is not None}
     for each in samples.points.keys() - moving.keys():
         ledger.lose("a mesh whose number of points changes stays as it is in the saved frame", "object", each.name)
-    total = sum(len(frames) * len(frames[0][0]) // 3 for frames in moving.values())
-    step = max(1, -(-total // MOST_POINTS))
+    total = sum(samples.count * len(frames[0][0]) // 3 for frames in moving.values())
+    step = _step_of(moving.values(), samples.count)
     if step > 1:
         ledger.say(f"{total} points move: of every {step} frames one is kept, and between them they go straight")
     for each, frames in moving.items():
         node = glb.json["nodes"][nodes[each]] if each in nodes else {}
         if "mesh" not in node:
             continue
-        kept = sorted({*range(0, len(frames), step), len(frames) - 1})
+        kept = [i for i, number in enumerate(samples.numbers) if number % step == 0 or number == samples.numbers[-1]]
         rest = samples.at_saved(frames)
         for primitive in glb.json["meshes"][node["mesh"]]["primitives"]:
             corners = _point_numbers(glb, primitive)

@@ -158,6 +158,24 @@ def _stop_scattering(parents, depsgraph):
             parent.data = mesh
 
 
+def _take_materials_of_nodes(shown, depsgraph):
+    """Geometry nodes may give a mesh other materials than its object's slots, by which the exporter goes."""
+    for each in shown:
+        kinds = {m.type for m in each.modifiers if m.show_viewport}
+        if each.type != "MESH" or "NODES" not in kinds or "ARMATURE" in kinds:
+            continue
+        evaluated = each.evaluated_get(depsgraph)
+        made = [m and m.name_full for m in evaluated.data.materials]
+        if made == [s.material and s.material.name_full for s in each.material_slots]:
+            continue
+        mesh = bpy.data.meshes.new_from_object(evaluated, preserve_all_data_layers=True, depsgraph=depsgraph)
+        each.shape_key_clear()
+        each.modifiers.clear()
+        each.data = mesh
+        for slot in each.material_slots:
+            slot.link = "DATA"
+
+
 def number_points(context, objects):
     """Objects that deform get the mesh that they are now. Its last UV map numbers the points (motion.add_points())."""
     depsgraph = context.evaluated_depsgraph_get()
@@ -208,6 +226,7 @@ def prepare(context, samples, ledger):
     prepared.lights = [each for each in prepared.lights if hasattr(each[2], "energy")]
     parents = {group.parent for group in prepared.instances}
     _stop_scattering(parents | {parent for _, parent in (samples.scattered if samples else ())}, depsgraph)
+    _take_materials_of_nodes([each for each in shown.values() if each not in parents], depsgraph)
     for prototype in [*(group.prototype for group in prepared.instances), *(each for each, _ in prepared.scattered)]:
         scene.collection.objects.link(prototype)
     for number, each in enumerate(scene.objects):

@@ -14,7 +14,7 @@ import bpy
 SOURCES, OUT = sys.argv[sys.argv.index("--") + 1 :]
 sys.path.insert(0, os.path.join(SOURCES, "blender", "omnistereo"))
 sys.dont_write_bytecode = True
-from bridge import export, opening  # noqa: E402
+from bridge import beginning, export, opening  # noqa: E402
 
 BLACK, WHITE = (0, 0, 0), (1, 1, 1)
 
@@ -433,24 +433,81 @@ def sparks():
         scene.frame_set(frame)
 
 
+def background_set():
+    """A thing of the scene, a thing of its set, and a view layer that is not the active one."""
+    scene, _ = new()
+    thing = plane(material()[0])
+    other = bpy.data.scenes.new("set")
+    wall = bpy.data.objects.new("wall", thing.data)
+    other.collection.objects.link(wall)
+    room = bpy.data.collections.new("room")
+    other.collection.children.link(room)
+    room.objects.link(bpy.data.objects.new("chair", thing.data))
+    scene.background_set = other
+    scene.view_layers.new("second")
+
+
+def nodes_material():
+    """Red by its slot, blue by its geometry nodes."""
+    new()
+    red, _, red_node = material("red")
+    red_node.inputs["Base Color"].default_value = (1, 0, 0, 1)
+    blue, _, blue_node = material("blue")
+    blue_node.inputs["Base Color"].default_value = (0, 0, 1, 1)
+    tree = bpy.data.node_groups.new("nodes", "GeometryNodeTree")
+    for kind in ("INPUT", "OUTPUT"):
+        if hasattr(tree, "interface"):
+            tree.interface.new_socket("mesh", in_out=kind, socket_type="NodeSocketGeometry")
+        else:
+            getattr(tree, kind.lower() + "s").new("NodeSocketGeometry", "mesh")
+    paint = tree.nodes.new("GeometryNodeSetMaterial")
+    paint.inputs["Material"].default_value = blue
+    tree.links.new(tree.nodes.new("NodeGroupInput").outputs[0], paint.inputs[0])
+    tree.links.new(paint.outputs[0], tree.nodes.new("NodeGroupOutput").inputs[0])
+    plane(red).modifiers.new("nodes", "NODES").node_group = tree
+
+
+def film():
+    """A cloth that falls, a wave, and a lamp, a camera and a box that move, for 60 frames."""
+    scene, camera = new()
+    scene.frame_end = 60
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=8, y_subdivisions=8, size=2, location=(0, 3, 2))
+    bpy.context.object.name = "cloth"
+    cloth = bpy.context.object.modifiers.new("cloth", "CLOTH")
+    cloth.settings.vertex_group_mass = bpy.context.object.vertex_groups.new(name="pin").name
+    bpy.context.object.vertex_groups["pin"].add([0, 1, 2], 1.0, "REPLACE")
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=8, y_subdivisions=8, size=2, location=(0, -3, 2))
+    bpy.context.object.name = "sheet"
+    bpy.context.object.modifiers.new("wave", "WAVE")
+    light = lamp("POINT", energy=10)
+    key(light.data, "energy", (1, 10), (60, 40))
+    key(camera, "location", (1, (0, 0, 1.6)), (60, (0, 1, 1.6)))
+    bpy.ops.mesh.primitive_cube_add(size=1)
+    bpy.context.object.name = "box"
+    key(bpy.context.object, "rotation_euler", (1, (0, 0, 0)), (60, (0, 0, 3)))
+    scene.frame_set(1)
+
+
 BAKED = {boxes: 32, glow_along: 32}
+BEGUN = {film: beginning.Beginning(3)}
 SCENES = [nested_mixes, used_colors, unused_colors, mask, decal, tiles, boxes, constant, without_pictures,
           computed_gloss, glow, glow_along, library, override, fog, settings, portal, hidden_world, two_worlds, focus,
-          equisolid, polynomial, mirror_ball, moving, waves, sparks]
+          equisolid, polynomial, mirror_ball, moving, waves, sparks, film, nodes_material,
+          background_set]
 
 
 
 def main():
     opening.repair_numpy()
     for make in SCENES:
-        for size in (0, BAKED.get(make)):
-            if size is None:
+        for words, size, start in (("", 0, None), (" baked", BAKED.get(make), None), (" begun", 0, BEGUN.get(make))):
+            if size is None or (words == " begun" and start is None):
                 continue
-            folder = os.path.join(OUT, make.__name__ + (" baked" if size else ""))
+            folder = os.path.join(OUT, make.__name__ + words)
             os.makedirs(folder)
             try:
                 make()
-                export.export_scene(bpy.context, folder, size)
+                export.export_scene(bpy.context, folder, size, start)
             except Exception:
                 with open(os.path.join(folder, "error"), "w", encoding="utf-8") as file:
                     traceback.print_exc(file=file)

@@ -212,6 +212,22 @@ TEST_F(BlenderScenes, MaterialsOfLibrariesAndOverrides) {
   EXPECT_NEAR(material_of(load("override")).base_color.z, 0.3f, 0.03f) << "times albedo_scale()";
 }
 
+TEST_F(BlenderScenes, GeometryNodesChooseMaterials) {
+  const Scene scene = load("nodes_material");
+  EXPECT_EQ(warnings("nodes_material"), "");
+  const vec3 color(material_of(scene).base_color);
+  EXPECT_LT(color.x, 0.05f);
+  EXPECT_GT(color.z, 0.9f);
+}
+
+TEST_F(BlenderScenes, ABackgroundSetIsThere) {
+  const Scene scene = load("background_set");
+  for (const char* name : {"thing", "wall", "chair"}) EXPECT_NO_THROW(index_of(scene, name)) << name;
+  EXPECT_EQ(warnings("background_set"),
+            "only the view layer 'ViewLayer' comes across, not 'second'\n"
+            "the file has 2 scenes; this is 'Scene', --scene shows 'set'\n");
+}
+
 TEST_F(BlenderScenes, FogHasNoSurface) {
   EXPECT_EQ(material_of(load("fog")).base_color.w, 0.0f);
   EXPECT_NE(warnings("fog").find("the volume does not come across: material 'it'"), std::string::npos);
@@ -315,6 +331,37 @@ TEST_F(BlenderScenes, ParticlesFly) {
   };
   EXPECT_LT(flying(1), 3);
   EXPECT_EQ(flying(6), 3);
+}
+
+// Frames of the beginning, and those by which the exposure is chosen, if no simulation is in them.
+TEST_F(BlenderScenes, TheBeginningOfAFilmIsTheSame) {
+  Scene whole = load("film"), begun = load("film begun");
+  EXPECT_EQ(said("film begun")["frames"], said("film")["frames"]);
+  EXPECT_EQ(warnings("film begun"), warnings("film"));
+  EXPECT_LT(fs::file_size(path("film begun", "scene.glb")), fs::file_size(path("film", "scene.glb")) / 2);
+  ASSERT_TRUE(play(whole.animation, "") && play(begun.animation, ""));
+  EXPECT_EQ(length_of(whole.animation), length_of(begun.animation));
+  const auto points = [](const Scene& scene, const char* name) {
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(instance_of(scene, name).mesh)];
+    std::vector<float> all;
+    for (uint32_t i = 0; i < mesh.vertex_count; i++) {
+      const Vertex& vertex = scene.vertices[mesh.first_vertex + i];
+      for (int c = 0; c < 3; c++) all.push_back(vertex.position[c]), all.push_back(vertex.normal[c]);
+    }
+    return all;
+  };
+  std::vector<float> still;
+  for (const int frame : {1, 2, 3, 4, 5, 7, 19, 31, 43, 55, 60}) {
+    set_time(whole, (frame - 1) / 24.0), set_time(begun, (frame - 1) / 24.0);
+    if (frame == 1) still = points(whole, "cloth");
+    EXPECT_EQ(points(whole, "sheet"), points(begun, "sheet")) << frame;
+    EXPECT_EQ(instance_of(whole, "box").row0, instance_of(begun, "box").row0) << frame;
+    EXPECT_EQ(whole.lights[0].intensity, begun.lights[0].intensity) << frame;
+    EXPECT_EQ(whole.view_points[0].position, begun.view_points[0].position) << frame;
+    if (frame > 5) continue;
+    EXPECT_EQ(points(whole, "cloth"), points(begun, "cloth")) << frame;
+    EXPECT_EQ(points(whole, "cloth") == still, frame == 1) << frame;
+  }
 }
 
 }  // namespace ods::blender_scenes_test
