@@ -86,8 +86,8 @@ void check_cycles_options(const std::vector<GivenWord>& given) {
     }
     if (std::ranges::find(kHonoured, word.name) != std::end(kHonoured)) continue;
     const auto* const remedy = std::ranges::find(kRemedies, word.name, &Remedy::option);
-    const std::string cure(remedy == std::end(kRemedies) ? "--renderer ods has it" : remedy->text);
-    throw UsageError(fmt::format("{} cannot be used with --renderer cycles: {}", word.name, cure));
+    const std::string instead(remedy == std::end(kRemedies) ? "--renderer ods has it" : remedy->text);
+    throw UsageError(fmt::format("{} cannot be used with --renderer cycles: {}", word.name, instead));
   }
 }
 

@@ -183,17 +183,17 @@ void add_packing_options(Options& options, VideoChoices& choices) {
 
 // A codec that cannot be written, or not into this container, is replaced by a codec for players.
 static void warn_of_less(const VideoChoices& choices, const std::string& path, const ods::VideoStream& stream) {
-  std::string loss, cure;
+  std::string loss, remedy;
   if (stream.bits > 8 && !choices.bits && !stream.words.is_hdr()) {
-    loss += fmt::format(" {} bits", stream.bits), cure += " --bits 10";
+    loss += fmt::format(" {} bits", stream.bits), remedy += " --bits 10";
   }
   if (stream.chroma != ods::Chroma::k420 && !choices.chroma) {
     loss += fmt::format(" chroma {}", ods::chroma_name(stream.chroma));
-    cure += fmt::format(" --chroma {}", ods::chroma_name(stream.chroma));
+    remedy += fmt::format(" --chroma {}", ods::chroma_name(stream.chroma));
   }
   if (!loss.empty())
     warn(fmt::format("'{}' has{}; the new video has less, for compatibility with players:{} keeps it", path, loss,
-                     cure));
+                     remedy));
 }
 
 VideoChoices choices_like(VideoChoices choices, const ods::VideoInput& video, const ods::VideoStream& stream) {

@@ -26,15 +26,15 @@ void check_view(const RenderJob& job, const ods::Scene& scene, ods::vec3 eye) {
   if (own_choice || made_for_it) return;
   const std::string fault = ods::view_fault(ods::SceneRays(scene), eye);
   if (fault.empty()) return;
-  std::string cure = "--position X,Y,Z moves it";
+  std::string remedy = "--position X,Y,Z moves it";
   if (job.camera.position && scene.viewing) {
     const ods::vec3 better = scene.viewing->view.position;
-    cure = fmt::format("without --position it would be at {:.4g},{:.4g},{:.4g}", better.x, better.y, better.z);
+    remedy = fmt::format("without --position it would be at {:.4g},{:.4g},{:.4g}", better.x, better.y, better.z);
   } else if (scene.viewing) {
     const ods::vec3 better = scene.viewing->view.position;
-    cure = fmt::format("--position {:.4g},{:.4g},{:.4g} is in free space", better.x, better.y, better.z);
+    remedy = fmt::format("--position {:.4g},{:.4g},{:.4g} is in free space", better.x, better.y, better.z);
   }
-  warn(fmt::format("the camera {}; {}, or the scene has another unit (--unit cm)", fault, cure));
+  warn(fmt::format("the camera {}; {}, or the scene has another unit (--unit cm)", fault, remedy));
 }
 
 // Notes which solid glass --caustics straight simplifies.

@@ -116,10 +116,10 @@ std::string line_html(const std::string& text) {
 
 // crop: the picture of the thing as HTML, or empty.
 std::string thing_html(ComfortLevel level, const std::string& crop, const std::string& title, const std::string& where,
-                       const std::string& what, const std::string& cure) {
+                       const std::string& what, const std::string& remedy) {
   return fmt::format("<li{}>{}<div><p>{} {}</p><p class=\"soft\">{}</p><p>{}</p><p>{}</p></div></li>\n",
                      crop.empty() ? " class=\"bare\"" : "", crop, level_html(level), ods::xml_text(title),
-                     ods::xml_text(where), ods::xml_text(what), ods::xml_text(cure.empty() ? "" : "Cure: " + cure));
+                     ods::xml_text(where), ods::xml_text(what), ods::xml_text(remedy.empty() ? "" : "Remedy: " + remedy));
 }
 
 std::string crop_html(const JudgedPicture& judged, const StrainedPlace& place, const std::string& path) {
@@ -229,12 +229,12 @@ void save_page(const ComfortJob& job, const JudgedPicture& judged) {
     things += thing_html(place.level, crop_html(judged, place, job.html),
                          fmt::format("{}, {:.2f} m away", thing_text(place), place.distance),
                          direction_text(place) + fmt::format("; {} of the picture", share_text(place.share)),
-                         fmt::format("{}: {:.3g} {}", strain.title, place.value, strain.unit), cure_text(place));
+                         fmt::format("{}: {:.3g} {}", strain.title, place.value, strain.unit), remedy_text(place));
   }
   body += list_html(things);
-  const std::vector<std::string> cures = cure_lines(job, judged);
-  if (!cures.empty()) body += "<h2>What would help</h2>\n";
-  for (const std::string& cure : cures) body += line_html(cure);
+  const std::vector<std::string> remedies = remedy_lines(job, judged);
+  if (!remedies.empty()) body += "<h2>What would help</h2>\n";
+  for (const std::string& remedy : remedies) body += line_html(remedy);
   for (const ods::StrainRow& row : ods::kStrainTable) {
     const bool is_rule = row.member == ods::Strain::kRule, has_rule = job.comfort.rules != ods::ComfortRules::kStrain;
     if (is_rule == has_rule && !row.source.empty()) sources += source_html(row.title, row.source);
@@ -247,13 +247,13 @@ void save_page(const ComfortJob& job, const ods::VideoComfort& video) {
   std::string things, sources;
   const StrainedPlace* const shown = video.worst.verdict.worst();
   for (const ods::VideoStrain& strain : video.strains) {
-    std::string crop, where, cure;
+    std::string crop, where, remedy;
     if (const std::optional<StrainedPlace>& place = strain.place) {
       where = fmt::format("{:.2f} m away, {}", place->distance, direction_text(*place));
-      cure = cure_text(*place);
+      remedy = remedy_text(*place);
       if (shown && shown->azimuth == place->azimuth) crop = crop_html(video.worst, *place, job.html);
     }
-    things += thing_html(strain.level, crop, times_text(strain), where, strain_text(strain), cure);
+    things += thing_html(strain.level, crop, times_text(strain), where, strain_text(strain), remedy);
   }
   body += list_html(things) + "<h2>Over time</h2>\n";
   using Moment = ods::VideoMoment;

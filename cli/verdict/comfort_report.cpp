@@ -30,11 +30,11 @@ std::string shares_text(const Shares& shares) {
 }
 
 void print_place(const StrainedPlace& place) {
-  const std::string cure = cure_text(place);
+  const std::string remedy = remedy_text(place);
   const ods::StrainRow& strain = ods::strain_row(place.strain);
   put_out(fmt::format("{}: {}, {:.2f} m away, {} ({} of the picture): {}, {:.3g} {}{}{}\n",
                       comfort_level_name(place.level), thing_text(place), place.distance, direction_text(place),
-                      share_text(place.share), strain.title, place.value, strain.unit, cure.empty() ? "" : "; ", cure));
+                      share_text(place.share), strain.title, place.value, strain.unit, remedy.empty() ? "" : "; ", remedy));
 }
 
 Json shares_json(const Shares& shares) {
@@ -77,8 +77,8 @@ std::string share_text(double share) {
   return share > 0.0 && share < 0.001 ? "<0.1 %" : fmt::format("{:.1f} %", 100.0 * share);
 }
 
-std::string cure_text(const StrainedPlace& place) {
-  const std::string move = ods::cure_by_distance(place);
+std::string remedy_text(const StrainedPlace& place) {
+  const std::string move = ods::remedy_by_distance(place);
   if (move.empty() || place.strain == Strain::kRule || !(millimetres(place.ipd) > 0.0)) return move;
   return move + fmt::format(", or --ipd {:.3f}", millimetres(place.ipd));
 }
@@ -95,7 +95,7 @@ std::string measured_text(const ods::MeasuredEyes& eyes) {
                             std::max(1.0, 100.0 * eyes.error), eyes.up, eyes.down);
 }
 
-std::vector<std::string> cure_lines(const ComfortJob& job, const JudgedPicture& judged) {
+std::vector<std::string> remedy_lines(const ComfortJob& job, const JudgedPicture& judged) {
   const ods::ComfortVerdict& verdict = judged.verdict;
   std::vector<std::string> lines;
   for (const std::string& name : judged.hidden) {
@@ -127,7 +127,7 @@ void print_text(const ComfortJob& job, const JudgedPicture& judged) {
                         verdict.match->precision, 100.0 * verdict.match->share));
     if (verdict.apart > ComfortLevel::kOk) {
       put_out(
-          fmt::format("{}: one eye sees things {:.0f} minutes of arc higher than the other: ods lint has the cure\n",
+          fmt::format("{}: one eye sees things {:.0f} minutes of arc higher than the other: ods lint has the remedy\n",
                       comfort_level_name(verdict.apart), verdict.match->apart));
     }
   }
@@ -143,7 +143,7 @@ void print_text(const ComfortJob& job, const JudgedPicture& judged) {
                         verdict.head_roll));
   }
   for (const StrainedPlace& place : verdict.places) print_place(place);
-  for (const std::string& cure : cure_lines(job, judged)) put_out(fmt::format("cure: {}\n", cure));
+  for (const std::string& remedy : remedy_lines(job, judged)) put_out(fmt::format("remedy: {}\n", remedy));
 }
 
 void print_json(const ComfortJob& job, const JudgedPicture& judged) {

@@ -17,9 +17,9 @@ std::string direction_text(const ods::StrainedPlace& place);
 std::string thing_text(const ods::StrainedPlace& place);
 std::string share_text(double share);
 
-// The cure of a place; empty for a caution, which may stay.
-std::string cure_text(const ods::StrainedPlace& place);
-// The cures of the whole picture.
-std::vector<std::string> cure_lines(const ComfortJob& job, const ods::JudgedPicture& judged);
+// The remedy of a place; empty for a caution, which may stay.
+std::string remedy_text(const ods::StrainedPlace& place);
+// The remedies of the whole picture.
+std::vector<std::string> remedy_lines(const ComfortJob& job, const ods::JudgedPicture& judged);
 // Describes the placement of a picture's eyes as measured from its pixels.
 std::string measured_text(const ods::MeasuredEyes& eyes);

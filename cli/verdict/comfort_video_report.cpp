@@ -65,9 +65,9 @@ void print_text(const ComfortJob& job, const ods::VideoComfort& video) {
   for (const ods::VideoStrain& strain : video.strains) {
     std::string place;
     if (strain.place) {
-      const std::string cure = cure_text(*strain.place);
+      const std::string remedy = remedy_text(*strain.place);
       place = fmt::format(", {:.2f} m away, {}{}{}", strain.place->distance, direction_text(*strain.place),
-                          cure.empty() ? "" : "; ", cure);
+                          remedy.empty() ? "" : "; ", remedy);
     }
     put_out(fmt::format("{}: {}: {}{}\n", comfort_level_name(strain.level), times_text(strain), strain_text(strain),
                         place));

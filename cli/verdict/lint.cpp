@@ -34,7 +34,7 @@ constexpr const char* kLintSummary =
     "in\n"
     "videos also eyes that are apart in time, cuts of one eye, duplicate frames. Each finding has a certainty (0 to "
     "1),\n"
-    "the evidence and a cure; what was judged and what was not is listed. docs/lint.md explains them. Exit code 5: a\n"
+    "the evidence and a remedy; what was judged and what was not is listed. docs/lint.md explains them. Exit code 5: a\n"
     "fault was found; warnings and information do not count.";
 
 struct LintJob {
@@ -93,7 +93,7 @@ ExitCode run_lint(LintJob job) {
     report = is_film ? lint_with_progress(job, lines) : ods::lint(job.path, job.lint);
   });
   for (ods::Finding& finding : report.findings) {
-    finding.evidence = with_options(finding.evidence), finding.cure = with_options(finding.cure);
+    finding.evidence = with_options(finding.evidence), finding.remedy = with_options(finding.remedy);
   }
   for (std::string& text : report.notes) text = with_options(text);
   std::erase_if(report.findings, [&](const ods::Finding& finding) {

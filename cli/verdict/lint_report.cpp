@@ -46,9 +46,9 @@ std::string times_text(const std::vector<double>& times) {
 
 void print_finding(const Finding& finding) {
   const std::string when = finding.times.empty() ? "" : ", " + times_text(finding.times);
-  put_out(fmt::format("{} {}: {}, certainty {:.2f}{}: {}. Cure: {}.\n", severity_name(severity_of(finding.fault)),
+  put_out(fmt::format("{} {}: {}, certainty {:.2f}{}: {}. Remedy: {}.\n", severity_name(severity_of(finding.fault)),
                       fault_name(finding.fault), fault_title(finding.fault), finding.certainty, when, finding.evidence,
-                      finding.cure));
+                      finding.remedy));
 }
 
 }  // namespace
@@ -92,7 +92,7 @@ void print_json(const std::string& path, const LintReport& report) {
                                 {"title", fault_title(finding.fault)},
                                 {"certainty", finding.certainty},
                                 {"evidence", finding.evidence},
-                                {"cure", finding.cure}});
+                                {"remedy", finding.remedy}});
     if (!finding.times.empty()) json["findings"].back()["times"] = finding.times;
   }
   if (report.frames > 0) json["frames"] = report.frames, json["judged_frames"] = report.judged_frames;

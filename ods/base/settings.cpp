@@ -71,10 +71,10 @@ std::string settings_difference(const Settings& then, const Settings& now) {
   return fmt::format("{}{}", fmt::join(changes, "; "), more);
 }
 
-void expect_same_settings(const std::string& path, const Settings& then, const Settings& now, std::string_view cure) {
+void expect_same_settings(const std::string& path, const Settings& then, const Settings& now, std::string_view remedy) {
   const std::string difference = settings_difference(then, now);
   if (difference.empty()) return;
-  throw Error(ErrorKind::kUsage, fmt::format("'{}' was made with other options: {}; {}", path, difference, cure));
+  throw Error(ErrorKind::kUsage, fmt::format("'{}' was made with other options: {}; {}", path, difference, remedy));
 }
 
 }  // namespace ods

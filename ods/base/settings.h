@@ -29,10 +29,10 @@ std::optional<Settings> parse_settings(const std::string& text);
 // three. Empty if there are none.
 std::string settings_difference(const Settings& then, const Settings& now);
 
-inline constexpr std::string_view kRestartCure = "`restart` discards it and starts over";
+inline constexpr std::string_view kRestartRemedy = "`restart` discards it and starts over";
 
-// Throws Error(kUsage) if the settings differ: "'PATH' was made with other options: samples was 64, now 128; CURE".
+// Throws Error(kUsage) if the settings differ: "'PATH' was made with other options: samples was 64, now 128; REMEDY".
 void expect_same_settings(const std::string& path, const Settings& then, const Settings& now,
-                          std::string_view cure = kRestartCure);
+                          std::string_view remedy = kRestartRemedy);
 
 }  // namespace ods

@@ -198,7 +198,7 @@ std::string direction_text(double azimuth, double elevation) {
   return text + ", " + (is_side ? std::to_string(above) : degrees(above)) + (elevation < 0.0 ? " down" : " up");
 }
 
-std::string cure_by_distance(const StrainedPlace& place) {
+std::string remedy_by_distance(const StrainedPlace& place) {
   if (place.level < ComfortLevel::kWarning || !std::isfinite(place.enough)) return "";
   return fmt::format("move it at least {:.2f} m away", std::ceil(100.0 * place.enough) / 100.0);
 }
@@ -207,11 +207,11 @@ std::string strain_line(const ComfortVerdict& verdict, ComfortLevel level) {
   const StrainedPlace* const worst = verdict.worst();
   if (!worst || worst->level < level) return "";
   const StrainRow& strain = strain_row(worst->strain);
-  const std::string cure = cure_by_distance(*worst);
+  const std::string remedy = remedy_by_distance(*worst);
   return fmt::format("{}, {:.2f} m away, {}, strains the viewer's eyes: {}, {:.3g} {}{}",
                      worst->name.empty() ? "an area" : "'" + worst->name + "'", worst->distance,
                      direction_text(worst->azimuth, worst->elevation), strain.title, worst->value, strain.unit,
-                     cure.empty() ? "" : "; " + cure);
+                     remedy.empty() ? "" : "; " + remedy);
 }
 
 }  // namespace ods

@@ -77,10 +77,10 @@ ComfortVerdict judge_comfort(const SeenDepth& eye, const ComfortOptions& options
 // "23 degrees right, 12 down".
 std::string direction_text(double azimuth, double elevation);
 
-// The cure of a place by its distance: "move it at least 0.75 m away". Empty if it is at most a caution.
-std::string cure_by_distance(const StrainedPlace& place);
+// The remedy of a place by its distance: "move it at least 0.75 m away". Empty if it is at most a caution.
+std::string remedy_by_distance(const StrainedPlace& place);
 
-// The worst place and its cure in a line, for messages; empty if it is below this level: "'Lamp', 0.41 m away, 23
+// The worst place and its remedy in a line, for messages; empty if it is below this level: "'Lamp', 0.41 m away, 23
 // degrees right, 12 down, strains the viewer's eyes: ...; move it at least 0.75 m away".
 std::string strain_line(const ComfortVerdict& verdict, ComfortLevel level);
 

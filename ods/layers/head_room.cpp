@@ -11,7 +11,7 @@
 
 namespace ods {
 
-void check_head_room(float free_half, vec3 size, std::string_view cure) {
+void check_head_room(float free_half, vec3 size, std::string_view remedy) {
   const float half = 0.5f * std::max({size.x, size.y, size.z});
   const float largest = std::floor(200.0f * (free_half - kEyeRoom)) / 100.0f;
   if (free_half >= half + kEyeRoom) return;
@@ -20,13 +20,13 @@ void check_head_room(float free_half, vec3 size, std::string_view cure) {
         ErrorKind::kUsage,
         fmt::format("the head box has no room: a surface is {:.2f} m from its middle, and the eyes need {:.1f} m "
                     "in front of them{}",
-                    free_half, kEyeRoom, cure.empty() ? "" : "; choose another `position`"));
+                    free_half, kEyeRoom, remedy.empty() ? "" : "; choose another `position`"));
   }
   throw Error(
       ErrorKind::kUsage,
       fmt::format("the head box is too large: a surface is {:.2f} m from its middle, and the eyes need {:.1f} m "
                   "in front of them; choose a `box` of at most {:.2f}{}",
-                  free_half, kEyeRoom, largest, cure));
+                  free_half, kEyeRoom, largest, remedy));
 }
 
 }  // namespace ods

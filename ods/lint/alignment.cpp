@@ -71,7 +71,7 @@ std::string evidence_of(const TermRow& row, const Alignment& alignment) {
 }
 
 // The command that corrects all terms.
-std::string cure_of(const Subject& subject) {
+std::string remedy_of(const Subject& subject) {
   std::string options;
   for (const TermRow& row : kTerms) {
     if (certainty_of(row, subject.alignment) < 0.1) continue;
@@ -99,7 +99,7 @@ void check_alignment(const Subject& subject, LintReport& report) {
   for (const TermRow& row : kTerms) {
     const double certainty = certainty_of(row, alignment);
     if (certainty < 0.1) continue;
-    report.findings.push_back({row.fault, certainty, evidence_of(row, alignment), cure_of(subject)});
+    report.findings.push_back({row.fault, certainty, evidence_of(row, alignment), remedy_of(subject)});
   }
 }
 

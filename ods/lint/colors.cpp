@@ -151,7 +151,7 @@ Response find_response(const std::vector<Pair>& pairs) {
 }
 
 // The correction that makes the right eye's light equal to the left one's.
-std::string cure_of(const Subject& subject, const Response& response) {
+std::string remedy_of(const Subject& subject, const Response& response) {
   const glm::dvec3 gain = 1.0 / glm::pow(response.gain, glm::dvec3(1.0 / response.gamma));
   std::string options = fmt::format("`right-gain` {:.3f},{:.3f},{:.3f}", gain.x, gain.y, gain.z);
   if (response.gamma != 1.0) options = fmt::format("`right-gamma` {:.3f} ", 1.0 / response.gamma) + options;
@@ -172,7 +172,7 @@ void check_colors(const Subject& subject, LintReport& report) {
     if (certainty < 0.1) return;
     report.findings.push_back({fault, certainty,
                                fmt::format("{}, by {} places that both eyes show", evidence, response.places),
-                               cure_of(subject, response)});
+                               remedy_of(subject, response)});
   };
   const double maximum = std::max({gain.x, gain.y, gain.z}), minimum = std::min({gain.x, gain.y, gain.z});
   add(Fault::kEyeTinted, certainty_of({maximum / minimum - 1.0, response.error, response.places}, 0.025, 0.06),

@@ -153,7 +153,7 @@ void check_horizon(const Subject& subject, LintReport& report) {
   const double certainty = peak * better * std::clamp((tilt.angle() - 0.5) / 1.0, 0.0, 1.0);
   if (certainty < 0.1) return;
   const std::string angles = fmt::format("`pitch` {:.1f} `roll` {:.1f}", tilt.back, tilt.right);
-  const std::string cure = subject.eyes.size() == 1 ? "level it: " + convert_command(subject, angles)
+  const std::string remedy = subject.eyes.size() == 1 ? "level it: " + convert_command(subject, angles)
                                                     : "render or stitch it level: the eyes of a "
                                                       "stereo picture cannot be tilted afterwards";
   report.findings.push_back(
@@ -163,7 +163,7 @@ void check_horizon(const Subject& subject, LintReport& report) {
                    "the nearly vertical edges, and {:.0f} % at the zenith itself",
                    std::abs(tilt.right), tilt.right > 0.0 ? "to the right of" : "to the left of", std::abs(tilt.back),
                    tilt.back > 0.0 ? "behind" : "in front of", 100.0 * tilt.share, 100.0 * level),
-       cure});
+       remedy});
 }
 
 }  // namespace ods

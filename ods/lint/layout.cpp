@@ -74,7 +74,7 @@ std::vector<Cut> other_cuts(const Subject& subject) {
 void add_misread(const Subject& subject, const Cut& cut, double certainty, const std::string& evidence,
                  LintReport& report) {
   const std::string truth = cut_name(subject, cut.layout);
-  const auto [fault, cure] = [&]() -> std::pair<Fault, std::string> {
+  const auto [fault, remedy] = [&]() -> std::pair<Fault, std::string> {
     switch (subject.format.layout.source) {
       case FormatSource::kName:
         return {Fault::kMetadata, fmt::format("rename the file: it is {}", truth)};
@@ -87,7 +87,7 @@ void add_misread(const Subject& subject, const Cut& cut, double certainty, const
         return {Fault::kLayoutMisread, fmt::format("read it as {} (`layout` {})", truth, truth)};
     }
   }();
-  report.findings.push_back({fault, certainty, evidence + ", " + subject.format.layout.reason, cure});
+  report.findings.push_back({fault, certainty, evidence + ", " + subject.format.layout.reason, remedy});
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ struct Finding {
   Fault fault = Fault::kEyesSwapped;
   double certainty = 0.0;  // 0..1, from measurements
   std::string evidence;    // includes numbers
-  std::string cure;
+  std::string remedy;
   std::vector<double> times{};  // times of a video's frames that show it, seconds; empty for all frames or a picture
 };
 

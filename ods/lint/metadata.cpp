@@ -15,8 +15,8 @@
 
 namespace ods {
 
-static void add(LintReport& report, double certainty, std::string evidence, std::string cure) {
-  report.findings.push_back({Fault::kMetadata, certainty, std::move(evidence), std::move(cure)});
+static void add(LintReport& report, double certainty, std::string evidence, std::string remedy) {
+  report.findings.push_back({Fault::kMetadata, certainty, std::move(evidence), std::move(remedy)});
 }
 
 static std::string_view read_as(const LintReport& report) {
@@ -53,15 +53,15 @@ static void check_sidecar(const Subject& subject, LintReport& report) {
   if (!subject.sidecar) return;
   const Sidecar& said = *subject.sidecar;
   const std::string name = sidecar_path(subject.path);
-  const char* cure = "write the sidecar again, or remove it";
+  const char* remedy = "write the sidecar again, or remove it";
   const int count = static_cast<int>(said.eyes.size());
   if (count != report.eye_count) {
     return add(report, 0.9, fmt::format("'{}' declares {} eyes, but the file has {}", name, count, report.eye_count),
-               cure);
+               remedy);
   }
   if (report.layout && said.layout != *report.layout) {
     add(report, 0.9, fmt::format("'{}' declares {}, but it is {}", name, layout_name(said.layout), read_as(report)),
-        cure);
+        remedy);
   }
   const Extent stored = squeezed_eye(said.layout, said.eye, count);
   // A copy of another size is consistent; another aspect ratio is not.
@@ -72,7 +72,7 @@ static void check_sidecar(const Subject& subject, LintReport& report) {
     add(report, off / (off + 0.02),
         fmt::format("'{}' declares eyes of {}x{}, but they have {}x{}", name, stored.width, stored.height,
                     report.eye.width, report.eye.height),
-        cure);
+        remedy);
   }
 }
 

@@ -165,11 +165,11 @@ Stillness stillness_of(const Matches& matches) {
 // but only where it is not averaged out.
 static bool check_twice(const Subject& subject, const std::vector<Matches>& scales, LintReport& report) {
   const std::vector<Image>& eyes = subject.eyes;
-  const char* cure = "render both eyes, from two places; if only one was ever made, save it as one eye (mono)";
+  const char* remedy = "render both eyes, from two places; if only one was ever made, save it as one eye (mono)";
   const int detailed = scales.back().tiles;
   if (detailed > 0 && eyes[0].pixels == eyes[1].pixels) {
     judge(report, Check::kTwoEyes);
-    report.findings.push_back({Fault::kOneEyeTwice, 1.0, "every pixel is the same in both eyes", cure});
+    report.findings.push_back({Fault::kOneEyeTwice, 1.0, "every pixel is the same in both eyes", remedy});
     return true;
   }
   Stillness minimum{2.0, 0.0, 0.0, 0};
@@ -197,7 +197,7 @@ static bool check_twice(const Subject& subject, const std::vector<Matches>& scal
       {Fault::kOneEyeTwice, minimum.certainty,
        fmt::format("{} places are at the same spot in both eyes: {:.3f} degrees apart, give or take {:.3f}",
                    minimum.count, minimum.middle * degrees, minimum.spread * degrees),
-       cure});
+       remedy});
   return minimum.certainty > 0.5;
 }
 
@@ -227,11 +227,11 @@ static double check_swap(const Subject& subject, const Parallaxes& parallaxes, d
   if (upright > -0.1) return 0.0;
   const EyeArrangement eyes = arrangement_of(subject.layout());
   const bool stacked = eyes.how == EyePacking::kStacked && !eyes.right_first;
-  const char* cure = stacked && !eyes.squeezed
+  const char* remedy = stacked && !eyes.squeezed
                          ? "the right eye is on top: swap the halves, or set the player to bottom-top"
                      : stacked ? "the right eye is on top: exchange the halves"
                                : "swap the eyes, or set the player to the other order";
-  report.findings.push_back({stacked ? Fault::kRightOnTop : Fault::kEyesSwapped, certainty, evidence, cure});
+  report.findings.push_back({stacked ? Fault::kRightOnTop : Fault::kEyesSwapped, certainty, evidence, remedy});
   return certainty;
 }
 
@@ -246,14 +246,14 @@ static double explained_by_zoom(const Subject& subject, const Parallaxes& parall
 static void check_waves(const Subject& subject, const Parallaxes& parallaxes, double upright, LintReport& report) {
   const Wave one = best_wave(parallaxes, 1), two = best_wave(parallaxes, 2);
   const double enough = parallaxes.sectors / (parallaxes.sectors + 2.0);
-  const auto add = [&](Fault fault, const Wave& wave, double other, const char* shape, const char* cure) {
+  const auto add = [&](Fault fault, const Wave& wave, double other, const char* shape, const char* remedy) {
     const double certainty = enough * (wave.share - std::max(std::abs(upright), other));
     if (certainty < 0.1) return;
     report.findings.push_back({fault, certainty,
                                fmt::format("parallax changes its sign with the heading as cos({}) does, about {:.0f} "
                                            "degrees: that explains {:.0f} % of it, one sign {:.0f} %",
                                            shape, wave.turn, 50.0 + 50.0 * wave.share, 50.0 + 50.0 * std::abs(upright)),
-                               cure});
+                               remedy});
   };
   add(Fault::kTwoCameras, one, std::max(two.share, explained_by_zoom(subject, parallaxes)), "theta",
       "render again with a viewing circle (omni-directional stereo); pictures of two fixed cameras cannot be repaired");

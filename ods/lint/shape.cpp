@@ -30,17 +30,17 @@ static void check_aspect(const Subject& subject, LintReport& report) {
   // Rounding moves an edge by one pixel, squeezing by another.
   const double off = std::max(0, std::abs(height - natural) - squeeze.height) / static_cast<double>(natural);
   if (off == 0.0 || is_squeezed_sphere(subject, report.file)) return;
-  std::string cure = "crop or pad the picture to that shape, or specify which part of the sphere it shows (`range`)";
+  std::string remedy = "crop or pad the picture to that shape, or specify which part of the sphere it shows (`range`)";
   if (is_full_lat_long(subject.projection()))
-    cure += "; if the whole sphere is there, squeezed, ods convert stretches it";
-  if (std::abs(height * 2 - natural) <= 2) cure = "its eyes look squeezed: read it as top-bottom-half, or stretch them";
+    remedy += "; if the whole sphere is there, squeezed, ods convert stretches it";
+  if (std::abs(height * 2 - natural) <= 2) remedy = "its eyes look squeezed: read it as top-bottom-half, or stretch them";
   if (std::abs(height - natural * 2) <= 4)
-    cure = "its eyes look squeezed: read it as side-by-side-half, or stretch them";
-  if (std::abs(width * 2 - height * 3) <= 2) cure += "; 3:2 may be a cube (`projection` cube-3x2)";
-  if (width == height) cure += "; square eyes may be vr180 or a fisheye (`projection` vr180)";
+    remedy = "its eyes look squeezed: read it as side-by-side-half, or stretch them";
+  if (std::abs(width * 2 - height * 3) <= 2) remedy += "; 3:2 may be a cube (`projection` cube-3x2)";
+  if (width == height) remedy += "; square eyes may be vr180 or a fisheye (`projection` vr180)";
   report.findings.push_back(
       {Fault::kWrongAspect, off / (off + 0.005),
-       fmt::format("an eye is {}x{}; {} of that width is {} high", width, height, report.projection, natural), cure});
+       fmt::format("an eye is {}x{}; {} of that width is {} high", width, height, report.projection, natural), remedy});
 }
 
 static void check_video(LintReport& report) {
@@ -63,8 +63,8 @@ constexpr int kTexture = 8192;
 static void check_headsets(LintReport& report) {
   judge(report, Check::kHeadsets);
   const auto [width, height] = report.file;
-  const auto add = [&](const std::string& evidence, const std::string& cure) {
-    report.findings.push_back({Fault::kHeadsetSize, 1.0, evidence, cure});
+  const auto add = [&](const std::string& evidence, const std::string& remedy) {
+    report.findings.push_back({Fault::kHeadsetSize, 1.0, evidence, remedy});
   };
   if (std::max(width, height) > kTexture) {
     add(fmt::format("{}x{} is larger than the textures of {} pixels that every browser in a headset has: it is shown "

@@ -475,17 +475,17 @@ TEST_F(Cli, LintTellsByItsExitCode) {
   EXPECT_EQ(run(swapped + " --json"), 5);
   EXPECT_NE(out.find("\"fault\": \"eyes-swapped\""), std::string::npos) << out;
   EXPECT_EQ(run(swapped + " --min-certainty 1"), 0) << out;
-  // The cure is a command that works.
-  const std::string wrong = folder.path("wrong_TB.png"), cured = folder.path("cured_TB.png");
+  // The remedy is a command that works.
+  const std::string wrong = folder.path("wrong_TB.png"), fixed = folder.path("fixed_TB.png");
   ASSERT_EQ(run("convert " + picture + " -o " + wrong + " --right-raise 2 --right-roll -3"), 0) << err;
   EXPECT_EQ(run("lint " + wrong), 5) << out;
   EXPECT_EQ(err, "") << "a verdict is not an error";
   EXPECT_NE(out.find("fault vertical-offset: "), std::string::npos) << out;
-  const size_t cure = out.find("ods convert " + wrong + " -o corrected.png ") + 4;
-  std::string command = out.substr(cure, out.find(".\n", cure) - cure);
-  command.replace(command.find("corrected.png"), 13, cured);
+  const size_t remedy = out.find("ods convert " + wrong + " -o corrected.png ") + 4;
+  std::string command = out.substr(remedy, out.find(".\n", remedy) - remedy);
+  command.replace(command.find("corrected.png"), 13, fixed);
   ASSERT_EQ(run(command), 0) << command << err;
-  EXPECT_EQ(run("lint " + cured), 0) << command << out;
+  EXPECT_EQ(run("lint " + fixed), 0) << command << out;
   EXPECT_EQ(run("lint " + folder.path("absent.png")), 3);
   EXPECT_EQ(run("lint"), 2);
 }

@@ -49,7 +49,7 @@ SeenDepth see(const StereoCamera& camera, int eye, const std::vector<Ball>& ball
 }
 
 // Strains are not proportional to the distance there: the eyes' lines almost touch the circle.
-TEST(Comfort, AThingBesideTheEyesHasAUsefulCure) {
+TEST(Comfort, AThingBesideTheEyesHasAUsefulRemedy) {
   const float radius = 1.0f;  // so large that its edges are no steps
   const auto judged = [&](const StereoCamera& camera, float away) {
     return judge_comfort(see(camera, kLeft, {{vec3(0, 0, -away), radius}}));
@@ -96,13 +96,13 @@ TEST(Comfort, NearThingsAreNamedWithTheirPlaces) {
     EXPECT_NEAR(beside.distance, 0.45, 0.02);
     EXPECT_GT(beside.enough, 0.6);
     EXPECT_GT(report.share[ComfortLevel::kError], 0.0);
-    // The cure by the eye distance cures.
+    // The remedy by the eye distance helps.
     StereoCamera closer;
     closer.ipd = report.largest_ipd * 0.99f;
-    const ComfortVerdict cured = judge_comfort(see(closer, eye, balls));
-    EXPECT_LE(cured.level, ComfortLevel::kCaution)
-        << cured.places[0].name << strain_row(cured.places[0].strain).name << cured.places[0].value << " "
-        << cured.places[0].elevation << " " << closer.ipd;
+    const ComfortVerdict fixed = judge_comfort(see(closer, eye, balls));
+    EXPECT_LE(fixed.level, ComfortLevel::kCaution)
+        << fixed.places[0].name << strain_row(fixed.places[0].strain).name << fixed.places[0].value << " "
+        << fixed.places[0].elevation << " " << closer.ipd;
     // Without names they are areas.
     seen.things.clear(), seen.names.clear();
     const ComfortVerdict areas = judge_comfort(seen);

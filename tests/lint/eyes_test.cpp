@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Differences between the eyes other than parallax: the right eye of a correct pair is misaligned, tinted, blurred. The
-// correction that lint suggests is the inverse of the change, and its cure makes a picture without that fault.
+// correction that lint suggests is the inverse of the change, and its remedy makes a picture without that fault.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -73,8 +73,8 @@ Finding finding_of(const LintReport& report, Fault fault) {
   return {};
 }
 
-std::string cure_of(const LintReport& report, Fault fault) {
-  return finding_of(report, fault).cure;
+std::string remedy_of(const LintReport& report, Fault fault) {
+  return finding_of(report, fault).remedy;
 }
 
 // The numbers after an option of a command.
@@ -98,7 +98,7 @@ struct Misalignment {
   const char* option;
 };
 
-TEST_F(LintEyes, ThatAreMisalignedAreFoundAndCured) {
+TEST_F(LintEyes, ThatAreMisalignedAreFoundAndFixed) {
   for (const Misalignment& wrong : {Misalignment{&EyeCorrection::raise, 0.7f, Fault::kVerticalOffset, "`right-raise`"},
                                     Misalignment{&EyeCorrection::raise, -5.0f, Fault::kVerticalOffset, "`right-raise`"},
                                     Misalignment{&EyeCorrection::pitch, 1.5f, Fault::kEyePitched, "`right-pitch`"},
@@ -109,13 +109,13 @@ TEST_F(LintEyes, ThatAreMisalignedAreFoundAndCured) {
     const LintReport report = lint(make(made, "wrong_TB.png"));
     SCOPED_TRACE(fmt::format("{} {}", wrong.option, wrong.amount));
     EXPECT_EQ(faults_of(report), std::set<Fault>{wrong.fault});
-    const std::string cure = cure_of(report, wrong.fault);
-    EXPECT_NE(cure.find("ods convert "), std::string::npos) << cure;
-    const float needed = number_after(cure, wrong.option);
-    EXPECT_NEAR(needed, -wrong.amount, 0.06f) << cure;
-    EyeCorrection cured;
-    cured.*wrong.field = needed;
-    EXPECT_EQ(faults_of(lint(corrected(folder.path("wrong_TB.png"), cured, "cured_TB.png"))), std::set<Fault>{});
+    const std::string remedy = remedy_of(report, wrong.fault);
+    EXPECT_NE(remedy.find("ods convert "), std::string::npos) << remedy;
+    const float needed = number_after(remedy, wrong.option);
+    EXPECT_NEAR(needed, -wrong.amount, 0.06f) << remedy;
+    EyeCorrection fixed;
+    fixed.*wrong.field = needed;
+    EXPECT_EQ(faults_of(lint(corrected(folder.path("wrong_TB.png"), fixed, "fixed_TB.png"))), std::set<Fault>{});
   }
 }
 
@@ -124,20 +124,20 @@ TEST_F(LintEyes, ThatDifferInSizeAreFound) {
   made.zoom = 1.03f;
   const LintReport report = lint(make(made, "larger_TB.png"));
   EXPECT_EQ(faults_of(report), std::set<Fault>{Fault::kEyeMagnified});
-  EXPECT_NEAR(number_after(cure_of(report, Fault::kEyeMagnified), "`right-zoom`"), 1.0f / 1.03f, 0.003f);
+  EXPECT_NEAR(number_after(remedy_of(report, Fault::kEyeMagnified), "`right-zoom`"), 1.0f / 1.03f, 0.003f);
 }
 
 // Far things in this scene have hardly any parallax.
-TEST_F(LintEyes, ThatMustDivergeAreFoundAndCured) {
+TEST_F(LintEyes, ThatMustDivergeAreFoundAndFixed) {
   for (const float amount : {-0.6f, -3.0f}) {
     EyeCorrection made;
     made.yaw = amount;
     const LintReport report = lint(make(made, "wide_TB.png"));
     EXPECT_EQ(faults_of(report), std::set<Fault>{Fault::kEyesDiverge}) << amount;
-    EyeCorrection cured;
-    cured.yaw = number_after(cure_of(report, Fault::kEyesDiverge), "`right-yaw`");
-    EXPECT_NEAR(cured.yaw, -amount, 0.15f);
-    EXPECT_EQ(faults_of(lint(corrected(folder.path("wide_TB.png"), cured, "cured_TB.png"))), std::set<Fault>{});
+    EyeCorrection fixed;
+    fixed.yaw = number_after(remedy_of(report, Fault::kEyesDiverge), "`right-yaw`");
+    EXPECT_NEAR(fixed.yaw, -amount, 0.15f);
+    EXPECT_EQ(faults_of(lint(corrected(folder.path("wide_TB.png"), fixed, "fixed_TB.png"))), std::set<Fault>{});
   }
   EyeCorrection inwards;
   inwards.yaw = 1.5f;
@@ -163,25 +163,25 @@ TEST_F(LintEyes, ThatAreMisalignedAreJudgedAsIfTheyWereNot) {
   EXPECT_EQ(faults_of(lint(folder.path("both_TB.png"))), (std::set<Fault>{Fault::kRightOnTop, Fault::kEyeRolled}));
 }
 
-TEST_F(LintEyes, OfOtherColoursAreFoundAndCured) {
+TEST_F(LintEyes, OfOtherColoursAreFoundAndFixed) {
   EyeCorrection tinted;
   tinted.gain = vec3(0.9f, 1.0f, 1.0f);
   const LintReport tint = lint(make(tinted, "tinted_TB.png"));
   EXPECT_EQ(faults_of(tint), std::set<Fault>{Fault::kEyeTinted});
-  const std::string cure = cure_of(tint, Fault::kEyeTinted);
-  EXPECT_NEAR(number_after(cure, "`right-gain`"), 1.0f / 0.9f, 0.02f) << cure;
+  const std::string remedy = remedy_of(tint, Fault::kEyeTinted);
+  EXPECT_NEAR(number_after(remedy, "`right-gain`"), 1.0f / 0.9f, 0.02f) << remedy;
 
   EyeCorrection darker;
   darker.gain = vec3(std::exp2(-0.3f));
   const LintReport exposure = lint(make(darker, "darker_TB.png"));
   EXPECT_EQ(faults_of(exposure), std::set<Fault>{Fault::kEyeBrighter});
-  EXPECT_NEAR(number_after(cure_of(exposure, Fault::kEyeBrighter), "`right-gain`"), std::exp2(0.3f), 0.03f);
+  EXPECT_NEAR(number_after(remedy_of(exposure, Fault::kEyeBrighter), "`right-gain`"), std::exp2(0.3f), 0.03f);
 
   EyeCorrection power;
   power.gamma = 1.15f;
   const LintReport gamma = lint(make(power, "gamma_TB.png"));
   EXPECT_EQ(faults_of(gamma).count(Fault::kEyeGamma), 1u);
-  EXPECT_NEAR(number_after(cure_of(gamma, Fault::kEyeGamma), "`right-gamma`"), 1.0f / 1.15f, 0.02f);
+  EXPECT_NEAR(number_after(remedy_of(gamma, Fault::kEyeGamma), "`right-gamma`"), 1.0f / 1.15f, 0.02f);
 }
 
 TEST_F(LintEyes, OfWhichOneIsBlurredAreFound) {

@@ -94,7 +94,7 @@ TEST(FrameTrace, MeasuresHowLateAnEyeIs) {
     const std::string frames = std::to_string(std::abs(late)) + " frames";
     EXPECT_NE(report.findings[0].evidence.find(frames), std::string::npos) << report.findings[0].evidence;
     EXPECT_NE(report.findings[0].evidence.find(late > 0 ? "later" : "earlier"), std::string::npos);
-    EXPECT_NE(report.findings[0].cure.find(frames), std::string::npos) << report.findings[0].cure;
+    EXPECT_NE(report.findings[0].remedy.find(frames), std::string::npos) << report.findings[0].remedy;
   }
 }
 

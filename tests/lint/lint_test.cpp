@@ -153,7 +153,7 @@ Told told(const LintReport& report) {
   Told result;
   for (const Finding& finding : report.findings) {
     result.text += "\n  " + std::string(fault_name(finding.fault)) + " " + std::to_string(finding.certainty) + ": " +
-                   finding.evidence + ". " + finding.cure;
+                   finding.evidence + ". " + finding.remedy;
     if (finding.certainty < kSure) continue;
     const Severity severity = severity_of(finding.fault);
     if (severity == Severity::kFault) result.certainty = std::max(result.certainty, finding.certainty);

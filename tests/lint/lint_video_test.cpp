@@ -97,7 +97,7 @@ TEST_F(LintVideo, FindsAFaultOfAShotAndItsTimes) {
   ASSERT_NE(found, report.findings.end());
   EXPECT_GT(found->certainty, 0.5);
   EXPECT_EQ(found->times, (std::vector<double>{1.0, 1.2, 1.4, 1.6, 1.8}));
-  EXPECT_NE(found->cure.find("`right-raise` -2.0"), std::string::npos) << found->cure;
+  EXPECT_NE(found->remedy.find("`right-raise` -2.0"), std::string::npos) << found->remedy;
   for (const Check check : kChecks) {
     const bool skipped = std::any_of(report.not_judged.begin(), report.not_judged.end(),
                                      [&](const NotJudged& each) { return each.check == check; });

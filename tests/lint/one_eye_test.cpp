@@ -69,10 +69,10 @@ TEST_F(LintOneEye, WithVerticalPostsIsLevelOrNot) {
   const LintReport tilted = lint_of([&](vec3 d) { return posts(stored_direction(tilt, d)); });
   const Finding* found = finding_of(tilted, Fault::kNotLevel);
   ASSERT_NE(found, nullptr);
-  const size_t at = found->cure.find("`pitch` ");
-  ASSERT_NE(at, std::string::npos) << found->cure;
+  const size_t at = found->remedy.find("`pitch` ");
+  ASSERT_NE(at, std::string::npos) << found->remedy;
   float pitch = 0.0f, roll = 0.0f;
-  ASSERT_EQ(std::sscanf(found->cure.c_str() + at, "`pitch` %f `roll` %f", &pitch, &roll), 2) << found->cure;
+  ASSERT_EQ(std::sscanf(found->remedy.c_str() + at, "`pitch` %f `roll` %f", &pitch, &roll), 2) << found->remedy;
   EXPECT_NEAR(pitch, -3.0f, 0.3f);
   EXPECT_NEAR(roll, -4.0f, 0.3f);
 }

@@ -26,7 +26,7 @@ class LintWindow : public testing::Test {
     EXPECT_EQ(report.projection, "perspective") << report.reason;
     for (const Finding& finding : report.findings) {
       EXPECT_FALSE(severity_of(finding.fault) == Severity::kFault && finding.certainty >= 0.5)
-          << fault_name(finding.fault) << ": " << finding.evidence << "; " << finding.cure;
+          << fault_name(finding.fault) << ": " << finding.evidence << "; " << finding.remedy;
     }
   }
 

@@ -21,7 +21,7 @@
 namespace ods {
 namespace {
 
-constexpr const char* kCure = "remove it to start over";
+constexpr const char* kRemedy = "remove it to start over";
 
 RenderOptions options_for(const BakeOptions& options, int width, int height) {
   RenderOptions render = options.render;
@@ -51,7 +51,7 @@ PictureSamples begin(const SampledPicture& about, const std::string& path) {
   std::error_code ignored;
   if (path.empty() || !std::filesystem::exists(path, ignored)) return no_samples(about.options);
   PictureSamples samples;
-  expect_same_settings(path, read_unfinished(path, samples).settings, about.settings, kCure);
+  expect_same_settings(path, read_unfinished(path, samples).settings, about.settings, kRemedy);
   return samples;
 }
 

@@ -93,10 +93,10 @@ TEST_F(ConvertDepth, MergesByDepth) {
   EXPECT_EQ(err.find("empty: "), std::string::npos) << err;
   // The limit holds in what came out, and is used.
   run_well("render room -q --width 256 --samples 1 --merge none -o @large.exr");
-  run_well("convert @large.exr --merge auto,30 --sidecar -q -o @cured.exr");
+  run_well("convert @large.exr --merge auto,30 --sidecar -q -o @fixed.exr");
   EXPECT_GE(worst_vertical("large.exr"), 60.0);
-  EXPECT_LE(worst_vertical("cured.exr"), 31.0);
-  EXPECT_GE(worst_vertical("cured.exr"), 20.0);
+  EXPECT_LE(worst_vertical("fixed.exr"), 31.0);
+  EXPECT_GE(worst_vertical("fixed.exr"), 20.0);
   EXPECT_EQ(run(in_folder("convert @panorama.png --merge auto -o @no.png")), 0) << err;
   EXPECT_NE(err.find("have no effect on one eye"), std::string::npos) << err;
   EXPECT_EQ(run(in_folder("convert @panorama.png --eyes both --merge auto -o @no.png")), 2);

@@ -84,7 +84,7 @@ TEST_F(ComfortCommand, ASceneAndItsPictureAreJudgedAlike) {
 }
 
 // The distances in the report suffice.
-TEST_F(ComfortCommand, ItsCuresCure) {
+TEST_F(ComfortCommand, ItsRemediesHelp) {
   const std::string words = "room --width 256 --position 1.9,0.5,0.4 --merge none";
   const Json before = judged(words);
   ASSERT_EQ(before["level"], "error") << out;
@@ -98,7 +98,7 @@ TEST_F(ComfortCommand, ItsCuresCure) {
 }
 
 // As much stereo as the limit allows, in the verdict before and after rendering.
-TEST_F(ComfortCommand, AMergeByDepthCuresWhatIsAboveAndBelow) {
+TEST_F(ComfortCommand, AMergeByDepthHelpsAboveAndBelow) {
   const std::string words = "room --width 256 --merge auto,30";
   const Json scene = judged(words);
   EXPECT_LE(scene["most"]["vertical"], 30.5);
@@ -160,7 +160,7 @@ TEST_F(ComfortCommand, TextNamesThingsAndWhatWouldDo) {
   EXPECT_EQ(run("comfort room --width 256 --position 1.9,0.5,0.4 --merge none"), 5);
   EXPECT_EQ(err.find("error:"), std::string::npos) << "a verdict is not a failure: " << err;
   EXPECT_NE(out.find("move it at least "), std::string::npos) << out;
-  EXPECT_NE(out.find("cure: move these things"), std::string::npos) << out;
+  EXPECT_NE(out.find("remedy: move these things"), std::string::npos) << out;
   EXPECT_NE(out.find("by solid angle"), std::string::npos) << out;
   EXPECT_EQ(run("comfort furnace --width 64 --rules safe-sphere:0.1"), 0) << out << err;
 }

@@ -311,7 +311,7 @@ TEST(Sidecar, GoesBehindTheFilesOwnCamera) {
   EXPECT_EQ(open_picture(folder.path("a.exr")).camera.yaw, 50.0f);
 }
 
-TEST(Sidecar, DamagedIsAnErrorWithACure) {
+TEST(Sidecar, DamagedIsAnErrorWithARemedy) {
   const TemporaryFolder folder;
   save_picture(grey({kLeft, kRight}, {16, 8}), nullptr, {}, folder.path("a.png"));
   folder.write("a.camera.json", "{");

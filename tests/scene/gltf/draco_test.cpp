@@ -204,7 +204,7 @@ TEST(GltfDraco, SmallStreamsMayHoldMuch) {
 
 // --- damage
 
-TEST(GltfDracoDamage, MessagesNameThePrimitiveAndTheCure) {
+TEST(GltfDracoDamage, MessagesNameThePrimitiveAndTheRemedy) {
   GltfBuilder file = compressed_grid({});
   stream_of(file)[0] = 'X';
   const std::string error = error_of(file.glb());
