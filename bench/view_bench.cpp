@@ -327,7 +327,8 @@ const sleep = (time) => new Promise((done) => setTimeout(done, time));
   });
   const draw = viewer.draw;
   await sleep(2000);
-  for (let i = 0; i < 120; i++) {
+  const until = performance.now() + 240000; // on a machine that others use, fewer
+  for (let i = 0; i < 120 && (i % 20 || performance.now() < until); i++) {
     const is = Math.floor(i / 10) % 2 === 0;
     viewer.draw = is ? draw : () => {};
     if (!is) viewer.settling = clearTimeout(viewer.rest);
@@ -337,7 +338,7 @@ const sleep = (time) => new Promise((done) => setTimeout(done, time));
   }
   for (const [name, all] of Object.entries(times)) {
     all.sort((a, b) => a - b);
-    for (const [part, value] of [['median', all[30]], ['90', all[54]], ['worst', all[59]]]) await post(`count/${name}_${part}/${value}`);
+    for (const [part, value] of [['count', all.length], ['median', all[all.length >> 1]], ['90', all[Math.floor(0.9 * all.length)]], ['worst', all.at(-1)]]) await post(`count/${name}_${part}/${value}`);
   }
   await post('done', 'ok');
 })().catch((error) => post('done', error.stack));)";
