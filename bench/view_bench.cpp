@@ -3,8 +3,8 @@
 //
 // Cost of a frame of the viewer, in CPU milliseconds of a Chromium with a software GPU: while it moves, at rest, and
 // for comparison the simplest shader for a lat-long picture, one bilinear look-up, in the same run; the parts of a
-// film's frame; and the next picture of a folder. Also the time until a large picture is visible, and sharp, and the
-// memory of the page and its server.
+// film's frame; the next picture of a folder; and an edit in the studio. Also the time until a large picture is visible,
+// and sharp, and the memory of the page and its server.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -31,7 +31,8 @@ constexpr int kMovingFrames = 40, kStillFrames = 2;
 constexpr int kWidth = 640, kHeight = 360;
 
 // The start of scripts that measure frames: measure() runs `run` once, then `count` times between reports of the start
-// and the end. Each frame is read back, because drivers would defer it.
+// and the end; the mean is of all its calls with a name. Each frame is read back, because drivers would defer it. plainOf()
+// makes a function that draws a source with the simplest shader for a lat-long picture, one bilinear look-up.
 const std::string kMeasure = R"(
 import { Panorama, compile, raysOf } from './panorama.js';
 import { openPicture } from './picture.js';
@@ -53,10 +54,6 @@ async function measure(name, count, run) {
   for (let i = 1; i <= count; i++) frame(i);
   await post(`end/${name}/${count}`);
 }
-)";
-
-// Draws frames while the look turns.
-const std::string kScript = kMeasure + R"(
 const PLAIN = `#version 300 es
 precision highp float;
 uniform sampler2D picture;
@@ -68,26 +65,41 @@ void main() {
   color = texture(picture, vec2(0.5 + atan(d.x, -d.z) / 6.2831853, 0.5 - asin(d.y) / 3.1415927));
 }`;
 const turned = (i) => raysOf({ yaw: 1.5 * i, pitch: 0.5 * i, fov: 90 }, width / height);
+function plainOf(source) {
+  const texture = gl.createTexture();
+  const use = () => {
+    gl.activeTexture(gl.TEXTURE0);
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+  };
+  use();
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, source);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
+  const program = compile(gl, PLAIN);
+  return (i) => {
+    use();
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.viewport(0, 0, width, height);
+    gl.useProgram(program);
+    gl.uniformMatrix3fv(gl.getUniformLocation(program, 'rays'), false, turned(i));
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+  };
+}
+)";
+
+// Draws frames while the look turns.
+const std::string kScript = kMeasure + R"(
 try {
   const picture = await openPicture(panorama, view, view.items[0], {});
-  const box = [0, 0, width, height];
-  // As a slow GPU is soon asked to draw, and as others are.
-  await measure('moving', moving, (i) => panorama.draw(picture, { rays: turned(i), box, moves: true, cheap: true }));
-  await measure('anaglyph', moving, (i) => panorama.draw(picture, { rays: turned(i), box, moves: true, cheap: true, show: 'anaglyph' }));
-  await measure('fine', moving, (i) => panorama.draw(picture, { rays: turned(i), box, moves: true }));
-  await measure('still', still, (i) => panorama.draw(picture, { rays: turned(i), box }));
-  const bitmap = await createImageBitmap(await (await fetch(view.items[0].image)).blob());
-  gl.activeTexture(gl.TEXTURE0);
-  gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
-  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, bitmap);
-  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
-  const plain = compile(gl, PLAIN);
-  gl.viewport(...box);
-  await measure('plain', moving, (i) => {
-    gl.useProgram(plain);
-    gl.uniformMatrix3fv(gl.getUniformLocation(plain, 'rays'), false, turned(i));
-    gl.drawArrays(gl.TRIANGLES, 0, 3);
-  });
+  const plain = plainOf(await createImageBitmap(await (await fetch(view.items[0].image)).blob()));
+  const draw = (how) => (i) => panorama.draw(picture, { rays: turned(i), box: [0, 0, width, height], ...how });
+  // In turns, because other programs have a part of the processors' caches.
+  for (let round = 0; round < 5; round++) {
+    await measure('plain', moving / 5, plain);
+    await measure('moving', moving / 5, draw({ moves: true, cheap: true })); // as a slow GPU is asked to, and as others are:
+    await measure('fine', moving / 5, draw({ moves: true }));
+    await measure('anaglyph', moving / 5, draw({ moves: true, cheap: true, show: 'anaglyph' }));
+  }
+  await measure('still', still, draw({}));
   await post('done', 'ok');
 } catch (error) {
   await post('done', error.message);
@@ -112,7 +124,11 @@ try {
   await measure('upload', 20, again);
   await measure('upload_cut', 20, () => (again(), picture.prepare(cut, false)));
   await measure('upload_cut_mips', 20, () => (again(), picture.prepare(cut, true)));
-  await measure('drawing', 20, draw);
+  const plain = plainOf(video);
+  for (let round = 0; round < 5; round++) {
+    await measure('plain', 8, plain);
+    await measure('drawing', 8, draw);
+  }
   Object.assign(counts, { texImage2D: 0, generateMipmap: 0, drawArrays: 0, drawElements: 0 });
   for (let i = 0; i < 20; i++) again(), draw();
   for (const [name, count] of Object.entries(counts)) await post(`count/${name}_per_frame/${count / 20}`);
@@ -122,29 +138,43 @@ try {
 }
 )";
 
-// The next picture of a folder, milliseconds from the key to the picture that has replaced the other one, and the files
-// that are fetched meanwhile.
+// The next picture of a folder, milliseconds from the key until the GPU has drawn the first frame of it: when the view
+// rests and both neighbours are there, and when the key is pressed again a second later, as by who leafs through.
 const std::string kFolderScript = R"(
 const post = (path, body = '') => fetch(path, { method: 'POST', body });
-const heard = (viewer, name) => new Promise((done) => viewer.addEventListener(name, done, { once: true }));
 const sleep = (time) => new Promise((done) => setTimeout(done, time));
+const pixel = new Uint8Array(4);
 try {
   while (!window.omnistereo?.viewer.picture) await sleep(50);
   const { viewer } = window.omnistereo;
-  const times = [];
-  for (let i = 0; i < 4; i++) {
-    for (let k = 0; k < 600 && !viewer.ahead?.kept.size; k++) await sleep(100);
-    await Promise.all([...viewer.ahead.kept.values()]);
-    await sleep(500);
+  const heard = (name) => new Promise((done) => viewer.addEventListener(name, done, { once: true }));
+  const next = async () => {
     const since = performance.now();
-    const opened = heard(viewer, 'open');
-    viewer.go(1);
+    const opened = heard('open');
+    document.dispatchEvent(new KeyboardEvent('keydown', { key: 'PageDown', bubbles: true }));
     await opened;
     await new Promise(requestAnimationFrame);
-    times.push(performance.now() - since);
+    const { gl } = viewer.panorama;
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    return performance.now() - since;
+  };
+  const report = (name, times) => {
+    times.sort((a, b) => a - b);
+    return Promise.all([post(`count/${name}_ms/${times[times.length >> 1]}`), post(`count/${name}_worst_ms/${times.at(-1)}`)]);
+  };
+  const rested = [], leafed = [];
+  for (let i = 0; i < 5; i++) {
+    viewer.redraw();
+    await heard('settled');
+    for (let k = 0; k < 300 && ![...viewer.ahead.kept.values()].every(({ isReady }) => isReady); k++) await sleep(100);
+    rested.push(await next());
   }
-  await post(`count/next_ms/${times.sort((a, b) => a - b)[2]}`);
-  await post(`count/slowest_ms/${times[3]}`);
+  await report('rested', rested);
+  for (let i = 0; i < 5; i++) {
+    await sleep(1000);
+    leafed.push(await next());
+  }
+  await report('leafed', leafed);
   await post('done', 'ok');
 } catch (error) {
   await post('done', error.stack);
@@ -214,9 +244,15 @@ class Frames {
     if (path == "begin") begin_ = now;
     const size_t from = path.find('/'), slash = path.rfind('/');
     if (from == slash) return;
-    double& number = times_[path.substr(from + 1, slash - from - 1)];
-    number = std::atof(path.substr(slash + 1).c_str());
-    if (path.starts_with("end/")) number = 1000.0 * (now - begin_) / number;
+    const std::string name = path.substr(from + 1, slash - from - 1);
+    const double number = std::atof(path.substr(slash + 1).c_str());
+    if (!path.starts_with("end/")) {
+      times_[name] = number;
+      return;
+    }
+    Sum& sum = sums_[name];
+    sum.seconds += now - begin_, sum.count += number;
+    times_[name] = 1000.0 * sum.seconds / sum.count;
   }
 
   WebAnswer answer(const WebRequest& request, const std::string& site) {
@@ -227,14 +263,20 @@ class Frames {
     if (request.path == "bench.js") return {.type = "text/javascript", .body = script_};
     if (request.path == "sizes")
       return {.body = fmt::format("{} {} {} {}", kWidth, kHeight, kMovingFrames, kStillFrames)};
+    const bool is_of_site = std::filesystem::is_regular_file(site + request.path);
     const PageFile* const module = find_page_file(request.path);  // sites have them as one script
-    if (module) return {.type = std::string(media_type(request.path)), .body = std::string(module->data)};
+    if (module && !is_of_site)
+      return {.type = std::string(media_type(request.path)), .body = std::string(module->data)};
     return {.type = std::string(media_type(request.path)), .file = site + request.path};
   }
 
   std::atomic<pid_t> browser_ = -1;
   std::string script_;
+  struct Sum {
+    double seconds = 0.0, count = 0.0;
+  };
   double begin_ = 0.0;
+  std::map<std::string, Sum> sums_;
   std::map<std::string, double> times_;
 };
 
@@ -261,6 +303,71 @@ void of_cards(benchmark::State& state, const std::vector<std::string>& cards, co
     const auto times = frames.measure(cards, page, script);
     if (times.empty()) return state.SkipWithError(frames.end_.c_str());
     for (const auto& [name, number] : times) state.counters[name] = number;
+  }
+}
+
+// An edit in the studio: seconds until its first picture is there, in turns with a page that draws and with one that draws
+// nothing.
+constexpr const char* kEdits = R"(
+const post = (path, body = '') => fetch(path, { method: 'POST', body });
+const sleep = (time) => new Promise((done) => setTimeout(done, time));
+(async () => {
+  while (!window.omnistereo?.studio || !omnistereo.viewer.picture) await sleep(50);
+  const { viewer, studio: { session } } = omnistereo;
+  const times = { drawing: [], still: [] };
+  const edit = (yaw) => new Promise((done) => {
+    const since = performance.now();
+    const hear = ({ detail: { samples, revision, side } }) => {
+      if (!samples || side.settings !== side.sent || revision !== side.revision) return;
+      session.removeEventListener('status', hear);
+      done((performance.now() - since) / 1000);
+    };
+    session.edit({ 'sidecar.yaw': yaw });
+    session.addEventListener('status', hear);
+  });
+  const draw = viewer.draw;
+  await sleep(2000);
+  const until = performance.now() + 240000; // on a machine that others use, fewer
+  for (let i = 0; i < 120 && (i % 20 || performance.now() < until); i++) {
+    const is = Math.floor(i / 10) % 2 === 0;
+    viewer.draw = is ? draw : () => {};
+    if (!is) viewer.settling = clearTimeout(viewer.rest);
+    if (i % 10 === 0) await edit(200 + i); // as before a turn, too
+    times[is ? 'drawing' : 'still'].push(await edit(i));
+    await sleep(300);
+  }
+  for (const [name, all] of Object.entries(times)) {
+    all.sort((a, b) => a - b);
+    for (const [part, value] of [['count', all.length], ['median', all[all.length >> 1]], ['90', all[Math.floor(0.9 * all.length)]], ['worst', all.at(-1)]]) await post(`count/${name}_${part}/${value}`);
+  }
+  await post('done', 'ok');
+})().catch((error) => post('done', error.stack));)";
+
+void edits(benchmark::State& state) {
+  const Folder folder;
+  const std::vector<std::string> browser = chromium(folder.path("profile"));
+  if (browser.empty()) return state.SkipWithError("there is no chromium");
+  for (auto _ : state) {
+    SceneSource source;
+    source.name = "room";
+    ViewSite site({}, source);
+    std::mutex of_counters;
+    const auto answer = [&](const WebRequest& request) -> WebAnswer {
+      if (request.path == "edits.js") return {.type = "text/javascript", .body = kEdits};
+      if (request.path.starts_with("count/")) {
+        const size_t slash = request.path.rfind('/');
+        const std::lock_guard lock(of_counters);
+        state.counters[request.path.substr(6, slash - 6)] = std::atof(request.path.substr(slash + 1).c_str());
+        return {};
+      }
+      WebAnswer sent = site.answer(request);
+      if (request.path.empty()) sent.body += "<script src=\"edits.js\"></script>";
+      return sent;
+    };
+    const std::string end = run_in_browser({browser, folder.path("home"), "", answer, std::chrono::minutes(8)});
+    if (end != "ok") return state.SkipWithError(end.c_str());
+    state.counters["worst_ratio"] = state.counters["drawing_worst"] / state.counters["still_worst"];
+    state.counters["median_ratio"] = state.counters["drawing_median"] / state.counters["still_median"];
   }
 }
 
@@ -329,6 +436,7 @@ void large_picture(benchmark::State& state) {
 
 const bool registered = [] {
   benchmark::RegisterBenchmark("large_picture", large_picture)->Iterations(1)->Unit(benchmark::kSecond);
+  benchmark::RegisterBenchmark("edits", edits)->Iterations(1)->Unit(benchmark::kSecond);
   benchmark::RegisterBenchmark("film", [](benchmark::State& state) {
     of_cards(state, {"film_360_TB.mp4 --video --duration 1 --fps 10 --width 1024"}, "bench.html", kFilmScript);
   })->Iterations(1);

@@ -50,8 +50,7 @@ function lay(rows) {
 // Files, and in the studio its scene, which can be displayed.
 function entriesOf({ viewer }) {
   const { studio } = viewer;
-  const { exposure, tone } = viewer.choice;
-  const files = viewer.view.items.map((item, i) => ({ name: itemName(item), thumbnail: item.thumbnail, on: !viewer.scene && i === viewer.item, run: () => viewer.open(i, { exposure, tone }) }));
+  const files = viewer.view.items.map((item, i) => ({ name: itemName(item), thumbnail: item.thumbnail, on: !viewer.scene && i === viewer.item, run: () => viewer.open(i, viewer.lasting()) }));
   return studio ? [{ name: studio.scene.name, on: Boolean(viewer.scene), run: () => studio.showScene() }, ...files] : files;
 }
 

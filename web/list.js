@@ -19,7 +19,7 @@ export function makeList({ element, viewer, nameOf }) {
     if (kind === 'video') button.append(icon('play'));
     button.addEventListener('click', () => {
       list.hidePopover();
-      viewer.open(i, { exposure: viewer.choice.exposure, tone: viewer.choice.tone });
+      viewer.open(i, viewer.lasting());
     });
     return button;
   };

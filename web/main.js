@@ -3,11 +3,12 @@
 //
 // Starts the page: reads view.json, makes the player, and keeps the page's address and its server in step with it.
 import { copyText } from './copy.js';
+import { forVisitors } from './faults.js';
 import { itemName, plainName } from './item-name.js';
 import { Panorama } from './panorama.js';
 import { Player } from './player.js';
 import { findItem, readState, writeState } from './state.js';
-import { useLanguage } from './translate.js';
+import { t, useLanguage } from './translate.js';
 
 const find = (id) => document.getElementById(id);
 
@@ -31,8 +32,8 @@ function watchAddress(player) {
   };
   player.copyLink = async () => {
     write();
-    if (!(await copyText(location.href))) return 'Copy the address of this page: it leads here';
-    return viewer.view.live ? 'Link copied. It works as long as ods view runs' : 'Link copied';
+    if (!(await copyText(location.href))) return t('Copy the address of this page: it leads here');
+    return viewer.view.live ? 'Link copied. It works as long as ods view runs' : t('Link copied');
   };
   for (const event of ['change', 'open']) viewer.addEventListener(event, () => (timer ??= setTimeout(write, 250)));
   addEventListener('hashchange', async () => {
@@ -87,7 +88,7 @@ async function start() {
   if (view.studio) (await import('./studio.js')).startStudio(player);
 }
 
-start().catch((error) => {
+start().catch(({ message: reason }) => {
   const message = find('message') ?? find('player').appendChild(document.createElement('p'));
-  Object.assign(message, { id: 'message', textContent: error.message, hidden: false });
+  Object.assign(message, { id: 'message', textContent: find('player').matches('.visitors') ? forVisitors(reason) : reason, hidden: false });
 });

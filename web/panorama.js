@@ -9,7 +9,7 @@ import { SHADER } from './shader.js';
 
 const TOE_IN = 1; // number of the kernel's convergence whose lines of sight are not linear across the view
 const REDUCED = 1.2; // texels of a pixel, in the middle, from which mip levels matter
-const CELLS = 16; // cells of the mesh for it, each way
+const CELLS = 16; // cells of the mesh for it, each way; half as many for a slow GPU
 const VERTICES = `#version 300 es
 out vec2 screen;
 void main() {
@@ -103,9 +103,8 @@ export class Panorama {
     this.maps = new Map();
     gl.bindVertexArray(gl.createVertexArray());
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
-    const row = CELLS + 1;
-    const corners = Array.from({ length: CELLS * CELLS }, (_, i) => i + Math.floor(i / CELLS));
-    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, new Uint16Array(corners.flatMap((i) => [i, i + 1, i + row, i + row, i + 1, i + row + 1])), gl.STATIC_DRAW);
+    const mesh = (cells) => Array.from({ length: cells * cells }, (_, i) => i + Math.floor(i / cells)).flatMap((i) => [i, i + 1, i + cells + 1, i + cells + 1, i + 1, i + cells + 2]);
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, new Uint16Array([...mesh(CELLS), ...mesh(CELLS / 2)]), gl.STATIC_DRAW);
   }
 
   // A slow GPU need not mix two mip levels.
@@ -214,7 +213,7 @@ export class Panorama {
       const pixel = all ? (2 * Math.PI) / box[2] : (2 * Math.hypot(...rays.slice(0, 3))) / box[2]; // radians, in the middle
       for (const each of eyes) picture.prepare(each, !moves || planet || pixel > REDUCED * texelAngle(picture.camera, each.size[0]));
     }
-    const cells = moves && !all && !planet && picture.camera.convergence === TOE_IN ? CELLS : 0;
+    const cells = moves && !all && !planet && picture.camera.convergence === TOE_IN ? CELLS / (cheap ? 2 : 1) : 0;
     gl.bindFramebuffer(gl.FRAMEBUFFER, target);
     gl.viewport(...box);
     gl.scissor(...clip);
@@ -237,7 +236,7 @@ export class Panorama {
       shift: [Math.cos(turn), Math.sin(turn)], coarse_0: 4, coarse_1: 5, slots_0: 6, slots_1: 7, ask_scale: askScale,
       exposure: 2 ** (picture.stops ?? 0), neutral: picture.tone !== 'linear',
     });
-    if (cells) gl.drawElements(gl.TRIANGLES, 6 * cells * cells, gl.UNSIGNED_SHORT, 0);
+    if (cells) gl.drawElements(gl.TRIANGLES, 6 * cells * cells, gl.UNSIGNED_SHORT, cells < CELLS ? 12 * CELLS * CELLS : 0);
     else gl.drawArrays(gl.TRIANGLES, 0, 3);
     this.bindSamplers(false);
     gl.disable(gl.SCISSOR_TEST);

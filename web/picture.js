@@ -52,7 +52,7 @@ function eyeFiles({ left, right }, layout) {
 }
 
 // Both eyes' textures from the source that `crops` divide, or the eyes of pages.js if they are too large.
-async function eyesOf(panorama, form, { sources, crops, mono, name, preview, paging, signal }) {
+async function eyesOf(panorama, form, { sources, crops, mono, name, preview, paging, signal, calm }) {
   const { gl } = panorama;
   const wraps = isRound(form.camera);
   const sizes = crops.map((crop, i) => cropOf(crop, sources[i]));
@@ -67,7 +67,7 @@ async function eyesOf(panorama, form, { sources, crops, mono, name, preview, pag
       const [x, y, width, height] = sizes[i];
       eyes.push(pages ? new pages.PagedEye(gl, sources[i], sizes[i], wraps, paging) : new EyeTexture(gl, width, height, wraps));
       if (pages) await eyes[i].begin(preview ?? sources[i], preview ? cropOf(crops[i], preview) : sizes[i]);
-      else await eyes[i].fill(sources[i], x, y);
+      else await eyes[i].fill(sources[i], x, y, calm);
       signal?.throwIfAborted();
     }
   } catch (error) {
@@ -95,21 +95,23 @@ async function openPreview(panorama, item, form, url, signal, early) {
   return source;
 }
 
-async function openImage(panorama, item, form, files, url, { signal, progress, early, paging, ahead }) {
+async function openImage(panorama, item, form, files, url, { signal, progress, early, paging, ahead, load, calm }) {
   const crops = item.image ? [form.layout.left, form.layout.right] : [[0, 0, 1, 1], [0, 0, 1, 1]];
   const mono = files.length === 1 ? same(...crops) : files[0].href === files[1].href;
-  const preview = item.preview && early && !ahead?.there.has(files[0].href) ? openPreview(panorama, item, form, url, signal, early).catch(() => null) : null;
+  const preview = item.preview && early && !ahead?.isReady ? openPreview(panorama, item, form, url, signal, early).catch(() => null) : null;
+  const read = load ?? (async (file, i) => decode(await download(file, item.name, signal, (part) => progress?.((part + i) / files.length)), item.name));
   const sources = [];
   let picture = null;
   try {
+    picture = await ahead?.picture;
+    if (picture) return picture;
     for (const [i, file] of files.entries()) {
       if (i === 1 && mono) break;
-      const load = async () => decode(await download(file, item.name, signal, (part) => progress?.((part + i) / files.length)), item.name);
-      sources.push((await ahead?.take(file.href)) ?? (await load()));
+      sources.push(await read(file, i));
       signal?.throwIfAborted();
     }
     if (sources.length === 1) sources.push(sources[0]);
-    picture = await eyesOf(panorama, form, { sources, crops, mono, name: item.name, preview: await preview, paging, signal });
+    picture = await eyesOf(panorama, form, { sources, crops, mono, name: item.name, preview: await preview, paging, signal, calm });
     return picture;
   } finally {
     (await preview)?.close();
@@ -156,16 +158,18 @@ function addressOf(path, base, query = {}) {
   return address;
 }
 
-// The addresses of a picture's file or of its eyes' files, as openPicture() loads them.
-export function imageAddresses(view, item, base, choice = {}) {
+// The addresses of a picture's file or of its eyes' files.
+function imageAddresses(view, item, base, choice = {}) {
   const layout = !item.image && hasOtherLayouts(view, item) ? choice.layout : undefined;
   const { exposure, tone } = item.live ? choice : {};
   return (item.image ? [item.image] : eyeFiles(item, layout)).map((path) => addressOf(path, base, { layout, exposure, tone }));
 }
 
 // base: the address that the item's addresses are relative to. choice: { layout, projection, exposure, tone }, all
-// optional. early(picture): receives a preview of the picture. ahead: of ahead.js, or missing. paging: whether to use
-// pages.js, by default depending on the picture's size. Throws an Error with one line for the user, or an AbortError if `signal` is aborted.
+// optional. early(picture): receives a preview of the picture. ahead: what ahead.js has of the picture, if anything; load(url)
+// and calm(): its own ways to read a file, and to wait before each piece that is sent to the GPU. paging: whether to use
+// pages.js, by default depending on the picture's size. Throws an Error with one line for the user, or an AbortError if
+// `signal` is aborted.
 export async function openPicture(panorama, view, item, { base, choice = {}, ...how } = {}) {
   const form = formOf(item, choice);
   const url = (path) => addressOf(path, base);

@@ -5,6 +5,7 @@
 import { ACTIONS, actionOf, applies } from './actions.js';
 import { Controls } from './controls.js';
 import { make } from './elements.js';
+import { forVisitors } from './faults.js';
 import { clamp } from './geometry.js';
 import { itemName } from './item-name.js';
 import { followPointer } from './look.js';
@@ -43,7 +44,7 @@ export class Player {
     this.controls = new Controls(this);
     followPointer(viewer, viewer.element, () => isPage || root.activeElement === viewer.element || this.isFullscreen());
     viewer.addEventListener('open', () => this.fail(''));
-    viewer.addEventListener('failed', ({ detail }) => this.fail(detail));
+    viewer.addEventListener('failed', ({ detail }) => this.fail(isVisitors && isPage ? forVisitors(detail) : detail));
     this.watchKeys();
     this.watchIdle();
     this.watchExtras();

@@ -10,6 +10,7 @@
 // last frame, and neither the GPU nor the picture's memory is used (contexts.js).
 import { claim, release, settled } from './contexts.js';
 import { make } from './elements.js';
+import { forVisitors } from './faults.js';
 import { LAYOUTS, PROJECTIONS } from './formats.js';
 import { icon } from './icons.js';
 import { modeOf } from './modes.js';
@@ -248,13 +249,10 @@ export class Stereo360 extends Base {
 
   // Visitors see a hint; the page's author finds the reason in the console and in the event.
   fail(reason) {
-    console.warn(`stereo-360: ${reason}`);
     this.isLoading = false;
     let message = this.shadowRoot.getElementById('message');
     if (!message) this.box.append((message = make('p', { id: 'message', role: 'alert' })));
-    const words = /WebGL/.test(reason) ? 'Your browser cannot show this panorama. A newer one can.'
-      : /did not load|broke/.test(reason) ? 'This panorama did not load. Check your connection.' : 'This panorama cannot be shown.';
-    message.textContent = t(words);
+    message.textContent = forVisitors(reason);
     message.hidden = false;
     const again = make('button', { id: 'again', textContent: t('Try again') });
     again.addEventListener('click', () => this.startAgain());

@@ -6,6 +6,7 @@
 export const BORDER = 16; // texels, as in panorama.glsl: two filter widths at the smallest mip level used close by
 export const LEVELS = 6; // number of mip map levels
 const STEP = 1 << (LEVELS - 1); // layers are a multiple of this, so that every level has whole texels
+const PIECE = 1 << 19; // texels that are sent at once between frames
 const LARGEST = 4096 + 2 * STEP; // side of a layer: larger ones have no benefit, and some browsers fail to fill them
 
 const upTo = (size, step) => Math.ceil(size / step) * step;
@@ -70,8 +71,8 @@ export class EyeTexture {
   }
 
   // source: an ImageBitmap; x, y: where the eye's picture begins in it. Yields between tiles, so that the page stays
-  // responsive.
-  async fill(source, x, y) {
+  // responsive; with calm(), waits for it between pieces.
+  async fill(source, x, y, calm) {
     const { gl } = this;
     const [width, height] = this.layer;
     const canvas = new OffscreenCanvas(width, height);
@@ -79,9 +80,14 @@ export class EyeTexture {
     context.imageSmoothingEnabled = false;
     for (const [layer, origin] of this.tiles.entries()) {
       paintTile(this, context, source, x, y, ...origin);
-      this.bind();
-      gl.texSubImage3D(gl.TEXTURE_2D_ARRAY, 0, 0, 0, layer, width, height, 1, gl.RGBA, gl.UNSIGNED_BYTE, canvas);
-      await new Promise((go) => setTimeout(go));
+      const rows = calm ? Math.ceil(PIECE / width) : height;
+      for (let top = 0; top < height; top += rows) {
+        const high = Math.min(rows, height - top);
+        const texels = calm ? context.getImageData(0, top, width, high).data : canvas;
+        this.bind();
+        gl.texSubImage3D(gl.TEXTURE_2D_ARRAY, 0, 0, top, layer, width, high, 1, gl.RGBA, gl.UNSIGNED_BYTE, texels);
+        await (calm ? calm() : new Promise((go) => setTimeout(go)));
+      }
     }
     this.bind();
     gl.generateMipmap(gl.TEXTURE_2D_ARRAY);

@@ -64,8 +64,7 @@ class Guide extends EventTarget {
   }
 
   go(item) {
-    const { exposure, tone } = this.viewer.choice;
-    return this.viewer.open(item, { exposure, tone });
+    return this.viewer.open(item, this.viewer.lasting());
   }
 
   // Opens a spot's card, or closes it.

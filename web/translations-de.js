@@ -100,6 +100,8 @@ export const TRANSLATIONS = {
   'Tone': 'Tonkurve',
   'Trigger or pinch': 'Abzug oder Kneifen',
   'Try again': 'Noch einmal versuchen',
+  'Link copied': 'Link kopiert',
+  'Copy the address of this page: it leads here': 'Kopieren Sie die Adresse dieser Seite: Sie führt hierher',
   'Turn left': 'Nach links',
   'Turn right': 'Nach rechts',
   'Turn slowly': 'Langsam drehen',

@@ -100,6 +100,8 @@ export const TRANSLATIONS = {
   'Tone': 'Tonalité',
   'Trigger or pinch': 'Gâchette ou pincement',
   'Try again': 'Réessayer',
+  'Link copied': 'Lien copié',
+  'Copy the address of this page: it leads here': 'Copiez l’adresse de cette page : elle mène ici',
   'Turn left': 'À gauche',
   'Turn right': 'À droite',
   'Turn slowly': 'Tourner lentement',

@@ -9,11 +9,13 @@ import { clamp, radians, wrapDegrees } from './geometry.js';
 import { boxOf, modeOf } from './modes.js';
 import { Pace, firstLevel, keepLevel } from './pace.js';
 import { raysOf } from './panorama.js';
-import { imageAddresses, openPicture } from './picture.js';
+import { openPicture } from './picture.js';
 
 const REST = 150; // milliseconds without movement until the view is drawn exactly
 const STILL = 960; // pixels: the widest last frame that is kept
 const KEEP = 64e6; // texels: a smaller picture stays on screen until the next one is loaded
+
+const keyOf = (item, choice) => `${item} ${JSON.stringify(choice)}`; // of ahead.js
 
 // The first field of view, and the widest.
 export const FOV = 90;
@@ -54,6 +56,7 @@ export class Viewer extends EventTarget {
     this.canvas = this.place(panorama.canvas);
     panorama.lost = () => {
       this.picture = null;
+      this.ahead?.keep([]);
       this.say('failed', 'The GPU was reset. The picture returns by itself; if it does not, reload the page.');
     };
     panorama.restored = () => this.item >= 0 && this.open(this.item, this.choice);
@@ -200,6 +203,7 @@ export class Viewer extends EventTarget {
   async settle() {
     const { panorama, canvas } = this;
     if (this.isProvisional && this.pace.isSlow) return;
+    if (!this.picture?.isPreview) this.openAhead().catch((error) => console.warn(error.message));
     const mark = (this.settling = {});
     const goesOn = () => this.settling === mark && this.picture && !this.session;
     const nextFrame = () => new Promise(requestAnimationFrame);
@@ -211,7 +215,7 @@ export class Viewer extends EventTarget {
     }
     const isReady = () => this.parts(0).every((options) => this.pictures().every((picture) => panorama.isReady(picture, options)));
     while (goesOn() && !isReady()) await nextFrame();
-    for (let y = 0, count = Math.ceil(canvas.height / 8); goesOn() && y < canvas.height;) {
+    for (let y = 0, count = Math.ceil(canvas.height / (this.pace.isSlow ? 32 : 8)); goesOn() && y < canvas.height;) {
       this.paint(performance.now(), {}, [y, count]);
       y += count;
       const took = await panorama.finished(nextFrame);
@@ -226,20 +230,23 @@ export class Viewer extends EventTarget {
     if (!goesOn()) return;
     if (isBetter) return this.redraw();
     keepLevel(this.pace.level);
-    this.fetchAhead().catch((error) => console.warn(error.message));
     this.say('settled');
   }
 
-  // Fetches the pictures beside the open one, unless the visitor saves data.
-  async fetchAhead() {
-    const { items } = this.view;
+  // Opens the pictures beside the present one, unless the visitor saves data.
+  async openAhead() {
+    const { view, base, panorama } = this;
+    const { items } = view;
     if (this.scene || this.session || items.length < 2 || navigator.connection?.saveData) return;
     const { Ahead } = await import('./ahead.js');
-    if (!this.panorama) return;
+    if (!panorama || this.panorama !== panorama) return;
     this.ahead ??= new Ahead();
+    const choice = this.lasting();
     const next = this.guide?.next() ?? [1, -1].map((by) => (this.item + by + items.length) % items.length);
-    const beside = next.map((i) => items[i]).filter(({ kind, light }) => kind === 'picture' && !light);
-    this.ahead.keep(beside.flatMap((item) => imageAddresses(this.view, item, this.base)).map(({ href }) => href));
+    this.ahead.keep(next.filter((i) => items[i].kind === 'picture' && !items[i].light).map((i) => ({
+      key: keyOf(i, choice),
+      open: (how) => openPicture(panorama, view, items[i], { base, choice, ...how }),
+    })));
   }
 
   get about() {
@@ -258,9 +265,11 @@ export class Viewer extends EventTarget {
     this.say('loading', 0);
     try {
       const picture = await openPicture(this.panorama, this.view, this.about, {
-        base: this.base, choice, signal: loading.signal, ahead: this.ahead, progress: (part) => this.say('loading', part),
+        base: this.base, choice, signal: loading.signal, ahead: this.ahead?.take(keyOf(item, choice)), progress: (part) => this.say('loading', part),
         early: (preview) => this.take(Object.assign(preview, { isPreview: true }), loading.signal),
       });
+      const isPlain = this.about.kind === 'picture' && !picture.light && !picture.pager && !picture.enter;
+      if (isPlain) picture.key = keyOf(item, choice);
       this.take(picture, loading.signal);
     } catch (error) {
       if (loading.signal.aborted) return;
@@ -273,6 +282,8 @@ export class Viewer extends EventTarget {
 
   take(picture, signal) {
     if (signal.aborted) return picture.free();
+    const left = this.picture; // it is beside the new one, perhaps
+    if (left?.key && !this.compare && this.ahead?.give(left.key, left)) this.picture = null;
     this.close();
     this.picture = picture;
     picture.hold?.(this.state);
@@ -293,7 +304,13 @@ export class Viewer extends EventTarget {
   // Goes to the next or a previous item, with wrap-around.
   go(by) {
     const count = this.view.items.length;
-    if (count > 1) this.open((this.item + by + count) % count, { exposure: this.choice.exposure, tone: this.choice.tone });
+    if (count > 1) this.open((this.item + by + count) % count, this.lasting());
+  }
+
+  // The part of the choice that stays from one item to the next.
+  lasting() {
+    const { exposure, tone } = this.choice;
+    return { exposure, tone };
   }
 
   // Changes layout, projection, exposure or tone: loads the picture again, at the present time of a video. Light is

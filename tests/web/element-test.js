@@ -190,9 +190,10 @@ async function testTranslations() {
   const { OBJECT_KEYS } = await import('./src/objects.js');
   for (const { label, group } of [...ACTIONS, ...MOVES, ...OBJECT_KEYS]) if (label) texts.add(label).add(group);
   for (const { label, visitors } of [...MODES, ...WORN]) texts.add(label).add(visitors ?? label);
-  for (const file of ['actions', 'compare', 'controls', 'headset-controls', 'headset-guide', 'headset-panel', 'markup', 'notes', 'player', 'stereo-360', 'tour-plan']) {
+  for (const file of ['actions', 'compare', 'controls', 'faults', 'help', 'list', 'main', 'system-player', 'tour', 'tour-ways', 'tour-worn', 'headset-controls', 'headset-guide', 'headset-panel', 'markup', 'notes', 'player', 'stereo-360', 'tour-plan']) {
     const source = await (await fetch(`src/${file}.js`)).text();
     for (const [, one, other] of source.matchAll(/\bt\((?:[^()'`]*\? )?'([^']*)'(?: : '([^']*)')?/g)) texts.add(one).add(other ?? one);
+    if (file === 'faults') for (const [, text] of source.matchAll(/'([A-Z][^']*\.)'/g)) texts.add(text);
   }
   expect(texts.size > 90 && Object.keys(LANGUAGES).join() === 'de,fr', `${texts.size} texts`);
   for (const [language, load] of Object.entries(LANGUAGES)) {
@@ -222,6 +223,11 @@ async function testVisitors() {
   element.viewer.element.dispatchEvent(new PointerEvent('pointerdown', { bubbles: true, composed: true }));
   expect(find('hint').hidden && find('mark').checkVisibility(), 'the invitation stays, or the mark does not');
   await until(() => find('player').classList.contains('idle'), 'fades');
+  // A video has no tools for makers, either.
+  find('film').hidden = false;
+  find('time').append(document.createElement('span'));
+  find('time').lastChild.textContent = 'frame 0';
+  expect(shown().join() === 'play,mode,fullscreen' && !find('time').lastChild.checkVisibility(), `the bar of a video has ${shown()}`);
   element.remove();
   const makers = makeElement({ loading: 'eager', controls: 'all' }, [640, 360]);
   document.body.append(makers);

@@ -17,7 +17,7 @@
 import { Headset } from './headset.js';
 import { Pace } from './pace.js';
 import { Panorama, compile, raysOf } from './panorama.js';
-import { imageAddresses, openPicture } from './picture.js';
+import { openPicture } from './picture.js';
 import { Viewer } from './viewer.js';
 
 const json = async (path) => (await fetch(path)).json();
@@ -229,21 +229,51 @@ function testPace() {
   for (let i = 0; i < 500; i++) if (after(strange, 1, () => 5 + ((i * 37) % 90)) > 3 || !strange.how) throw new Error('pace: no such level');
 }
 
-// The next picture of a folder is fetched while the viewer rests, and opens without the server.
+function pixelsOf({ canvas, panorama: { gl } }) {
+  const bytes = new Uint8Array(4 * canvas.width * canvas.height);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+  gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+  return bytes.join();
+}
+
+// The next picture of a folder is opened while the viewer rests: then it is in the next frame, and nothing is fetched,
+// decoded or sent to the GPU for it. The one that is left is kept, for the way back.
 async function testAhead(viewer, item) {
-  viewer.view = { ...viewer.view, items: [item, { ...item }] };
-  viewer.item = 1;
-  await viewer.fetchAhead();
-  const addresses = imageAddresses(viewer.view, item, viewer.base).map(({ href }) => href);
-  for (const address of addresses) {
-    if (!(await viewer.ahead.kept.get(address))) throw new Error('ahead: the next picture is not fetched');
+  const { gl } = viewer.panorama;
+  const asked = { fetch: 0, createImageBitmap: 0, texSubImage3D: 0, generateMipmap: 0 };
+  for (const name of Object.keys(asked)) {
+    const owner = name in gl ? gl : window;
+    const own = owner[name].bind(owner);
+    owner[name] = (...values) => (asked[name]++, own(...values));
   }
-  const asked = () => addresses.reduce((count, address) => count + performance.getEntriesByName(address).length, 0);
-  const before = asked();
-  const opened = new Promise((done) => viewer.addEventListener('open', done, { once: true }));
-  viewer.open(0);
-  await opened;
-  if (!before || asked() !== before || !viewer.picture) throw new Error('ahead: the next picture is fetched again');
+  const counts = () => Object.values(asked).join();
+  viewer.view = { ...viewer.view, items: [item, { ...item }, { ...item }] };
+  const shown = () => {
+    viewer.fit();
+    viewer.paint(0, { moves: true });
+    return pixelsOf(viewer);
+  };
+  await viewer.open(1);
+  const wanted = shown();
+  await viewer.openAhead();
+  const kept = () => Promise.all([...viewer.ahead.kept.values()].map(({ picture }) => picture));
+  const pictures = await kept();
+  if (pictures.length !== 2 || pictures.some((each) => !each?.eyes)) throw new Error('ahead: the pictures beside are not open');
+  if (!asked.texSubImage3D || !asked.generateMipmap) throw new Error('ahead: nothing is sent to the GPU');
+  for (const [by, next] of [[1, pictures[0]], [-1, viewer.picture]]) {
+    const before = counts();
+    viewer.go(by);
+    await new Promise(requestAnimationFrame);
+    await new Promise((go) => setTimeout(go)); // until all has run that waited for the frame
+    if (viewer.picture !== next || viewer.waiting) throw new Error('ahead: the next frame does not show the picture');
+    if (shown() !== wanted) throw new Error('ahead: a picture is not what it is when it is opened at once');
+    if (counts() !== before) throw new Error(`ahead: ${Object.keys(asked)} were ${before}, then ${counts()}`);
+  }
+  await viewer.openAhead();
+  if ((await kept()).length !== 2) throw new Error('ahead: keeps other pictures than those beside');
+  viewer.ahead.keep([]);
+  await new Promise(requestAnimationFrame);
+  if (pictures.some(({ eyes }) => eyes.some(({ texture }) => viewer.picture.eyes[0].texture !== texture && gl.isTexture(texture)))) throw new Error('ahead: does not free its pictures');
 }
 
 // The viewer draws quickly at first, and at rest exactly what one exact drawing shows; a movement interrupts it.
@@ -252,13 +282,7 @@ async function rest(view, { item }) {
   const viewer = makeViewer(view, { width: 200, height: 150 });
   const { canvas } = viewer;
   const settled = () => new Promise((done) => viewer.addEventListener('settled', done, { once: true }));
-  const pixels = () => {
-    const { gl } = viewer.panorama;
-    const bytes = new Uint8Array(4 * canvas.width * canvas.height);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-    gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
-    return bytes.join();
-  };
+  const pixels = () => pixelsOf(viewer);
   for (const mode of ['left', 'side-by-side', 'anaglyph']) {
     viewer.set({ mode, yaw: 20 });
     if (!viewer.picture) await viewer.open(item);
