@@ -23,8 +23,9 @@ namespace ods {
 
 constexpr float kMinAlike = 0.5f, kMinSame = 0.5f;
 
-// The correlation of equal positions in both circles, by their detail: two eyes see nearly the same there.
-static float sameness(const LensImages& detail, const std::vector<FisheyeLens>& lenses) {
+// The correlation of equal positions in both circles, by their detail, if the second picture is shifted by `shift` of
+// the radius.
+static float sameness(const LensImages& detail, const std::vector<FisheyeLens>& lenses, float shift) {
   constexpr int kSide = 64;
   const vec2 size(static_cast<float>(detail.first.width), static_cast<float>(detail.first.height));
   Correlation both;
@@ -32,11 +33,19 @@ static float sameness(const LensImages& detail, const std::vector<FisheyeLens>& 
     const vec2 off =
         (vec2(static_cast<float>(i % kSide), static_cast<float>(i / kSide)) + 0.5f) / (0.5f * kSide) - 1.0f;
     const vec2 p = (lenses[0].center + lenses[0].radius * off) / size;
-    const vec2 q = (lenses[1].center + lenses[1].radius * off) / size;
+    const vec2 q = (lenses[1].center + lenses[1].radius * (off + vec2(shift, 0.0f))) / size;
     if (length(off) > 0.8f || !inside_picture(p) || !inside_picture(q)) continue;
     both.add(sample_at(detail.first, p), sample_at(detail.second, q));
   }
   return both.count() > 0.0 ? both.value() : -1.0f;
+}
+
+// Two eyes see nearly the same, perhaps shifted sideways as a whole: in a screenshot of a headset, the lenses' middles are
+// not those of the halves.
+static float sameness(const LensImages& detail, const std::vector<FisheyeLens>& lenses) {
+  float max = -1.0f;
+  for (int i = -16; i <= 16; i++) max = std::max(max, sameness(detail, lenses, 0.01f * static_cast<float>(i)));
+  return max;
 }
 
 std::optional<SeenLenses> find_lenses(const LensImages& images, std::optional<float> fov) {

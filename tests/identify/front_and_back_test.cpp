@@ -6,7 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "ods/identify/open_media.h"
+#include "ods/picture/save.h"
 #include "tests/support/simulated_camera.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/unknown_files.h"
@@ -130,6 +134,36 @@ TEST(FilledHalves, AreNotSeenInPanoramas) {
       EXPECT_TRUE(open_media(folder.path("a.jpg")).hint.lenses.empty()) << world_name(world) << name;
     }
   }
+}
+
+// A screenshot of a headset, all red in a headset's test: two barrels of light on black, a word before each lens.
+TEST(FilledHalves, AreNotSeenInAHeadsetsScreenshot) {
+  constexpr int kSide = 480;
+  const auto light = [](int which, float u, float v) {
+    const float word = which == 0 ? 0.05f : -0.05f;  // the lens's middle, nearer to the other one
+    const float side = std::pow(std::abs(u - word) / 0.86f, 4.0f) + std::pow(std::abs(v) / 0.86f, 4.0f);
+    if (side > 1.0f) return 0.0f;
+    const int column = static_cast<int>(std::floor((u - word + 0.3f) * 40.0f)), row = static_cast<int>(v * 40.0f);
+    const bool is_letter = column >= 0 && column < 24 && std::abs(row) < 3 && (column * 7 + row * row * 5) % 3 == 0;
+    return is_letter ? 0.0f : 0.21f * std::clamp(8.0f * (1.0f - side), 0.0f, 1.0f);
+  };
+  EyeImage both;
+  both.eye = kMono;
+  both.radiance = Image(2 * kSide, kSide, 3);
+  for (int y = 0; y < kSide; y++) {
+    for (int x = 0; x < 2 * kSide; x++) {
+      const float u = 2.0f * (static_cast<float>(x % kSide) + 0.5f) / kSide - 1.0f;
+      const float value = light(x / kSide, u, 2.0f * (static_cast<float>(y) + 0.5f) / kSide - 1.0f);
+      std::fill_n(both.radiance.at(x, y), 3, value);
+    }
+  }
+  Picture picture;
+  picture.eyes.push_back(std::move(both));
+  SaveOptions options;
+  options.tone = ToneCurve::kLinear;
+  const TemporaryFolder folder;
+  save_picture(picture, options, folder.path("shot.jpg"));
+  EXPECT_TRUE(open_media(folder.path("shot.jpg")).hint.lenses.empty());
 }
 
 // A format that the pixels showed has their evidence as its reason, not a request.

@@ -297,7 +297,7 @@ TEST_F(LayeredView, DamagedFilesAreOneLineEach) {
       {changed("\"indices\":2", "\"indices\":0"), "its triangles are damaged"},
       {changed("\"indices\":11", "\"indices\":99"), "has no accessors[99]"},
       {changed("\"ATTRIBUTES\"", "\"ATTRIBUTEX\""), "compressed data is damaged"},
-      {changed("\"nodes\":[0,1,2,3]", "\"nodes\":[0,1,2,2]"), "no tree"}};
+      {changed("\"nodes\":[0,1,2,3]", "\"nodes\":[0,1,2,2]"), "not a tree"}};
   nlohmann::json numbers, words;
   for (size_t i = 0; i < files.size(); i++) {
     const std::string name = fmt::format("file{}.layers.glb", i);
