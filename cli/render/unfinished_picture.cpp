@@ -31,7 +31,8 @@ ods::PictureSamples UnfinishedPicture::begin() {
   const ods::SampledPicture then = ods::read_unfinished(path_, samples);
   expect_same_settings(path_, then.settings, about().settings);
   if (!ods::fit(samples, options_)) {
-    throw UsageError(fmt::format("'{}' was made with other options: its layers differ; {}", path_, ods::kRestartRemedy));
+    throw UsageError(
+        fmt::format("'{}' was made with other options: its layers differ; {}", path_, ods::kRestartRemedy));
   }
   note(fmt::format("resuming from '{}'", path_));
   kept_ = true;

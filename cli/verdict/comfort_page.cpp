@@ -119,7 +119,8 @@ std::string thing_html(ComfortLevel level, const std::string& crop, const std::s
                        const std::string& what, const std::string& remedy) {
   return fmt::format("<li{}>{}<div><p>{} {}</p><p class=\"soft\">{}</p><p>{}</p><p>{}</p></div></li>\n",
                      crop.empty() ? " class=\"bare\"" : "", crop, level_html(level), ods::xml_text(title),
-                     ods::xml_text(where), ods::xml_text(what), ods::xml_text(remedy.empty() ? "" : "Remedy: " + remedy));
+                     ods::xml_text(where), ods::xml_text(what),
+                     ods::xml_text(remedy.empty() ? "" : "Remedy: " + remedy));
 }
 
 std::string crop_html(const JudgedPicture& judged, const StrainedPlace& place, const std::string& path) {

@@ -34,7 +34,8 @@ void print_place(const StrainedPlace& place) {
   const ods::StrainRow& strain = ods::strain_row(place.strain);
   put_out(fmt::format("{}: {}, {:.2f} m away, {} ({} of the picture): {}, {:.3g} {}{}{}\n",
                       comfort_level_name(place.level), thing_text(place), place.distance, direction_text(place),
-                      share_text(place.share), strain.title, place.value, strain.unit, remedy.empty() ? "" : "; ", remedy));
+                      share_text(place.share), strain.title, place.value, strain.unit, remedy.empty() ? "" : "; ",
+                      remedy));
 }
 
 Json shares_json(const Shares& shares) {

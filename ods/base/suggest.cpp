@@ -84,7 +84,8 @@ std::string taken_by(std::string_view start) {
   const auto begins = [&](std::string_view bytes) { return start.starts_with(bytes); };
   if (start.size() >= 12 && start.substr(4, 4) == "ftyp") {
     for (const std::string_view brand : {"heic", "heix", "mif1", "msf1", "avif", "avis", "hevc"}) {
-      if (start.substr(8, 4) == brand) return "; it is a picture: ods probe, lint, convert, comfort and view take pictures";
+      if (start.substr(8, 4) == brand)
+        return "; it is a picture: ods probe, lint, convert, comfort and view take pictures";
     }
   }
   for (const auto& [bytes, what] : kForeign) {
@@ -106,7 +107,8 @@ std::string taken_by(std::string_view start) {
   const bool is_webp = begins("RIFF") && start.substr(std::min<size_t>(8, start.size())).starts_with("WEBP");
   for (const std::string_view picture :
        {"\x89PNG"sv, "\xff\xd8\xff"sv, "II*\0"sv, "MM\0*"sv, "#?R"sv, "\x76\x2f\x31\x01"sv}) {
-    if (is_webp || begins(picture)) return "; it is a picture: ods probe, lint, convert, comfort, inject and view take pictures";
+    if (is_webp || begins(picture))
+      return "; it is a picture: ods probe, lint, convert, comfort, inject and view take pictures";
   }
   return {};
 }

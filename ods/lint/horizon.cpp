@@ -154,8 +154,8 @@ void check_horizon(const Subject& subject, LintReport& report) {
   if (certainty < 0.1) return;
   const std::string angles = fmt::format("`pitch` {:.1f} `roll` {:.1f}", tilt.back, tilt.right);
   const std::string remedy = subject.eyes.size() == 1 ? "level it: " + convert_command(subject, angles)
-                                                    : "render or stitch it level: the eyes of a "
-                                                      "stereo picture cannot be tilted afterwards";
+                                                      : "render or stitch it level: the eyes of a "
+                                                        "stereo picture cannot be tilted afterwards";
   report.findings.push_back(
       {Fault::kNotLevel, certainty,
        fmt::format("lines that should be vertical meet {:.1f} degrees {} and {:.1f} "

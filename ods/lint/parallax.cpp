@@ -228,9 +228,9 @@ static double check_swap(const Subject& subject, const Parallaxes& parallaxes, d
   const EyeArrangement eyes = arrangement_of(subject.layout());
   const bool stacked = eyes.how == EyePacking::kStacked && !eyes.right_first;
   const char* remedy = stacked && !eyes.squeezed
-                         ? "the right eye is on top: swap the halves, or set the player to bottom-top"
-                     : stacked ? "the right eye is on top: exchange the halves"
-                               : "swap the eyes, or set the player to the other order";
+                           ? "the right eye is on top: swap the halves, or set the player to bottom-top"
+                       : stacked ? "the right eye is on top: exchange the halves"
+                                 : "swap the eyes, or set the player to the other order";
   report.findings.push_back({stacked ? Fault::kRightOnTop : Fault::kEyesSwapped, certainty, evidence, remedy});
   return certainty;
 }

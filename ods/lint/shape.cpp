@@ -33,7 +33,8 @@ static void check_aspect(const Subject& subject, LintReport& report) {
   std::string remedy = "crop or pad the picture to that shape, or specify which part of the sphere it shows (`range`)";
   if (is_full_lat_long(subject.projection()))
     remedy += "; if the whole sphere is there, squeezed, ods convert stretches it";
-  if (std::abs(height * 2 - natural) <= 2) remedy = "its eyes look squeezed: read it as top-bottom-half, or stretch them";
+  if (std::abs(height * 2 - natural) <= 2)
+    remedy = "its eyes look squeezed: read it as top-bottom-half, or stretch them";
   if (std::abs(height - natural * 2) <= 4)
     remedy = "its eyes look squeezed: read it as side-by-side-half, or stretch them";
   if (std::abs(width * 2 - height * 3) <= 2) remedy += "; 3:2 may be a cube (`projection` cube-3x2)";
