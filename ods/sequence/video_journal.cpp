@@ -39,7 +39,9 @@ bool is_half(const std::string& name, const std::string& of) {
   return name.starts_with("." + of + ".tmp.");
 }
 
-Setting* find_setting(Settings& settings, std::string_view name) {
+// settings: const or not, as the result.
+template <typename Some>
+auto* find_setting(Some& settings, std::string_view name) {
   const auto found = std::ranges::find(settings, name, &Setting::name);
   return found == settings.end() ? nullptr : &*found;
 }
@@ -70,11 +72,11 @@ VideoJournal::VideoJournal(const std::string& video, const Settings& settings, b
                 fmt::format("the frames belong in '{}', but it is {}; remove it, or choose another name", folder_,
                             type == fs::file_type::symlink ? "a link" : "no folder"));
   }
-  begin(restart);
-  write_note();
+  if (begin(restart)) write_note();
 }
 
-void VideoJournal::begin(bool restart) {
+// Returns whether the note must be written. Shared frames have one that another process may be changing.
+bool VideoJournal::begin(bool restart) {
   Settings then;
   bool is_known = read_note(then);
   for (int i = 0; i < 20 && !is_known && !claim_ && type_of(folder_) == fs::file_type::directory; i++) {
@@ -90,23 +92,29 @@ void VideoJournal::begin(bool restart) {
     if (type_of(folder_) == fs::file_type::directory && !is_empty(folder_) && !restart) {
       throw Error(ErrorKind::kUsage, fmt::format("the frames belong in '{}', but it is not empty", folder_));
     }
-    return;
+    return true;
   }
   take_found(then);
-  if (restart || (!has_frames() && !settings_difference(then, settings_).empty())) {
+  const bool is_removed = restart || (!has_frames() && !settings_difference(then, settings_).empty());
+  if (is_removed) {
     remove();
     frames_.clear();
   } else {
     expect_same_settings(folder_, then, settings_);
   }
   if (restart || (claim_ && !has_frames())) settings_ = given_;  // shared frames may be at work already
+  return is_removed || claim_;
 }
 
 void VideoJournal::take_found(const Settings& then) {
   for (Setting& setting : settings_) {
-    const auto was = std::ranges::find(then, setting.name, &Setting::name);
-    if (setting.value == kByFirstLook && was != then.end()) setting.value = was->value;
+    const Setting* const was = setting.value == kByFirstLook ? find_setting(then, setting.name) : nullptr;
+    if (was) setting.value = was->value;
   }
+}
+
+void VideoJournal::read_again() {
+  if (Settings then; !claim_ && read_note(then)) take_found(then);
 }
 
 std::optional<std::string> VideoJournal::found(std::string_view setting) const {
@@ -118,7 +126,7 @@ std::optional<std::string> VideoJournal::found(std::string_view setting) const {
 }
 
 void VideoJournal::record(std::string_view setting, const std::string& value) {
-  if (Settings then; !claim_ && read_note(then)) take_found(then);  // another process may have been first
+  read_again();
   Setting* now = find_setting(settings_, setting);
   if (!now || now->value != kByFirstLook) return;
   now->value = value;
@@ -160,8 +168,7 @@ bool VideoJournal::read_note(Settings& settings) {
   return true;
 }
 
-void VideoJournal::write_note() {
-  if (Settings then; !claim_ && read_note(then)) take_found(then);
+void VideoJournal::write_note() const {
   const std::string frames = frames_text({frames_.begin(), frames_.end()});
   Settings all = {{kFrames, frames, ""}};
   all.insert(all.end(), settings_.begin(), settings_.end());
@@ -185,6 +192,7 @@ void VideoJournal::plan(const std::vector<int>& frames, const std::vector<int>& 
     if (type != fs::file_type::not_found && type != fs::file_type::regular) refuse(frame);
   }
   if (added.empty()) return;
+  read_again();
   frames_.merge(added);
   write_note();
 }

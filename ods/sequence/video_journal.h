@@ -68,9 +68,10 @@ class VideoJournal {
   bool has_frames() const;
   bool read_note(Settings& settings);
   void take_found(const Settings& then);
-  void write_note();
+  void read_again();  // what other processes that share the frames have recorded since
+  void write_note() const;
   std::string note_path() const;
-  void begin(bool restart);
+  bool begin(bool restart);
 
   std::unique_ptr<Claim> claim_;  // released last; null if the frames are shared
   std::string video_, folder_;
