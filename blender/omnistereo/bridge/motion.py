@@ -99,9 +99,14 @@ def _may_deform(each):
     return bool(kinds) or (each.type != "MESH" and (moves(each.data) or keyed))
 
 
-def _step_of(moving, count):
-    """Of the points of moving meshes, those of every n-th frame are kept. moving: the frames of each mesh."""
-    return max(1, -(-count * sum(len(frames[0][0]) // 3 for frames in moving if frames) // MOST_POINTS))
+def _moving_points(moving, count):
+    """The number of points in `count` frames. moving: the frames of each mesh."""
+    return count * sum(len(frames[0][0]) // 3 for frames in moving if frames)
+
+
+def _step_of(points):
+    """Of so many points, those of every n-th frame are kept."""
+    return max(1, -(-points // MOST_POINTS))
 
 
 class _Slowness:
@@ -122,21 +127,22 @@ class _Slowness:
 
 def _frames_of(scene, samples, deforming, beginning):
     """Yields the numbers of the frames to read, after Blender has evaluated them."""
-    slowness = _Slowness(samples.count)
-    for number in range(samples.count) if beginning is None else (0,):
-        scene.frame_set(scene.frame_start + number)
-        yield number
-        if beginning is None:
-            slowness.judge(number + 1)
-    if beginning is not None:
-        step = _step_of(deforming.values(), samples.count)
-        simulated = simulates(scene)
-        needed, through = beginning.needed(scene.frame_start, samples.count, samples.saved, step, simulated)
-        through = through if simulated else 0
-        for number in sorted(needed.union(range(through)) - {0}):
+    if beginning is None:
+        slowness = _Slowness(samples.count)
+        for number in range(samples.count):
             scene.frame_set(scene.frame_start + number)
-            if number in needed:
-                yield number
+            yield number
+            slowness.judge(number + 1)
+        return
+    scene.frame_set(scene.frame_start)
+    yield 0  # it tells how many points move
+    step = _step_of(_moving_points(deforming.values(), samples.count))
+    simulated = simulates(scene)
+    needed, through = beginning.needed(scene.frame_start, samples.count, samples.saved, step, simulated)
+    for number in sorted(needed.union(range(through if simulated else 0)) - {0}):
+        scene.frame_set(scene.frame_start + number)
+        if number in needed:
+            yield number
 
 
 def sample(context, looks_of, ledger, beginning=None):
@@ -364,8 +370,8 @@ def add_points(clip, glb, nodes, samples, ledger):
     moving = {each: frames for each, frames in samples.points.items() if frames is not None}
     for each in samples.points.keys() - moving.keys():
         ledger.lose("a mesh whose number of points changes stays as it is in the saved frame", "object", each.name)
-    total = sum(samples.count * len(frames[0][0]) // 3 for frames in moving.values())
-    step = _step_of(moving.values(), samples.count)
+    total = _moving_points(moving.values(), samples.count)
+    step = _step_of(total)
     if step > 1:
         ledger.say(f"{total} points move: of every {step} frames one is kept, and between them they go straight")
     for each, frames in moving.items():
