@@ -123,27 +123,29 @@ static void note_space(const StitchJob& job, const ods::SlitRig& rig, const std:
   if (left > 0) note_disk_space(job.output, static_cast<size_t>(left), largest_frame(job.output, picture, job.save));
 }
 
-static ViewFiles views_of(const StitchJob& job, int frame) {
+static ViewFiles views_of(const StitchJob& job, const FrameNames& folders, int frame) {
   ViewFiles views = job.views;
-  const std::string file = std::filesystem::path(job.views.names).filename().string();
-  views.names = folder_names(job.views.names).path(frame) + "/" + file;
+  views.names = folders.path(frame) + "/" + std::filesystem::path(job.views.names).filename().string();
   return views;
 }
 
-bool show_light(const StitchJob& job, const ods::SlitRig& rig) {
-  const ViewFiles views = views_of(job, ods::parse_frames(job.frames).front());
-  return ods::PictureReader(view_path(rig, views, 0)).header().is_float;
+bool are_scene_linear(const StitchJob& job, const ods::SlitRig& rig) {
+  const ViewFiles views = views_of(job, folder_names(job.views.names), ods::parse_frames(job.frames).front());
+  const std::string first = view_path(rig, views, 0);
+  std::error_code ignored;
+  if (!std::filesystem::exists(first, ignored)) return keeps_light(first);
+  return ods::PictureReader(first).header().is_float;
 }
 
 std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, const StepReport& report) {
-  const FrameNames outputs = video_names(job.output);
+  const FrameNames folders = folder_names(job.views.names), outputs = video_names(job.output);
   const std::vector<int> frames = own_frames(job.only, ods::parse_frames(job.frames));
   StitchJob each = job;
   const auto stitch_frame = [&](size_t i) {
     const std::string output = outputs.path(frames[i]);
     const int number = static_cast<int>(i) + 1, count = static_cast<int>(frames.size());
     const ProgressStep step{"stitch", number, count, output};
-    stitch_picture(each, rig, views_of(job, frames[i]), output,
+    stitch_picture(each, rig, views_of(job, folders, frames[i]), output,
                    [&](double part, const ProgressStep&) { report((static_cast<double>(i) + part) / count, step); });
     each.notes_unmarked = false;  // one note is enough
   };

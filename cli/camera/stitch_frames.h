@@ -21,8 +21,9 @@ void report_faults(const std::vector<ods::ViewFault>& faults, const std::functio
 void stitch_picture(const StitchJob& job, const ods::SlitRig& rig, const ods::ViewFiles& views,
                     const std::string& output, const StepReport& report);
 
-// Returns whether the views of the first frame are scene-linear; others are display-referred.
-bool show_light(const StitchJob& job, const ods::SlitRig& rig);
+// Returns whether the views of the first frame are scene-linear; others are display-referred. Goes by the name if they
+// are no longer there.
+bool are_scene_linear(const StitchJob& job, const ods::SlitRig& rig);
 
 // Checks the views of every frame of a video, with a folder of views per frame. Returns the frame numbers.
 std::vector<int> stitch_frames(const StitchJob& job, const ods::SlitRig& rig, const StepReport& report);

@@ -10,11 +10,11 @@
 #include "cli/console/console.h"
 #include "cli/console/long_job.h"
 #include "cli/layers/layer_files.h"
+#include "cli/render/first_look.h"
 #include "ods/base/error.h"
 #include "ods/convert/reproject.h"
 #include "ods/files/atomic_file.h"
 #include "ods/layers/depth/picture_layers.h"
-#include "ods/stage/exposure.h"
 
 namespace {
 
@@ -38,7 +38,7 @@ ods::PictureLayersOptions options_of(const LayersJob& job) {
   ods::PictureLayersOptions options;
   options.box = ods::vec3(job.box);
   options.width = job.width;
-  options.exposure = ods::brightened(job.render.exposure.value_or(0.0f), job.render.brighter);
+  options.exposure = unmeasured_exposure(job.render);
   options.tone = job.render.tone.value_or(job.render.save.tone);
   return options;
 }

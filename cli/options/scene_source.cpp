@@ -145,13 +145,19 @@ static std::string suggestion(const Scene& scene, const std::string& name) {
   return fmt::format("; it has {}{}", fmt::join(names.begin(), end, ", "), end == names.end() ? "" : ", ...");
 }
 
+BlenderOptions blender_options(const SceneSource& source) {
+  BlenderOptions options = source.blender;
+  options.scene = source.scene;
+  return options;
+}
+
 void read_foreign(SceneSource& source) {
   if (source.foreign || ods::find_builtin(source.name) || !is_foreign_scene(source.name)) return;
   if (!source.confine.empty()) {
     throw UsageError(
         fmt::format("--confine does not hold for '{}': Blender reads all files that it names", source.name));
   }
-  source.blender.scene = source.scene;
+  source.blender = blender_options(source);
   source.foreign = convert_foreign_scene(source.name, source.blender);
 }
 

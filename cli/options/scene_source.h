@@ -63,6 +63,9 @@ void check_objects(const ObjectOptions& objects);
 // Opens an object as open_scene() does. Throws Error(kInput) if it has no triangles.
 ods::Scene open_object(const std::string& file, const std::string& confine);
 
+// The options for converting it: `blender`, and the scene to show.
+BlenderOptions blender_options(const SceneSource& source);
+
 // Converts a scene of another program, unless that has been done. Throws UsageError, and as
 // convert_foreign_scene().
 void read_foreign(SceneSource& source);

@@ -11,6 +11,7 @@
 #include "ods/scene/builtin/builtin.h"
 #include "ods/scene/sheet_glass.h"
 #include "ods/sequence/looks.h"
+#include "ods/stage/exposure.h"
 #include "ods/stage/judge_scene.h"
 #include "ods/stage/place.h"
 
@@ -53,9 +54,14 @@ bool is_shown_to_viewers(const RenderJob& job) {
   return job.time.is_video || job.part || !keeps_light(job.output);
 }
 
+float unmeasured_exposure(const RenderJob& job) {
+  return ods::brightened(job.exposure.value_or(0.0f), job.brighter);
+}
+
 void note_unmeasured_light(const RenderJob& job) {
   if (job.exposure || keeps_light(job.output)) return;
-  note(fmt::format("exposure {:g}: with --rig the light is not measured (--exposure STOPS changes it)", job.brighter));
+  note(fmt::format("exposure {:g}: with --rig the light is not measured (--exposure STOPS changes it)",
+                   unmeasured_exposure(job)));
 }
 
 void report_viewpoint(const RenderJob& job, ods::FrameRenderer& renderer, const ods::SequenceFrame& first) {

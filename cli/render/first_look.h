@@ -15,7 +15,10 @@ bool is_shown_to_viewers(const RenderJob& job);
 // Notes the camera's place in the first frame, and simplifications; warns if nothing is visible from there.
 void report_viewpoint(const RenderJob& job, ods::FrameRenderer& renderer, const ods::SequenceFrame& first);
 
-// Notes that --rig renders at exposure 0, if neither the job nor its file determines the exposure.
+// The exposure, in stops, of a job whose light is not measured: as given.
+float unmeasured_exposure(const RenderJob& job);
+
+// Notes it for --rig, if neither the job nor its file determines the exposure.
 void note_unmeasured_light(const RenderJob& job);
 
 // Notes the merge and the exposure that ods::look_first() has found for the renderer; warns if all is black.

@@ -26,7 +26,7 @@ void render_views(const RenderJob& job, ProgressLines& lines) {
   ods::check_output(view_path(rig, files, 0), job.save, {ods::kMono}, rig.view);
   ods::mark_folders(rig, files);
   ods::SaveOptions save = job.save;
-  save.exposure = ods::brightened(job.exposure.value_or(0.0f), job.brighter);
+  save.exposure = unmeasured_exposure(job);
   note_unmeasured_light(job);
   save.attributes.push_back({ods::kRigMarkAttribute, ods::rig_mark(rig)});
   ods::Scene scene = open_lit_scene(job.scene, job.render.transparent);

@@ -16,6 +16,7 @@
 #include "cli/options/disk_room.h"
 #include "cli/options/picture_options.h"
 #include "cli/options/waiting.h"
+#include "cli/render/first_look.h"
 #include "cli/render/plan.h"
 #include "cli/render/render_frames.h"
 #include "ods/camera/camera_move.h"
@@ -26,7 +27,6 @@
 #include "ods/sequence/identity.h"
 #include "ods/sequence/shared_frames.h"
 #include "ods/sequence/video_journal.h"
-#include "ods/stage/exposure.h"
 #include "ods/stage/light/supply.h"
 
 namespace {
@@ -54,7 +54,7 @@ CyclesPicture picture_of(const RenderJob& job) {
   picture.layers = job.render.layers;
   picture.has_alpha = job.render.transparent || job.cycles->scene().transparent;
   picture.save = job.save;
-  picture.save.exposure = ods::brightened(job.exposure.value_or(0.0f), job.brighter);
+  picture.save.exposure = unmeasured_exposure(job);
   picture.save.attributes.push_back({"ods:renderer", "Cycles of Blender " + job.cycles->scene().blender});
   CyclesShot& shot = picture.shot;
   shot.position = job.camera.position;
@@ -256,8 +256,7 @@ void open_in_cycles(RenderJob& job) {
     throw UsageError(
         "--merge auto cannot be used with --renderer cycles: ods convert --merge auto changes an .exr that is finished");
   }
-  BlenderOptions blender = job.scene.blender;
-  blender.scene = job.scene.scene;
+  const BlenderOptions blender = blender_options(job.scene);
   if (find_blender(blender).empty()) {
     throw ods::Error(ods::ErrorKind::kInput,
                      "--renderer cycles needs Blender: install it, or name it with --blender PATH");

@@ -54,9 +54,7 @@ void make_film(const VideoJob& given) {
   if (!early) return make(given);
   const SaidOnce once;
   VideoJob job = given;
-  BlenderOptions blender = job.render.scene.blender;
-  blender.scene = job.render.scene.scene;
-  FilmConversion conversion(job.render.scene.name, blender, *early);
+  FilmConversion conversion(job.render.scene.name, blender_options(job.render.scene), *early);
   if (std::optional<ForeignScene> beginning = conversion.beginning()) {
     note("Blender takes long to follow what moves: the first frames are rendered meanwhile");
     job.early = first_frames(*early, beginning->frames);

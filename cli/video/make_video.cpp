@@ -23,7 +23,6 @@
 #include "ods/sequence/identity.h"
 #include "ods/sequence/render_video.h"
 #include "ods/sequence/shared_frames.h"
-#include "ods/stage/exposure.h"
 
 using Clock = std::chrono::steady_clock;
 
@@ -136,8 +135,7 @@ struct EncodingJob {
 // Makes the video of the frames that the journal keeps.
 void encode_all(const EncodingJob& job, ods::VideoJournal& journal, const std::vector<int>& frames,
                 ProgressLines& lines) {
-  const ods::DisplayTransform display{ods::brightened(job.render.exposure.value_or(0.0f), job.render.brighter),
-                                      job.render.tone.value_or(job.usual_tone)};
+  const ods::DisplayTransform display{unmeasured_exposure(job.render), job.render.tone.value_or(job.usual_tone)};
   const ods::VideoPlan plan = ods::encode_frames(journal, frames, display, job.options, job.video.keep_frames,
                                                  {report_encoding(job.video, lines, job.begin, frames.size()), {}});
   lines.clear();
@@ -211,7 +209,8 @@ void stitch_views(const VideoJob& job, ProgressLines& lines) {
   if (!stitch.only.empty()) return lines.clear();
   note_sound_length(options, frames.size());
   note_unmeasured_light(render);
-  const ods::ToneCurve usual_tone = show_light(stitch, rig) ? ods::DisplayTransform().tone : ods::ToneCurve::kLinear;
+  const ods::ToneCurve usual_tone =
+      are_scene_linear(stitch, rig) ? ods::DisplayTransform().tone : ods::ToneCurve::kLinear;
   encode_all({job, render, usual_tone, options, begin}, journal, frames, lines);
 }
 

@@ -118,7 +118,8 @@ TEST_F(FilmBridge, WhateverEndsUsEndsBothBlenders) {
   }
 }
 
-// What needs the whole waits for it: frames that other processes share, times that are not the file's.
+// Frames that other processes share, times that are not the file's, and a merge that suits all frames need the whole
+// scene.
 TEST_F(FilmBridge, SomeFilmsNeedTheWhole) {
   whole("sleep 0.2");
   int number = 0;
