@@ -88,6 +88,7 @@ LayersJob parse_layers(Options& options) {
   add_place_options(options, job.render.camera);
   options.number("--yaw", job.render.camera.yaw, -36000.0f, 36000.0f, "where viewers look first, degrees to the right");
   options.number("--time", job.render.time.time, 0.0f, 1e6f, "the moment of an animated scene, seconds");
+  add_animation_option(options, job.render.time);
   options.text(
       "--frames", "LIST|all", job.render.time.frames,
       "a film: what moves in these frames is geometry of its own, with an animation. 1-100, 1-100x2 (every other "

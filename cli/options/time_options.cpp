@@ -44,13 +44,17 @@ bool names_frames(const TimeOptions& time) {
 
 }  // namespace
 
+void add_animation_option(Options& options, TimeOptions& time) {
+  options.text("--animation", "NAME", time.animation,
+               "play only this animation (ods info lists them); by default all, but only the first of those that move "
+               "the same objects");
+}
+
 void add_time_options(Options& options, TimeOptions& time) {
   options.group("Time");
   options.number("--time", time.time, -1e6f, 1e6f,
                  "render the animation at this time, seconds; by default the scene is in its rest pose");
-  options.text("--animation", "NAME", time.animation,
-               "play only this animation (ods info lists them); by default all, but only the first of those that move "
-               "the same objects");
+  add_animation_option(options, time);
   options.text("--frames", "LIST|all", time.frames,
                "frames to render: 1-100, 1-100x2 (every other one), 1,5,10-20, or all. Frame N shows the scene at N / "
                "fps seconds; of a .blend, frame N of its timeline. "

@@ -44,7 +44,8 @@ struct TimeOptions {
   bool is_video = false;  // the command makes a video, independent of other options
 };
 
-void add_time_options(Options& options, TimeOptions& time);
+void add_animation_option(Options& options, TimeOptions& time);
+void add_time_options(Options& options, TimeOptions& time);  // that one, too
 
 // Returns whether the options specify a video, frame by frame.
 bool makes_video(const TimeOptions& time);

@@ -8,6 +8,7 @@
 #include "ods/picture/stored_picture.h"
 #include "ods/scene/load/load.h"
 #include "tests/support/cli_runner.h"
+#include "tests/support/moving_files.h"
 
 namespace ods::layers_command_test {
 
@@ -110,6 +111,32 @@ TEST_F(LayersCommand, MakesAFilm) {
   EXPECT_NE(err.find("--light-every goes with --frames LIST"), std::string::npos) << err;
   EXPECT_EQ(run(layers("--frames 0-9")), 2);
   EXPECT_NE(err.find("nothing moves in these frames"), std::string::npos) << err;
+}
+
+// A triangle that the first clip moves in a second, the other in two.
+TEST_F(LayersCommand, FilmsTheAnimationOfThatName) {
+  GltfBuilder file = make_triangle();
+  for (const char* const name : {"short", "long"}) {
+    const float end = std::string(name) == "short" ? 1.0f : 2.0f;
+    file.json["animations"] = GltfJson::array();
+    animate(file, node_target(0, "translation"), {0, end}, {0, 0, 0, end, 0, 0}, "VEC3");
+    file.json["animations"][0]["name"] = name;
+    file.json["clips"].push_back(file.json["animations"][0]);
+  }
+  file.json["animations"] = file.json["clips"];
+  file.json.erase("clips");
+  const Binary glb = file.glb();
+  folder.write("clips.glb", {glb.begin(), glb.end()});
+  const auto film = [&](const std::string& more) {
+    return run("layers " + folder.path("clips.glb") + " --position 0.3,0.3,2 --width 256 --samples 1 --noise none " +
+               "--exposure 0 --frames all --fps 4 -o " + folder.path("film.glb") + more);
+  };
+  for (const auto& [words, frames] : {std::pair{"", "4 frames: "}, {" --animation long", "8 frames: "}}) {
+    ASSERT_EQ(film(words), 0) << err;
+    EXPECT_NE(err.find(frames), std::string::npos) << err;
+  }
+  EXPECT_EQ(film(" --animation lung"), 2);
+  EXPECT_NE(err.find("did you mean 'long'?"), std::string::npos) << err;
 }
 
 TEST_F(LayersCommand, TakesAPictureWithDepth) {
