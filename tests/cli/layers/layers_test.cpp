@@ -116,15 +116,13 @@ TEST_F(LayersCommand, MakesAFilm) {
 // A triangle that the first clip moves in a second, the other in two.
 TEST_F(LayersCommand, FilmsTheAnimationOfThatName) {
   GltfBuilder file = make_triangle();
-  for (const char* const name : {"short", "long"}) {
-    const float end = std::string(name) == "short" ? 1.0f : 2.0f;
-    file.json["animations"] = GltfJson::array();
+  GltfJson clips = GltfJson::array();
+  for (const auto& [name, end] : {std::pair{"short", 1.0f}, {"long", 2.0f}}) {
+    file.json["animations"] = {{{"name", name}}};
     animate(file, node_target(0, "translation"), {0, end}, {0, 0, 0, end, 0, 0}, "VEC3");
-    file.json["animations"][0]["name"] = name;
-    file.json["clips"].push_back(file.json["animations"][0]);
+    clips.push_back(file.json["animations"][0]);
   }
-  file.json["animations"] = file.json["clips"];
-  file.json.erase("clips");
+  file.json["animations"] = clips;
   const Binary glb = file.glb();
   folder.write("clips.glb", {glb.begin(), glb.end()});
   const auto film = [&](const std::string& more) {
