@@ -44,8 +44,11 @@ struct TimeOptions {
   bool is_video = false;  // the command makes a video, independent of other options
 };
 
+// Adds --animation alone, for commands with options of time of their own.
 void add_animation_option(Options& options, TimeOptions& time);
-void add_time_options(Options& options, TimeOptions& time);  // that one, too
+
+// Adds all options of time, --animation among them.
+void add_time_options(Options& options, TimeOptions& time);
 
 // Returns whether the options specify a video, frame by frame.
 bool makes_video(const TimeOptions& time);
